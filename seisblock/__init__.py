@@ -6,11 +6,11 @@ import importlib
 
 import lazy_loader
 
-from seisblock import showing
+from seisblock.core import _display
 
 __version__ = "0.3.0"
 
 # the public names stand in __init__.pyi, with their types; each is imported when it is first asked for
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
-showing.lend(lambda: importlib.import_module("seisblock.present.pages.notebook"))
+_display.register_backend(lambda: importlib.import_module("seisblock.report.html.notebook"))

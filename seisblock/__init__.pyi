@@ -1,25 +1,25 @@
 # The public names: what a user's script imports from seisblock, read by type checkers and, at run time, by lazy_loader.
 
-from . import bodies, criteria, errors, measures, readers, records, results, solvers, studies, units, validation
+from . import bodies, criteria, measures, models, readers, records, studies, validation
 from .bodies.block import Block, from_slenderness
 from .bodies.cemetery.cemetery import Cemetery, Stone
 from .bodies.cemetery.table import read_cemetery
-from .bodies.inset import Inset
-from .bodies.library import load_block
+from .bodies.edge_wear import EdgeWear
+from .bodies.factory import load_block
 from .bodies.pile.contact import PileContact
 from .bodies.pile.pile import Pile
 from .bodies.pile.stone import PileStone
 from .bodies.pile.toml import load_pile
-from .bodies.ranges import Ranges
-from .bodies.roster import ListedBody, read_bodies
 from .bodies.scan.body import ScannedBody
-from .bodies.scan.scan import Scanned, scan_body
+from .bodies.scan.scan import Scan, scan_body
 from .bodies.scan.toml import load_scan
 from .bodies.sliding_base import SlidingBase
 from .bodies.spring_block import SpringBlock
+from .bodies.table import BodySpec, read_bodies
 from .bodies.two_layer import Contact, TwoLayerBlock, load_contact, load_two_layer
-from .criteria.card import overturning_card
-from .errors import (
+from .bodies.uncertainty import ParameterRanges
+from .core import errors, results, units
+from .core.errors import (
     BodyError,
     ComponentError,
     HazardError,
@@ -34,74 +34,75 @@ from .errors import (
     SolverError,
     UnitError,
 )
+from .core.results import Channel, Event, Phase, Response, Status
+from .criteria.compare import overturning_card
 from .measures.intensity import jma_class, jma_intensity
 from .measures.spectra import ResponseSpectrum, response_spectrum
 from .measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
+from .models.jump.batch import jump_many
+from .models.jump.batch_results import JumpBatchResult
+from .models.jump.solve import JumpOutcome, solve_jump
+from .models.respond.batch import RespondBatchResult, respond_many
+from .models.respond.outcome import RespondOutcome
+from .models.respond.params import RespondParams
+from .models.respond.solve import respond_params, solve_respond
+from .models.rock.outcome import RockOutcome
+from .models.rock.params import RockOptions
+from .models.rock.solve import solve_rock
+from .models.rock.verdicts import Verdict, rock_verdict
+from .models.slide.solve import SlideOutcome, solve_slide
+from .models.stack.outcome import StackOutcome
+from .models.stack.solve import solve_stack
+from .models.uplift.batch import uplift_many
+from .models.uplift.batch_results import UpliftBatchResult
+from .models.uplift.harmonic import uplift_thresholds
+from .models.uplift.minima import UpliftMinimum, uplift_minima
+from .models.uplift.modes import natural_modes
+from .models.uplift.outcome import UpliftOutcome
+from .models.uplift.solve import solve_uplift
 from .readers.read import read, read_all
+from .records.floor_motion import Storey, floor_motion
 from .records.motion import Motion, motion_of
 from .records.preparation import Preparation
-from .records.process import crop, demean, highpass, rotate, scale, scale_to_pga, towards
+from .records.process import component_at_azimuth, crop, demean, highpass, rotate, scale, scale_to_pga
 from .records.record import Component, Record
-from .records.storey import Storey, on_storey
 from .records.synthetic.suite import synthetic_suite
-from .results import Channel, Event, Phase, Response, Status
 from .samples import Sample, list_samples, sample_path
-from .solvers.jump.fates import JumpFates
-from .solvers.jump.many import jump_many
-from .solvers.jump.solve import JumpOutcome, solve_jump
-from .solvers.respond.many import Fates, respond_many
-from .solvers.respond.outcome import RespondOutcome
-from .solvers.respond.setting import Setting
-from .solvers.respond.solve import make_setting, solve_respond
-from .solvers.rock.outcome import RockOutcome
-from .solvers.rock.rocker import RockOptions
-from .solvers.rock.solve import solve_rock
-from .solvers.rock.verdicts import Verdict, rock_verdict
-from .solvers.slide.solve import SlideOutcome, solve_slide
-from .solvers.stack.outcome import StackOutcome
-from .solvers.stack.solve import solve_stack
-from .solvers.uplift.fates import UpliftFates
-from .solvers.uplift.harmonic import uplift_thresholds
-from .solvers.uplift.many import uplift_many
-from .solvers.uplift.minima import UpliftMinimum, uplift_minima
-from .solvers.uplift.modes import natural_modes
-from .solvers.uplift.outcome import UpliftOutcome
-from .solvers.uplift.solve import solve_uplift
 from .studies.batch.run import run_batch
 from .studies.batch.table import BatchTable
-from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
-from .studies.fit.experiment import Observed
+from .studies.fit.dataset import Observation
 from .studies.fit.fit import BlockFit, fit_block
-from .studies.fit.table import Outcomes, read_outcomes
-from .studies.fragility.answer import Fragility, FragilityStudy
+from .studies.fit.outcome_table import OutcomeTable, read_outcomes
+from .studies.fragility.io import FragilityCurve, read_fragility
 from .studies.fragility.lognormal import Lognormal, fit_fragility
+from .studies.fragility.results import Fragility, FragilityStudy
 from .studies.fragility.run import run_fragility
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
 from .studies.hazard.curve import Hazard, HazardCurve
-from .studies.hazard.given import GivenFragility, read_fragility
 from .studies.hazard.risk import Risk, find_risk
 from .studies.hazard.table import read_hazard
-from .studies.inverse.assumptions import Assumptions
-from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
-from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
-from .studies.inverse.survey import Survey, counted_survey, marked_survey
+from .studies.map.station_response import StationBody, StationCemetery
+from .studies.map.stations import StationReport, Stations, survey_stations
+from .studies.respond.azimuths import RespondAzimuth, respond_directions
+from .studies.respond.mode_map import ModeMap, mode_map
+from .studies.respond.pile_probability import PileProbability, PileVariation, StoneProbability, stack_probability
+from .studies.respond.probability import ParameterVariation, Probability, respond_probability
 from .studies.rocking.azimuths import RockAzimuth, rock_directions
 from .studies.rocking.margin import FactorRange, Margin, find_margin
 from .studies.rocking.perturb import Perturbation, Spread, perturb
-from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum, rocking_spectrum_around
+from .studies.rocking.spectrum import RockingSpectrum, rocking_spectrum, rocking_spectrum_all_azimuths
 from .studies.sliding import SlidePoint, slide_study
-from .studies.standing.azimuths import AzimuthFate, respond_directions
-from .studies.standing.mode_map import ModeMap, mode_map
-from .studies.standing.pile_probability import PileProbability, PileVersions, StoneChance, stack_probability
-from .studies.standing.probability import Probability, Versions, respond_probability
-from .studies.stations.effects import StandingBody, StandingStones
-from .studies.stations.survey import StationAnswer, Stations, survey_stations
+from .studies.survey.assumptions import Assumptions
+from .studies.survey.estimate import ShakingEstimate, estimate_shaking
+from .studies.survey.likelihood import Survey, counted_survey, marked_survey
+from .studies.survey.overturning_rate import OverturningRate, overturning_rate, rate_curve
+from .studies.survey.scale_search import ScaleFactors, jump_displacement, scale_factors, slide_displacement
 
 __version__: str
 
 __all__ = [
     "Assumptions",
-    "AzimuthFate",
+    "RespondAzimuth",
     "BatchTable",
     "Block",
     "BlockFit",
@@ -124,7 +125,7 @@ __all__ = [
     "estimate_shaking",
     "Event",
     "FactorRange",
-    "Fates",
+    "RespondBatchResult",
     "find_margin",
     "find_risk",
     "fit_fragility",
@@ -132,29 +133,29 @@ __all__ = [
     "FragilityStudy",
     "fit_block",
     "from_slenderness",
-    "GivenFragility",
+    "FragilityCurve",
     "Hazard",
     "HazardCurve",
     "HazardError",
     "highpass",
     "InputError",
-    "Inset",
+    "EdgeWear",
     "jma_class",
     "jma_intensity",
     "jump_many",
-    "jumped",
-    "JumpFates",
+    "jump_displacement",
+    "JumpBatchResult",
     "JumpOutcome",
     "KindError",
     "list_samples",
-    "ListedBody",
+    "BodySpec",
     "load_block",
     "load_contact",
     "load_pile",
     "load_scan",
     "load_two_layer",
     "Lognormal",
-    "make_setting",
+    "respond_params",
     "Margin",
     "marked_survey",
     "measure",
@@ -164,9 +165,9 @@ __all__ = [
     "ModeMap",
     "motion_of",
     "natural_modes",
-    "Observed",
-    "on_storey",
-    "Outcomes",
+    "Observation",
+    "floor_motion",
+    "OutcomeTable",
     "OutputError",
     "overturning_card",
     "overturning_rate",
@@ -178,10 +179,10 @@ __all__ = [
     "PileContact",
     "PileProbability",
     "PileStone",
-    "PileVersions",
+    "PileVariation",
     "Probability",
-    "Ranges",
-    "Rate",
+    "ParameterRanges",
+    "OverturningRate",
     "rate_curve",
     "read",
     "read_all",
@@ -211,7 +212,7 @@ __all__ = [
     "rock_verdict",
     "RockAzimuth",
     "rocking_spectrum",
-    "rocking_spectrum_around",
+    "rocking_spectrum_all_azimuths",
     "RockingSpectrum",
     "RockOptions",
     "RockOutcome",
@@ -225,12 +226,12 @@ __all__ = [
     "scale_to_pga",
     "ScaleFactors",
     "scan_body",
-    "Scanned",
+    "Scan",
     "ScannedBody",
     "SeisblockError",
-    "Setting",
+    "RespondParams",
     "ShakingEstimate",
-    "slid",
+    "slide_displacement",
     "slide_study",
     "SlideOutcome",
     "SlidePoint",
@@ -242,34 +243,34 @@ __all__ = [
     "solve_stack",
     "solve_uplift",
     "SolverError",
-    "solvers",
+    "models",
     "Spread",
     "SpringBlock",
     "stack_probability",
     "StackOutcome",
-    "StandingBody",
-    "StandingStones",
-    "StationAnswer",
+    "StationBody",
+    "StationCemetery",
+    "StationReport",
     "Stations",
     "Status",
     "Stone",
-    "StoneChance",
+    "StoneProbability",
     "Storey",
     "studies",
     "Survey",
     "survey_stations",
     "synthetic_suite",
-    "towards",
+    "component_at_azimuth",
     "TwoLayerBlock",
     "UnitError",
     "units",
     "uplift_many",
     "uplift_minima",
     "uplift_thresholds",
-    "UpliftFates",
+    "UpliftBatchResult",
     "UpliftMinimum",
     "UpliftOutcome",
     "validation",
     "Verdict",
-    "Versions",
+    "ParameterVariation",
 ]

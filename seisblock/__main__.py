@@ -4,24 +4,24 @@ import gc
 import signal
 import sys
 
-from seisblock.signals import losing_no_interrupt
+from seisblock.core._signals import defer_interrupt
 
-INTERRUPTED = 130
+EXIT_INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells have it."""
 
-NEW_OBJECTS = 50_000
+GC_THRESHOLD = 50_000
 """How many pile up before Python looks among them for circles that nobody holds: at its usual 700 that is a tenth of a run, for nothing."""
 
 
 def run() -> None:
     """Run the command and leave with its exit code; Ctrl-C while it is imported is no traceback, and behind its end too late."""
-    gc.set_threshold(NEW_OBJECTS)
+    gc.set_threshold(GC_THRESHOLD)
     try:
-        with losing_no_interrupt():
+        with defer_interrupt():
             from seisblock.cli import main
         main()
     except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
+        sys.exit(EXIT_INTERRUPTED)
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from seisblock.errors import RecordNotFoundError
+from seisblock.core.errors import RecordNotFoundError
 
 DEFAULT_SAMPLE = "synthetic_jma.csv"
 """The sample that commands use when no record is named: no bundled recording is strong enough to let what they are about happen."""
@@ -97,31 +97,31 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     >>> sample_path("aoyama").name
     'aoyama.csv'
     """
-    found = find_sample(name)
-    if found is None:
+    path = find_sample(name)
+    if path is None:
         raise RecordNotFoundError(
             "no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in list_samples()]
         )
-    return found
+    return path
 
 
-def file_or_sample(path: Path, kind: str) -> Path | None:
+def resolve_file_or_sample(path: Path, kind: str) -> Path | None:
     """Return a path that exists, else the bundled file of a kind that its name alone means, or None."""
     if path.exists():
         return path
-    found = find_sample(str(path)) if path.parent == Path() else None
-    return found if found is not None and found.name in samples_of(kind) else None
+    sample = find_sample(str(path)) if path.parent == Path() else None
+    return sample if sample is not None and sample.name in sample_names(kind) else None
 
 
-def samples_of(kind: str) -> list[str]:
+def sample_names(kind: str) -> list[str]:
     """Return the names of the bundled files of a kind."""
     return [sample.name for sample in list_samples() if sample.kind == kind]
 
 
 def find_sample(name: str) -> Path | None:
     """Return the path of the sample of that file name or stem, or None."""
-    wanted = name.lower()
+    key = name.lower()
     samples = {sample.name.lower(): sample.name for sample in reversed(list_samples())}
     stems = {spelling.split(".")[0]: full for spelling, full in samples.items()}
-    found = samples.get(wanted) or stems.get(wanted)
-    return None if found is None else sample_directory() / found
+    filename = samples.get(key) or stems.get(key)
+    return None if filename is None else sample_directory() / filename

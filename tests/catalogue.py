@@ -20,16 +20,16 @@ import seisblock
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.help import paragraphs
+from seisblock.core.i18n import LANGUAGES, LOCALE_DIR
 from seisblock.samples import list_samples, sample_directory
 from seisblock.validation import cases
-from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
-SAYING = {"said", "tell", "noted", "say", "warn", "insist", "progress", "at_work", "error"}
-CHECKS = {"finite", "positive", "not_negative", "within", "fraction", "function", "numbers", "row", "whole"}
+GETTEXT_FUNCTIONS = {"lazy_gettext", "gettext", "N_", "info", "warning", "always", "progress", "set_task", "error"}
+CHECK_FUNCTIONS = {"finite", "positive", "non_negative", "in_interval", "fraction", "function", "float_array", "float_vector", "integer"}
 """Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
 
-CLICKS = (
+CLICK_MESSAGES = (
     "Error: {message}",
     "Usage:",
     "Try '{command} {option}' for help.",
@@ -78,47 +78,47 @@ PLURALS = {
 WIDTH = 120
 
 
-def texts_of(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str, str, list[str]]]:
+def extract_messages(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str, str, list[str]]]:
     """Yield what a Python file says, as a method of babel's: calls inside calls, texts over several lines or put in a name before."""
     tree = ast.parse(stream.read())
     named = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
-    for node, argument in sayings(tree):
+    for node, argument in message_calls(tree):
         if isinstance(argument, ast.Name):
             put = [each.value for each in named if argument.id in (getattr(target, "id", "") for target in each.targets)]
-            yield from ((node.lineno, "", text, []) for value in put for text in texts_in(value))
-        yield from ((node.lineno, "", text, []) for text in texts_in(argument))
+            yield from ((node.lineno, "", text, []) for value in put for text in message_literals(value))
+        yield from ((node.lineno, "", text, []) for text in message_literals(argument))
 
 
-def sayings(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
+def message_calls(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
     """Yield the calls that say something, and what they say."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
-            if name in SAYING | CHECKS or (name.endswith("Error") and not hasattr(builtins, name)):
+            if name in GETTEXT_FUNCTIONS | CHECK_FUNCTIONS or (name.endswith("Error") and not hasattr(builtins, name)):
                 yield node, node.args[0]
-            elif name == "map" and getattr(node.args[0], "id", "") in SAYING:
+            elif name == "map" and getattr(node.args[0], "id", "") in GETTEXT_FUNCTIONS:
                 yield node, node.args[1]
 
 
-def texts_in(node: ast.expr) -> Iterator[str]:
+def message_literals(node: ast.expr) -> Iterator[str]:
     """Yield the texts that an argument may be: one, either branch of a choice, or the members of a row."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value:
         yield node.value
     elif isinstance(node, ast.IfExp):
-        yield from texts_in(node.body)
-        yield from texts_in(node.orelse)
+        yield from message_literals(node.body)
+        yield from message_literals(node.orelse)
     elif isinstance(node, (ast.Tuple, ast.BoolOp)):
         for part in node.elts if isinstance(node, ast.Tuple) else node.values:
-            yield from texts_in(part)
+            yield from message_literals(part)
 
 
-def said_in_source() -> dict[str, str]:
+def source_messages() -> dict[str, str]:
     """Return every text of the package: template and the place where it stands first."""
     found: dict[str, str] = {}
-    methods = [("**.py", texts_of), ("**/templates/**.html", "jinja2")]
+    methods = [("**.py", extract_messages), ("**/templates/**.html", "jinja2")]
     # babel's own filter leaves out a folder whose name begins with _
     found_in = extract_from_dir(
-        PACKAGE, methods, keywords={"tell": None}, directory_filter=lambda folder: Path(folder).name != "__pycache__"
+        PACKAGE, methods, keywords={"gettext": None}, directory_filter=lambda folder: Path(folder).name != "__pycache__"
     )
     for name, _, text, _, _ in found_in:
         if isinstance(text, str) and re.search(r"\w", text):
@@ -126,7 +126,7 @@ def said_in_source() -> dict[str, str]:
     return found
 
 
-def said_in_help() -> dict[str, str]:
+def help_messages() -> dict[str, str]:
     """Return every text of ``--help``: lines and paragraphs of commands, of their arguments and of their options."""
     found: dict[str, str] = {}
     context = click.Context(main)
@@ -138,7 +138,7 @@ def said_in_help() -> dict[str, str]:
     return found
 
 
-def said_in_samples() -> dict[str, str]:
+def sample_messages() -> dict[str, str]:
     """Return what the bundled files call themselves and their parts, and how the list of samples describes them."""
     found = {sample.description: sample.name for sample in list_samples()}
     for path in sorted(sample_directory().glob("*.toml")):
@@ -150,32 +150,32 @@ def said_in_samples() -> dict[str, str]:
     return found | dict.fromkeys((sample.kind for sample in list_samples()), "MANIFEST.toml")
 
 
-def said_in_evidence() -> dict[str, str]:
+def validation_messages() -> dict[str, str]:
     """Return what the cases of validation compare, and the notes on them."""
     return {text: f"validation of {case.paper}" for case in cases() for text in (case.quantity, case.note) if text}
 
 
-def everything_said() -> dict[str, str]:
+def all_messages() -> dict[str, str]:
     """Return every text that a catalogue holds: template and the place where it stands first."""
-    return dict.fromkeys(CLICKS, "click") | said_in_evidence() | said_in_source() | said_in_help() | said_in_samples()
+    return dict.fromkeys(CLICK_MESSAGES, "click") | validation_messages() | source_messages() | help_messages() | sample_messages()
 
 
-def path_of(language: str) -> Path:
+def catalogue_path(language: str) -> Path:
     """Return the file of a catalogue."""
-    return LOCALES / language / "LC_MESSAGES" / "seisblock.po"
+    return LOCALE_DIR / language / "LC_MESSAGES" / "seisblock.po"
 
 
-def catalogue(language: str) -> Catalog:
+def read_catalogue(language: str) -> Catalog:
     """Return a catalogue as it is written."""
-    with path_of(language).open("rb") as stream:
+    with catalogue_path(language).open("rb") as stream:
         return read_po(stream, locale=language)
 
 
 def refresh(language: str) -> list[str]:
     """Bring a catalogue up to date; return what has no translation."""
-    held, path = catalogue(language), path_of(language)
+    held, path = read_catalogue(language), catalogue_path(language)
     fresh = Catalog(locale=language, project="seisblock", charset="utf-8", fuzzy=False, header_comment=held.header_comment)
-    for text, place in sorted(everything_said().items(), key=lambda pair: (pair[1], pair[0])):
+    for text, place in sorted(all_messages().items(), key=lambda pair: (pair[1], pair[0])):
         known = held.get(text)
         fresh.add((text, PLURALS[text]) if text in PLURALS else text, known.string if known else "", auto_comments=[place])
     with path.open("wb") as stream:
@@ -187,10 +187,10 @@ def refresh(language: str) -> list[str]:
         flags=re.MULTILINE,
     )
     path.write_text(text, encoding="utf-8")
-    return [key_of(message) for message in fresh if message.id and not any(message.string)]
+    return [message_key(message) for message in fresh if message.id and not any(message.string)]
 
 
-def key_of(message) -> str:
+def message_key(message) -> str:
     """Return the singular of a message."""
     return message.id if isinstance(message.id, str) else message.id[0]
 

@@ -6,12 +6,12 @@
 import re
 from pathlib import Path
 
-from seisblock.bodies.toml import read_table
-from seisblock.bodies.two_layer import Contact, contact, two_layer_block
+from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.two_layer import Contact, contact_from_table, two_layer_from_table
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.respond import solve_respond
 from seisblock.readers import read
 from seisblock.records import motion_of
-from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.respond import solve_respond
 
 PAGE = Path(__file__).parents[1] / "docs" / "models" / "jump_and_respond.md"
 BEGIN, END = "<!-- computed -->", "<!-- end -->"
@@ -20,8 +20,8 @@ HEADINGS = ("step", "component", "rocks at (s)", "largest lean (deg)", "in the a
 
 def jumped(motion, landing):
     """Return the numbers of the paper's jump: its first rocking, largest lean, time in the air, slip on landing, end."""
-    block = two_layer_block(read_table("chozusha"), "short")
-    outcome = solve_jump(block, motion, contact=Contact(**contact(read_table("chozusha"))), landing=landing).outcome
+    block = two_layer_from_table(read_body_toml("chozusha"), "short")
+    outcome = solve_jump(block, motion, contact=Contact(**contact_from_table(read_body_toml("chozusha"))), landing=landing).outcome
     lean = max(chain.max_rotation_rad for chain in outcome.chains)
     air = sum(chain.jump_duration_s or 0.0 for chain in outcome.chains)
     slid = sum(abs(chain.rock_slide_displacement_m or 0.0) for chain in outcome.chains)
@@ -30,7 +30,7 @@ def jumped(motion, landing):
 
 def responded(motion, **options):
     """Return the numbers of all motions together."""
-    block = two_layer_block(read_table("chozusha"), "short")
+    block = two_layer_from_table(read_body_toml("chozusha"), "short")
     outcome = solve_respond(block, motion, mu=0.18, mu_kinetic=0.17, sensitivity=False, **options).outcome
     starts = [event["time_s"] for event in outcome.events if event["mode"] in ("rock", "slide-rock")]
     air, end = outcome.time_in_mode_s["flight"], outcome.final_displacement_m

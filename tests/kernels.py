@@ -3,10 +3,10 @@
 import importlib
 import pkgutil
 
-from seisblock._jit.on_demand import OnDemand
+from seisblock._jit.lazy import LazyKernel
 
-ROOMS = ("seisblock.dynamics", "seisblock.solvers.respond", "seisblock.solvers.jump", "seisblock.solvers.stack")
-ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures", "seisblock.records")
+ROOMS = ("seisblock.dynamics", "seisblock.models.respond", "seisblock.models.jump", "seisblock.models.stack")
+ROOMS += ("seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift", "seisblock.measures", "seisblock.records")
 """Where kernels are, in such an order that two workers who take turns have as much to compile."""
 
 
@@ -21,7 +21,7 @@ def compile_all(*, share: int = 0, of: int = 1) -> None:
     for name in ROOMS[share::of]:
         found = pkgutil.walk_packages(importlib.import_module(name).__path__, f"{name}.")
         values = [value for module in found for value in vars(importlib.import_module(module.name)).values()]
-        kernels = {id(value): value for value in values if isinstance(value, OnDemand)}
+        kernels = {id(value): value for value in values if isinstance(value, LazyKernel)}
         parts = set().union(*map(named_by, kernels.values()))
         for key in kernels.keys() - parts:
             _ = kernels[key].compiled

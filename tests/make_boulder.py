@@ -12,7 +12,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from seisblock.bodies.scan.scan import scan_body
-from seisblock.bodies.scan.toml import told
+from seisblock.bodies.scan.toml import scan_to_toml
 from seisblock.samples import sample_directory
 
 VERTICES = 1500
@@ -66,7 +66,7 @@ def main() -> None:
     triangles = b"".join(struct.pack("<B3i", 3, *face) for face in faces.tolist())
     path = sample_directory() / "boulder.ply"
     path.write_bytes(head.encode() + points.astype("<f4").tobytes() + triangles)
-    (sample_directory() / "boulder.toml").write_text(told(scan_body(path)), encoding="utf-8")
+    (sample_directory() / "boulder.toml").write_text(scan_to_toml(scan_body(path)), encoding="utf-8")
 
 
 if __name__ == "__main__":

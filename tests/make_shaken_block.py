@@ -14,10 +14,10 @@ import zipfile
 
 import numpy as np
 
-from seisblock.bodies.block import from_slenderness, resized
+from seisblock.bodies.block import from_slenderness, scale_block
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.samples import MANIFEST, sample_directory
-from seisblock.solvers.rock.verdicts import rock_verdict
 from tests.make_sample_records import manifest
 
 TABLE, PULSES = "shaken_block.csv", "pulses.zip"
@@ -42,7 +42,7 @@ def samples(frequency: float) -> np.ndarray:
 def fell(motion: Motion, scale: float, dice: np.random.Generator) -> bool:
     """Return what a version of the block does that differs a little from the others."""
     size, slenderness, bounce, amplitude = 1.0 + SCATTER * dice.uniform(-1.0, 1.0, 4)
-    version = resized(from_slenderness(ALPHA, P), size=size, slenderness=slenderness)
+    version = scale_block(from_slenderness(ALPHA, P), size=size, slenderness=slenderness)
     return rock_verdict(version, motion, scale=scale * amplitude, restitution=min(version.restitution * bounce, 1.0)).overturned
 
 

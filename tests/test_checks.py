@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import Contact
-from seisblock.errors import BodyError, ParameterError
-from seisblock.words import speaking, tell
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, ParameterError
+from seisblock.core.i18n import gettext, use_locale
 
 NUMBERS = [2, 0.25, np.float64(0.5), np.float32(0.5), np.int64(1)]
 NO_NUMBERS = [True, "0.2", None, [0.2], np.array(0.2), 1j, np.bool_(True)]
 
 
-@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.not_negative])
+@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative])
 @pytest.mark.parametrize("value", NUMBERS, ids=repr)
 def test_numbers_of_every_kind_pass_as_floats(check, value):
     """Python's and numpy's numbers are numbers; the answer is a float of the same value."""
@@ -21,7 +21,7 @@ def test_numbers_of_every_kind_pass_as_floats(check, value):
     assert found == value and isinstance(found, float)
 
 
-@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.not_negative, checks.fraction])
+@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
 def test_truths_and_texts_are_no_numbers(check, value):
     """``width = true`` is not one metre."""
@@ -30,7 +30,7 @@ def test_truths_and_texts_are_no_numbers(check, value):
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
-@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.not_negative, checks.fraction])
+@pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
 def test_what_is_not_finite_is_refused(check, value):
     """By every check."""
     with pytest.raises(ParameterError):
@@ -39,9 +39,13 @@ def test_what_is_not_finite_is_refused(check, value):
 
 def test_ends():
     """Zero is not positive and not negative; an interval says which of its ends it holds."""
-    assert checks.not_negative("x", 0) == 0.0
-    assert checks.within("x", 1, "(0, 1]") == checks.within("x", 1.0, "[0, 1]") == 1.0
-    for refused in (lambda: checks.positive("x", 0), lambda: checks.within("x", 0, "(0, 1]"), lambda: checks.within("x", 1, "[0, 1)")):
+    assert checks.non_negative("x", 0) == 0.0
+    assert checks.in_interval("x", 1, "(0, 1]") == checks.in_interval("x", 1.0, "[0, 1]") == 1.0
+    for refused in (
+        lambda: checks.positive("x", 0),
+        lambda: checks.in_interval("x", 0, "(0, 1]"),
+        lambda: checks.in_interval("x", 1, "[0, 1)"),
+    ):
         with pytest.raises(ParameterError):
             refused()
 
@@ -50,8 +54,8 @@ def test_the_sentence_names_quantity_value_and_unit():
     """In English until it is told; bodies raise their own class, and nothing is worded for what passes."""
     with pytest.raises(BodyError, match=r"^stone: width must be positive, found -0.2 m$") as found:
         Block(-0.2, 0.6, name="stone")
-    with speaking("ja"):
-        assert "{" not in tell(found.value.said)
+    with use_locale("ja"):
+        assert "{" not in gettext(found.value.message)
 
 
 def test_a_contact_needs_friction_alone():

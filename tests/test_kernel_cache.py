@@ -66,7 +66,7 @@ def test_only_the_kernels_that_python_calls_are_kept(filled):
 def test_a_process_reads_only_the_kernels_that_python_calls(folder):
     """Machine code of a kernel holds that of the kernels it calls: with everything in the cache, two of them are made."""
     counted = (
-        f"{SCRIPT}import gc; from seisblock._jit.on_demand import OnDemand\n"
+        f"{SCRIPT}import gc; from seisblock._jit.lazy import OnDemand\n"
         "print(*sorted(k.__name__ for k in gc.get_objects() if isinstance(k, OnDemand) and k._compiled is not None))"
     )
     environment = {**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)}

@@ -6,8 +6,8 @@ from numba.core.types import functions
 from numba.core.typing.typeof import typeof
 
 from seisblock import _jit
-from seisblock._jit.asked import asked_once
-from seisblock._jit.part import Linkable
+from seisblock._jit.linking import UnoptimizedLibrary
+from seisblock._jit.typing_cache import memoize_typing
 
 _t = _jit.types()
 SIGNATURE = _t.float64(_t.float64, _t.float64)
@@ -16,10 +16,10 @@ SIGNATURE = _t.float64(_t.float64, _t.float64)
 @pytest.fixture
 def chain(tmp_path, monkeypatch):
     """Three kernels, each of which calls the one before it, and a fourth that calls two; nothing of them is kept."""
-    monkeypatch.setattr(_jit.cache, "directory", lambda: tmp_path / "kernels")
-    monkeypatch.setattr(_jit.cache, "_given_up", True)
+    monkeypatch.setattr(_jit.cache, "cache_directory", lambda: tmp_path / "kernels")
+    monkeypatch.setattr(_jit.cache, "_disabled", True)
     monkeypatch.setattr(_jit.cache, "_writable", lambda: True)
-    monkeypatch.setattr(_jit, "_whole", False)
+    monkeypatch.setattr(_jit, "_without_linking", False)
 
     @_jit.kernel(SIGNATURE)
     def lean(a, b):
@@ -51,7 +51,7 @@ def test_what_kernels_call_is_neither_optimised_nor_made_machine_code_of(chain):
     assert [fall(a, b) for a, b in CASES] == [answer(a, b) for a, b in CASES]
     for kernel in (lean, rock):
         assert kernel._compiled is None
-        assert type(kernel._part.overloads[SIGNATURE.args].library) is Linkable
+        assert type(kernel._part.overloads[SIGNATURE.args].library) is UnoptimizedLibrary
     assert fall._part is None
     # a part may be called from Python as well, and is then compiled for it
     assert lean(1.0, 0.5) == 0.75
@@ -71,10 +71,10 @@ def test_a_numba_of_another_make_compiles_each_as_a_whole(chain, monkeypatch):
     def unlike(self):
         raise AttributeError("_final_module")
 
-    monkeypatch.setattr(Linkable, "finalize", unlike)
+    monkeypatch.setattr(UnoptimizedLibrary, "finalize", unlike)
     lean, rock, fall = chain
     assert [fall(a, b) for a, b in CASES] == [answer(a, b) for a, b in CASES]
-    assert _jit._whole
+    assert _jit._without_linking
     assert all(kernel._compiled is not None and kernel._part is None for kernel in (lean, rock, fall))
 
 
@@ -97,10 +97,10 @@ def test_numba_is_asked_once_for_what_the_types_of_a_sum_are(monkeypatch):
     def ask():
         return str(add.get_call_type(context, (typeof(1.0), typeof(1)), {}))
 
-    with asked_once():
+    with memoize_typing():
         said = {ask(), ask()}
         assert len(asked) == 1
-        with asked_once():
+        with memoize_typing():
             said |= {ask(), ask()}
         assert len(asked) == 2
         said |= {ask()}

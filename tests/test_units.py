@@ -6,8 +6,8 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import InputError, UnitError
-from seisblock.units import SHAKU, SUN, parse_acceleration, parse_length, parse_mass
+from seisblock.core.errors import InputError, UnitError
+from seisblock.core.units import SHAKU, SUN, parse_acceleration, parse_length, parse_mass
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_what_is_no_length(text):
 def test_a_forgotten_unit(value):
     """More than 20 m without a unit is a unit forgotten: the message says how to write what was meant."""
     with pytest.raises(UnitError, match=r"width of -?\d+ m\? without a unit a length is in metres: write -?\d+cm or"):
-        parse_length(value, what="width")
+        parse_length(value, quantity="width")
 
 
 @pytest.mark.parametrize("command", ["rock", "measure", "criteria", "slide", "uplift"])

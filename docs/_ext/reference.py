@@ -17,9 +17,9 @@ from sphinx.application import Sphinx
 import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.command import SECTIONS
-from seisblock.cli.help import paragraphs, rows_of
-from seisblock.present.documents.catalogue import KINDS, schema_of
-from seisblock.references import CITED, REFERENCES
+from seisblock.cli.help import paragraphs, help_rows
+from seisblock.report.json.registry import DOCUMENTS, json_schema
+from seisblock.references import COMMAND_PAPERS, REFERENCES
 
 FENCE = re.compile(r"^```\{(commands|documents|gallery|literature|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
@@ -40,7 +40,7 @@ def command(name: str, context: click.Context) -> Iterator[str]:
     yield f"`{' '.join(['seisblock', name, *found.collect_usage_pieces(inner)])}`\n"
     yield from (f"{plain(part)}\n" for part in paragraphs(found.help or ""))
     groups: dict[str, list[str]] = {section: [] for section in SECTIONS}
-    for parameter, (terms, text) in rows_of(found.get_params(inner), inner):
+    for parameter, (terms, text) in help_rows(found.get_params(inner), inner):
         groups[f"{getattr(parameter, 'section', 'Other')} options"] += [f"`{terms}`", f": {plain(text)}\n"]
     for section, rows in groups.items():
         if rows:
@@ -49,10 +49,10 @@ def command(name: str, context: click.Context) -> Iterator[str]:
     examples = getattr(found, "examples", ())
     if examples:
         yield "\n".join(("```sh", *examples, "```\n"))
-    if name in KINDS:
+    if name in DOCUMENTS:
         yield f"Document of `--json`: [{name}](documents.md#{name})\n"
-    if CITED.get(name):
-        yield "Papers: " + ", ".join(f"[{key}]" for key in CITED[name]) + "\n"
+    if COMMAND_PAPERS.get(name):
+        yield "Papers: " + ", ".join(f"[{key}]" for key in COMMAND_PAPERS[name]) + "\n"
 
 
 def commands(_: str) -> str:
@@ -91,7 +91,7 @@ def table(name: str, schema: dict[str, Any]) -> str:
 
 def documents(_: str) -> str:
     """Return the keys of every document of ``--json``; types that several share stand once, at the end."""
-    types = {kind: schema_of(kind) for kind in KINDS}
+    types = {kind: json_schema(kind) for kind in DOCUMENTS}
     owners: dict[str, list[str]] = {}
     for kind, schema in types.items():
         for name in schema["$defs"]:

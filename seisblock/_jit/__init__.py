@@ -8,21 +8,21 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import Any, TypeVar
 
 from seisblock._jit import cache
-from seisblock._jit.on_demand import OnDemand
-from seisblock.words import noted
+from seisblock._jit.lazy import LazyKernel
+from seisblock.core.i18n import N_
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-announce: Callable[[str], None] | None = None
+on_message: Callable[[str], None] | None = None
 """Called with one line when compiling takes a while, or afresh; the command line sets it."""
 
-at_work: Callable[[str], AbstractContextManager[Any]] | None = None
+on_compile: Callable[[str], AbstractContextManager[Any]] | None = None
 """Told in a word what is done to a kernel, for as long as it takes; the command line sets it."""
 
 ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 """Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
 
-_whole = False
+_without_linking = False
 """Whether each kernel is compiled as a whole, since parts cannot be made."""
 
 
@@ -55,57 +55,57 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
         if not ENABLED:
             return function
 
-        def compiled(cached: bool, **way: Any) -> Any:
+        def compile_kernel(use_cache: bool, **overrides: Any) -> Any:
             """Compile, or load what an earlier process compiled."""
             import numba
 
-            from seisblock._jit.asked import asked_once
+            from seisblock._jit.typing_cache import memoize_typing
 
-            counting = {} if allocates else {"_nrt": False}
-            how = {"cache": cached, "nogil": True, "error_model": "numpy", "forceinline": inline, **counting, **way}
-            with asked_once():
-                return numba.njit(signature, **how)(function)
+            nrt_options = {} if allocates else {"_nrt": False}
+            options = {"cache": use_cache, "nogil": True, "error_model": "numpy", "forceinline": inline, **nrt_options, **overrides}
+            with memoize_typing():
+                return numba.njit(signature, **options)(function)
 
-        return OnDemand(function, lambda: _made(compiled, function), lambda: _part(compiled))  # type: ignore[return-value]
+        return LazyKernel(function, lambda: _compile_or_load(compile_kernel, function), lambda: _compile_callee(compile_kernel))  # type: ignore[return-value]
 
     return decorate
 
 
-def _part(compiled: Callable[..., Any]) -> Any:
+def _compile_callee(compile_kernel: Callable[..., Any]) -> Any:
     """Compile what other kernels link, and nothing to be called from Python; None where numba is not as it was from 0.60 to 0.68."""
-    global _whole
-    if _whole:
+    global _without_linking
+    if _without_linking:
         return None
     try:
-        from seisblock._jit.part import PartCompiler
+        from seisblock._jit.linking import CalleeCompiler
 
-        return compiled(False, pipeline_class=PartCompiler)
+        return compile_kernel(False, pipeline_class=CalleeCompiler)
     except (ImportError, AttributeError, TypeError):
-        _whole = True
+        _without_linking = True
     return None
 
 
-def _made(compiled: Callable[[bool], Any], function: Callable[..., Any]) -> Any:
+def _compile_or_load(compile_kernel: Callable[[bool], Any], function: Callable[..., Any]) -> Any:
     """Compile a kernel, or read it, while somebody may be told which."""
-    kept = cache.is_kept(function)
-    what = noted("reading the compiled kernels") if kept else noted("compiling the kernels")
-    with nullcontext() if at_work is None else at_work(what):
-        return cache.guarded(compiled, function, say, kept=kept)
+    cached = cache.is_cached(function)
+    activity = N_("reading the compiled kernels") if cached else N_("compiling the kernels")
+    with nullcontext() if on_compile is None else on_compile(activity):
+        return cache.compile_with_cache(compile_kernel, function, emit_message, cached=cached)
 
 
-def say(message: str) -> None:
+def emit_message(message: str) -> None:
     """Say one line to whoever listens."""
-    if announce is not None:
-        announce(message)
+    if on_message is not None:
+        on_message(message)
 
 
-def pointer(function: Function, signature: Any) -> Function:
+def function_pointer(function: Function, signature: Any) -> Function:
     """Return a kernel as a function pointer of one signature, for kernels that take functions; a kernel itself where none is compiled.
 
     Numba asks a kernel for its address anew at each call that takes it, 30 us each; a pointer knows it.
     """
     if not ENABLED:
         return function
-    from seisblock._jit.address import Pointer
+    from seisblock._jit.pointers import FunctionPointer
 
-    return Pointer(function, signature)  # type: ignore[return-value]
+    return FunctionPointer(function, signature)  # type: ignore[return-value]

@@ -6,15 +6,15 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypeVar
 
-from seisblock import checks
-from seisblock.bodies.inset import Inset
-from seisblock.bodies.ranges import Ranges
-from seisblock.errors import BodyError
-from seisblock.units import LARGEST_BARE, STANDARD_GRAVITY, remark_on_lengths
-from seisblock.words import noted, said
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.units import MAX_UNITLESS_LENGTH, STANDARD_GRAVITY, warn_large_lengths
 
 if TYPE_CHECKING:
-    from seisblock.typing import FloatArray
+    from seisblock.core.typing import FloatArray
 
 DENSITY = 2650.0
 """Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
@@ -25,14 +25,14 @@ RIGHT, LEFT = range(2)
 Length = TypeVar("Length", float, "FloatArray")
 """A number, or one for each of many blocks."""
 
-_POSITIVE = {
-    "width": (said("width"), "m"),
-    "height": (said("height"), "m"),
-    "depth": (said("depth"), "m"),
-    "mass": (said("mass"), "kg"),
-    "density": (said("density"), "kg/m^3"),
-    "centroid_height": (said("height of the centre of gravity"), "m"),
-    "centroid_inertia": (said("moment of inertia"), "kg m^2"),
+_POSITIVE_FIELDS = {
+    "width": (lazy_gettext("width"), "m"),
+    "height": (lazy_gettext("height"), "m"),
+    "depth": (lazy_gettext("depth"), "m"),
+    "mass": (lazy_gettext("mass"), "kg"),
+    "density": (lazy_gettext("density"), "kg/m^3"),
+    "centroid_height": (lazy_gettext("height of the centre of gravity"), "m"),
+    "centroid_inertia": (lazy_gettext("moment of inertia"), "kg m^2"),
 }
 
 
@@ -58,7 +58,7 @@ class Block:
     centroid_inertia : float, kg m^2
         Moment of inertia about the centre of gravity; of the homogeneous rectangle when left out.
     inset : float, m
-        How far in from each side of its base the worn block turns, see :meth:`worn`; its mass, centre and inertia stay as they are.
+        How far in from each side of its base the worn block turns, see :meth:`with_wear`; its mass, centre and inertia stay as they are.
     name : str
     ranges : Ranges or None
         Within which limits bodies of its kind lie: its plausible versions do, instead of differing by shares.
@@ -88,19 +88,23 @@ class Block:
     centroid_height: float | None = None
     centroid_offset: float = 0.0
     centroid_inertia: float | None = None
-    name: str = noted("block")
+    name: str = N_("block")
     inset: float = 0.0
-    ranges: Ranges | None = field(default=None, repr=False)
+    ranges: ParameterRanges | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
-        for key, (what, unit) in _POSITIVE.items():
+        for key, (label, unit) in _POSITIVE_FIELDS.items():
             value = getattr(self, key)
             if value is not None:
-                checks.positive("{name}: {what}", value, unit, error=BodyError, name=self.name, what=what)
-        if self.width > LARGEST_BARE or self.height > LARGEST_BARE or (self.depth is not None and self.depth > LARGEST_BARE):
-            remark_on_lengths(self.name, width=self.width, height=self.height, depth=self.depth)  # blocks are built in inner loops
+                checks.positive("{name}: {what}", value, unit, error=BodyError, name=self.name, what=label)
+        if (
+            self.width > MAX_UNITLESS_LENGTH
+            or self.height > MAX_UNITLESS_LENGTH
+            or (self.depth is not None and self.depth > MAX_UNITLESS_LENGTH)
+        ):
+            warn_large_lengths(self.name, width=self.width, height=self.height, depth=self.depth)  # blocks are built in inner loops
         if self.ranges is not None:
-            checks.instance(self.ranges, Ranges)
+            checks.instance(self.ranges, ParameterRanges)
         half = self.width / 2
         if not 0.0 <= self.inset < half:
             text = "{name}: the inset must lie between 0 and half the width, {half:g} m; found {inset} m"
@@ -170,9 +174,9 @@ class Block:
     def restitutions(self) -> tuple[float, float]:
         """Angular velocity after an impact over that before, onto the right and onto the left corner.
 
-        As of :func:`restitution_onto`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
+        As of :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
         """
-        onto_right, onto_left = (restitution_onto(radius, self.gyration_squared, self.centre, self.arms) for radius in self.radii)
+        onto_right, onto_left = (corner_restitution(radius, self.gyration_squared, self.centre, self.arms) for radius in self.radii)
         return onto_right, onto_left
 
     @property
@@ -191,18 +195,18 @@ class Block:
         side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
         return math.sqrt(gravity * self.lever_ratios[side])
 
-    def worn(self, inset: Inset | float) -> Block:
-        """Return the block with worn edges: a share of its width per side, or an :class:`~seisblock.bodies.inset.Inset`.
+    def with_wear(self, inset: EdgeWear | float) -> Block:
+        """Return the block with worn edges: a share of its width per side, or an :class:`~seisblock.bodies.edge_wear.EdgeWear`.
 
         Examples
         --------
-        >>> round(Block(0.24, 0.72).worn(0.1).rocking_threshold(9.0), 6)
+        >>> round(Block(0.24, 0.72).with_wear(0.1).rocking_threshold(9.0), 6)
         2.4
         """
-        deep = (inset if isinstance(inset, Inset) else Inset(share=inset)).of(self.width)
-        return replace(self.known("inset_m"), inset=deep)
+        depth = (inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset)).inset(self.width)
+        return replace(self.without_ranges("inset_m"), inset=depth)
 
-    def known(self, *names: str) -> Block:
+    def without_ranges(self, *names: str) -> Block:
         """Return the block as one of which some sizes are known: without the ranges of these."""
         return self if self.ranges is None else replace(self, ranges=self.ranges.without(*names))
 
@@ -216,7 +220,7 @@ def lever_ratio(radius: Length, gyration_squared: Length) -> Length:
     return radius / (gyration_squared + radius * radius)
 
 
-def restitution_onto(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
+def corner_restitution(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
     """Return angular velocity after an impact onto a corner over that before.
 
     Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here). Zero where the block is so wide that it would
@@ -232,19 +236,19 @@ def restitution_onto(radius: Length, gyration_squared: Length, centre: Length, a
         Horizontal distances from both corners to it.
     """
     right, left = arms
-    kept = gyration_squared + centre * centre - right * left
-    return 0.5 * (kept + abs(kept)) / (gyration_squared + radius * radius)
+    momentum = gyration_squared + centre * centre - right * left
+    return 0.5 * (momentum + abs(momentum)) / (gyration_squared + radius * radius)
 
 
 Restitution = float | tuple[float, float] | None
 """One ratio for both corners, one onto the right and one onto the left corner, or None for those of the angular momentum."""
 
 
-def restitutions(block: Block, given: Restitution) -> tuple[float, float]:
+def resolve_restitutions(block: Block, restitution: Restitution) -> tuple[float, float]:
     """Return the restitutions of impacts onto the right and onto the left corner."""
-    if given is None:
+    if restitution is None:
         return block.restitutions
-    return given if isinstance(given, tuple) else (given, given)
+    return restitution if isinstance(restitution, tuple) else (restitution, restitution)
 
 
 def from_slenderness(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> Block:
@@ -271,7 +275,7 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
     return Block(2 * radius * math.sin(slenderness), 2 * radius * math.cos(slenderness))
 
 
-def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
+def scale_block(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
     """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness`.
 
     A mass that was given stays, else it follows from the volume; a given inertia keeps its radius of gyration, times `size`.
@@ -280,7 +284,7 @@ def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Blo
     def times(value: float | None, factor: float) -> float | None:
         return None if value is None else value * factor
 
-    bare = replace(
+    scaled_block = replace(
         block,
         width=block.width * size * slenderness,
         height=block.height * size,
@@ -292,5 +296,5 @@ def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Blo
         ranges=None,
     )
     if block.centroid_inertia is None:
-        return bare
-    return replace(bare, centroid_inertia=bare.total_mass * (block.gyration_squared * (size * size)))
+        return scaled_block
+    return replace(scaled_block, centroid_inertia=scaled_block.total_mass * (block.gyration_squared * (size * size)))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from seisblock.errors import ParameterError
-from seisblock.words import noted
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_
 
 
 @dataclass(frozen=True)
@@ -30,13 +30,13 @@ class Surface:
 
 SURFACES = {
     "granite/granite": Surface(
-        0.438, 0.438, "[Furukawa2009]_ table 2", noted("kinetic value of gravestones; the static one is taken as equal")
+        0.438, 0.438, "[Furukawa2009]_ table 2", N_("kinetic value of gravestones; the static one is taken as equal")
     ),
-    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", noted("ABS resin on steel, which the paper takes for posts on stone")),
-    "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", noted("dry")),
+    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", N_("ABS resin on steel, which the paper takes for posts on stone")),
+    "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", N_("dry")),
     "wood/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
     "metal/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
-    "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", noted("dry")),
+    "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", N_("dry")),
     "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
 }
 """Pairs in either order; real values scatter by a third, so that a probability varies them."""

@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import WORN, WORN_RANGE
-from seisblock.bodies.ranges import Ranges
-from seisblock.errors import BodyError
+from seisblock.bodies.edge_wear import DEFAULT_WEAR, WORN_RANGE
+from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core.errors import BodyError
 
 GRAVESTONE = "gravestone"
 
 KINDS = (GRAVESTONE, "furniture", "statue", "block")
 """Kinds of a body given by its sizes.
 
-The edges of gravestones have a prior that meets surveys of fallen ones (:data:`~seisblock.bodies.inset.WORN_RANGE`). All others are sharp:
+The edges of gravestones have a prior that meets surveys of fallen ones (:data:`~seisblock.bodies.edge_wear.WORN_RANGE`). All others are
+sharp:
 JMA's table of furniture is met by sharp furniture, no survey tells of worn bases of statues, and a bare block is what its sizes say.
 """
 
@@ -40,12 +41,12 @@ def of_kind(block: Block, kind: str) -> Block:
     >>> stone.inset, stone.ranges.inset_m
     (0.012, (0.0, 0.024))
     """
-    from seisblock.bodies.blocks import wear_within  # numpy, which the help of a command does without
+    from seisblock.bodies.block_array import wear_within  # numpy, which the help of a command does without
 
     if kind not in KINDS:
         raise BodyError("there is no kind of body {kind!r}; known are {known}", kind=str(kind)[:100], known=list(KINDS))
     if kind != GRAVESTONE:
         return block
-    median = wear_within(block, WORN.share)
+    median = wear_within(block, DEFAULT_WEAR.share)
     low, high = (min(share, 2.0 * median) * block.width for share in WORN_RANGE)
-    return replace(block.worn(median), ranges=Ranges(inset_m=(low, high)))
+    return replace(block.with_wear(median), ranges=ParameterRanges(inset_m=(low, high)))

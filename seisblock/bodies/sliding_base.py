@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock import checks
-from seisblock.errors import ParameterError
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class SlidingBase:
     def __post_init__(self) -> None:
         checks.positive("mu, the static friction coefficient,", self.mu)
         checks.finite("the kinetic friction coefficient", self.kinetic)
-        checks.within("the slope", self.slope_deg, "(-90, 90)", "degrees")
+        checks.in_interval("the slope", self.slope_deg, "(-90, 90)", "degrees")
         if not 0.0 <= self.kinetic <= self.mu:
             raise ParameterError(
                 "the kinetic friction coefficient must lie between 0 and mu = {mu:g} (kappa between 0 and 1), found {found:g}",
@@ -79,7 +79,7 @@ class SlidingBase:
         return math.radians(self.slope_deg)
 
     @property
-    def slides_for_ever(self) -> bool:
+    def never_stops(self) -> bool:
         """Whether an object that slides downhill on still ground is never stopped by the slope itself ([Fujino1978]_ eq. (14))."""
         return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
@@ -108,5 +108,5 @@ def sliding_base(
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     if kappa is not None:
-        mu_kinetic = checks.within("kappa, kinetic over static friction,", kappa, "(0, 1]") * mu
+        mu_kinetic = checks.in_interval("kappa, kinetic over static friction,", kappa, "(0, 1]") * mu
     return SlidingBase(mu, mu_kinetic, slope_deg, slope_length, one_way)

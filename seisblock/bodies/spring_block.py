@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import BodyError
-from seisblock.typing import FloatArray
-from seisblock.units import STANDARD_GRAVITY, remark_on_lengths
-from seisblock.words import said
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import STANDARD_GRAVITY, warn_large_lengths
 
-CORNERS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
+CORNER_SIGNS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 """Signs of x and y of corners 1 to 4 of the base; corner 4 is the paper's ([Okumura1987]_ eq. (23))."""
 
 REFERENCE_MASS = 1000.0
@@ -72,7 +72,7 @@ class SpringBlock:
         checks.positive("depth of the block", self.depth, "m", error=BodyError)
         checks.positive("height of the block", self.height, "m", error=BodyError)
         checks.positive("mass of the block", self.mass, "kg", error=BodyError)
-        remark_on_lengths(said("block"), width=self.width, depth=self.depth, height=self.height)
+        warn_large_lengths(lazy_gettext("block"), width=self.width, depth=self.depth, height=self.height)
         if len(self.stiffness) != 3:
             raise BodyError("stiffness takes three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
         for axis, value in zip("xyz", self.stiffness, strict=True):
@@ -99,7 +99,7 @@ class SpringBlock:
         checks.positive("vertical frequency", frequency_vertical, "Hz", error=BodyError)
         checks.positive("beta, the ratio of horizontal to vertical frequency,", beta, error=BodyError)
         checks.positive("mass of the block", mass, "kg", error=BodyError)
-        remark_on_lengths(said("block"), 2, width=width, depth=depth, height=height)
+        warn_large_lengths(lazy_gettext("block"), 2, width=width, depth=depth, height=height)
         vertical = mass * (2.0 * math.pi * frequency_vertical) ** 2 / 4.0
         return cls(width, depth, height, mass, (beta**2 * vertical, beta**2 * vertical, vertical), damping)
 
@@ -158,7 +158,7 @@ class SpringBlock:
         return self.mass * gravity / 4.0
 
 
-def corner_rows(body: SpringBlock) -> FloatArray:
+def corner_jacobian(body: SpringBlock) -> FloatArray:
     """Return what the corners move by, per unit of each generalised coordinate.
 
     Returns
@@ -169,7 +169,7 @@ def corner_rows(body: SpringBlock) -> FloatArray:
     """
     rows = np.zeros((4, 3, 6))
     rows[:, (0, 1, 2), (0, 1, 2)] = 1.0
-    for i, (sx, sy) in enumerate(CORNERS):
+    for i, (sx, sy) in enumerate(CORNER_SIGNS):
         rx, ry, rz = 0.5 * sx * body.gamma, 0.5 * sy, -0.5 * body.alpha
         rows[i, 0, 4], rows[i, 0, 5] = rz, -ry
         rows[i, 1, 3], rows[i, 1, 5] = -rz, rx
@@ -197,6 +197,6 @@ def dashpot_matrix(body: SpringBlock) -> FloatArray:
 
 def _sum_over_corners(body: SpringBlock, coefficients: list[float]) -> FloatArray:
     """Return the matrix of equal elements at the corners whose sums in x, y and z are given."""
-    rows = corner_rows(body)
+    rows = corner_jacobian(body)
     total: FloatArray = np.einsum("ndi,d,ndj->ij", rows, np.array(coefficients) / 4.0, rows)
     return total

@@ -8,22 +8,32 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.toml import length, lengths, masses, number, of_kind, read_table, refuse_unknown, subtable, text
-from seisblock.errors import BodyError, ParameterError
-from seisblock.units import STANDARD_GRAVITY, remark_on_lengths
-from seisblock.words import noted, said
+from seisblock.bodies.toml import (
+    check_keys,
+    check_kind,
+    get_length,
+    get_lengths,
+    get_masses,
+    get_number,
+    get_subtable,
+    get_text,
+    read_body_toml,
+)
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.units import STANDARD_GRAVITY, warn_large_lengths
 
-_POSITIVE = {
-    "width": (said("width"), "m"),
-    "depth": (said("depth"), "m"),
-    "upper_height": (said("upper height"), "m"),
-    "lower_height": (said("lower height"), "m"),
-    "upper_mass": (said("upper mass"), "kg"),
-    "lower_mass": (said("lower mass"), "kg"),
+_POSITIVE_FIELDS = {
+    "width": (lazy_gettext("width"), "m"),
+    "depth": (lazy_gettext("depth"), "m"),
+    "upper_height": (lazy_gettext("upper height"), "m"),
+    "lower_height": (lazy_gettext("lower height"), "m"),
+    "upper_mass": (lazy_gettext("upper mass"), "kg"),
+    "lower_mass": (lazy_gettext("lower mass"), "kg"),
 }
-_CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
+_CONTACT_KEYS = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 
 @dataclass(frozen=True)
@@ -57,12 +67,12 @@ class TwoLayerBlock:
     lower_height: float
     upper_mass: float
     lower_mass: float
-    name: str = noted("two-layer block")
+    name: str = N_("two-layer block")
 
     def __post_init__(self) -> None:
-        for key, (what, unit) in _POSITIVE.items():
-            checks.positive("{name}: {what}", getattr(self, key), unit, error=BodyError, name=self.name, what=what)
-        remark_on_lengths(self.name, width=self.width, depth=self.depth, upper_height=self.upper_height, lower_height=self.lower_height)
+        for key, (label, unit) in _POSITIVE_FIELDS.items():
+            checks.positive("{name}: {what}", getattr(self, key), unit, error=BodyError, name=self.name, what=label)
+        warn_large_lengths(self.name, width=self.width, depth=self.depth, upper_height=self.upper_height, lower_height=self.lower_height)
 
     @property
     def height(self) -> float:
@@ -164,8 +174,8 @@ class Contact:
     restitution_y: float = 0.85
 
     def __post_init__(self) -> None:
-        checks.not_negative("mu, the static friction coefficient,", self.mu)
-        checks.not_negative("the kinetic friction coefficient", self.kinetic)
+        checks.non_negative("mu, the static friction coefficient,", self.mu)
+        checks.non_negative("the kinetic friction coefficient", self.kinetic)
         checks.fraction("restitution x", self.restitution_x)
         checks.fraction("restitution y", self.restitution_y)
         if self.kinetic > self.mu:
@@ -179,7 +189,7 @@ class Contact:
         return self.mu if self.mu_kinetic is None else self.mu_kinetic
 
 
-def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:
+def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:
     """Return the block that a TOML table describes, moving along one of its sides.
 
     Parameters
@@ -195,26 +205,30 @@ def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBl
     BodyError
         If something is missing or of the wrong kind.
     """
-    of_kind(table, "two-layer")
-    upper_height, lower_height = lengths(table, "heights", 2)
-    upper_mass, lower_mass = masses(table, "masses", 2)
-    name = text(table, "name", str(table.get("source", "two-layer block")))
+    check_kind(table, "two-layer")
+    upper_height, lower_height = get_lengths(table, "heights", 2)
+    upper_mass, lower_mass = get_masses(table, "masses", 2)
+    name = get_text(table, "name", str(table.get("source", "two-layer block")))
     if "width" in table:
-        width, depth = length(table, "width"), length(table, "depth")
+        width, depth = get_length(table, "width"), get_length(table, "depth")
     else:
         if side not in ("short", "long"):
             raise BodyError("{name}: side must be short or long, found {side!r}", name=name, side=side)
-        width = length(table, side)
-        depth = length(table, "long" if side == "short" else "short")
-        name = said("{name}, short side", name=said(name)) if side == "short" else said("{name}, long side", name=said(name))
+        width = get_length(table, side)
+        depth = get_length(table, "long" if side == "short" else "short")
+        name = (
+            lazy_gettext("{name}, short side", name=lazy_gettext(name))
+            if side == "short"
+            else lazy_gettext("{name}, long side", name=lazy_gettext(name))
+        )
     return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name)
 
 
-def contact(table: Mapping[str, Any]) -> Mapping[str, float]:
+def contact_from_table(table: Mapping[str, Any]) -> Mapping[str, float]:
     """Return the friction and restitution that a preset brings along, empty when it brings none."""
-    values = subtable(table, "contact")
-    refuse_unknown(values, _CONTACT)
-    return {key: value for key in _CONTACT if (value := number(values, key)) is not None}
+    values = get_subtable(table, "contact")
+    check_keys(values, _CONTACT_KEYS)
+    return {key: value for key in _CONTACT_KEYS if (value := get_number(values, key)) is not None}
 
 
 def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
@@ -223,7 +237,7 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
     Parameters
     ----------
     name : str or Path
-        ``kind = "two-layer"``, see :func:`two_layer_block`.
+        ``kind = "two-layer"``, see :func:`two_layer_from_table`.
     side : "short" or "long"
         Which side lies along the motion, where the file gives both.
 
@@ -237,7 +251,7 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
     >>> load_two_layer("chozusha", side="long").width
     2.5
     """
-    return two_layer_block(read_table(name), side)
+    return two_layer_from_table(read_body_toml(name), side)
 
 
 def load_contact(name: str | Path) -> Contact:
@@ -258,8 +272,8 @@ def load_contact(name: str | Path) -> Contact:
     >>> load_contact("chozusha").mu
     0.18
     """
-    table = read_table(name)
-    found = contact(table)
-    if "mu" not in found:
+    table = read_body_toml(name)
+    values = contact_from_table(table)
+    if "mu" not in values:
         raise BodyError("{name} brings no friction of its own: make a Contact(mu=...)", name=table.get("name", name))
-    return Contact(**found)
+    return Contact(**values)

@@ -17,17 +17,17 @@ import click
 from click.shell_completion import CompletionItem
 
 from seisblock import __version__, _jit
-from seisblock.cli.command import lang_option, plainly
-from seisblock.cli.help import Context, rows_of
-from seisblock.cli.language import answering
-from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, leave_at_once, printable
-from seisblock.cli.meant import asking, asking_for_options, nearest, suggested
+from seisblock.cli.command import english_help_option, lang_option
+from seisblock.cli.console import bind_locale, info, reset_warnings
+from seisblock.cli.help import Context, help_rows
+from seisblock.cli.locale import use_cli_locale
+from seisblock.cli.process import TERMINATED, Terminated, discard_stdout, fast_exit, graceful_exit, safe_streams
 from seisblock.cli.progress import progress
-from seisblock.cli.quiet import quietly
-from seisblock.cli.talk import forget, in_this_language, say
-from seisblock.errors import OutputError, SeisblockError, reason
-from seisblock.ledger import ledger
-from seisblock.words import noted, on_a_screen, plain_text, said, tell
+from seisblock.cli.suggest import add_suggestion, closest_name, did_you_mean, suggest_options
+from seisblock.cli.verbosity import quiet_output
+from seisblock.core.errors import OutputError, SeisblockError, os_error_text
+from seisblock.core.i18n import N_, escape_control, gettext, lazy_gettext, truncate
+from seisblock.core.io.overwrite import track_files
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
@@ -65,23 +65,23 @@ EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.
 PARAMETER = re.compile(r"`(\w+)`")
 """A parameter's name in a sentence of the library."""
 
-COMPLETING = "_SEISBLOCK_COMPLETE"
+COMPLETION_VARIABLE = "_SEISBLOCK_COMPLETE"
 """What a shell sets that asks for completions."""
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 
 
-def as_options(text: str, ctx: click.Context) -> str:
+def with_option_names(text: str, ctx: click.Context) -> str:
     """Return a sentence in which the library names its parameters, `` `dt` ``, with the names of the command's options, ``--dt``."""
     command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
-    names = {each.name: each.opts[0] for each in command.params if isinstance(each, click.Option)} if command else {}
-    return PARAMETER.sub(lambda found: names.get(found[1], found[1]), text)
+    names = {parameter.name: parameter.opts[0] for parameter in command.params if isinstance(parameter, click.Option)} if command else {}
+    return PARAMETER.sub(lambda match: names.get(match[1], match[1]), text)
 
 
-def _tell_of_interruption() -> None:
+def _report_interrupt() -> None:
     """Say on stderr that the run was interrupted."""
-    click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)
+    click.echo(f"\nseisblock: {gettext('interrupted; no half-written file is left')}", err=True)
 
 
 class SeisblockGroup(click.Group):
@@ -90,13 +90,13 @@ class SeisblockGroup(click.Group):
     context_class = Context
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        """Return ``--help``, see :func:`plainly`."""
-        return plainly(super().get_help_option(ctx))
+        """Return ``--help``, see :func:`english_help_option`."""
+        return english_help_option(super().get_help_option(ctx))
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options, then the commands."""
-        with formatter.section(tell("Options")):
-            formatter.write_dl([row for _, row in rows_of(self.get_params(ctx), ctx)])
+        with formatter.section(gettext("Options")):
+            formatter.write_dl([row for _, row in help_rows(self.get_params(ctx), ctx)])
         self.format_commands(ctx, formatter)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -113,7 +113,7 @@ class SeisblockGroup(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the line apart."""
-        with asking_for_options(self, ctx):
+        with suggest_options(self, ctx):
             return super().parse_args(ctx, args)
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
@@ -121,18 +121,18 @@ class SeisblockGroup(click.Group):
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            raise click.UsageError(asking(error.message, nearest(args[0], COMMANDS)), ctx) from None
+            raise click.UsageError(did_you_mean(error.message, closest_name(args[0], COMMANDS)), ctx) from None
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the names of commands without importing them."""
-        names = [CompletionItem(name, help=tell(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
+        names = [CompletionItem(name, help=gettext(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
         return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the list of commands without importing them."""
-        with formatter.section(tell("Commands")):
-            formatter.write_dl([(name, tell(text)) for name, (_, text) in COMMANDS.items()])
-        with formatter.section(tell("Examples")):
+        with formatter.section(gettext("Commands")):
+            formatter.write_dl([(name, gettext(text)) for name, (_, text) in COMMANDS.items()])
+        with formatter.section(gettext("Examples")):
             for line in EXAMPLES:
                 formatter.write(f"  {line}\n")
 
@@ -142,15 +142,15 @@ class SeisblockGroup(click.Group):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
-        if os.environ.get(COMPLETING):
+        if os.environ.get(COMPLETION_VARIABLE):
             importlib.import_module("seisblock.cli.completion")
         line = sys.argv[1:] if args is None else list(args)
-        with printable(), answering(line):
+        with safe_streams(), use_cli_locale(line):
             try:
                 return super().main(line, prog_name or "seisblock", obj=line, **extra)
             except SystemExit as end:
                 if args is None and end.code in (INTERRUPTED, TERMINATED):
-                    leave_at_once(end.code)
+                    fast_exit(end.code)
                 raise
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
@@ -158,25 +158,25 @@ class SeisblockGroup(click.Group):
         try:
             return super().make_context(*args, **extra)
         except KeyboardInterrupt:
-            _tell_of_interruption()
+            _report_interrupt()
             raise click.exceptions.Exit(INTERRUPTED) from None
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
-        spoken = in_this_language()  # kernels are compiled in other threads, too
-        _jit.announce, _jit.at_work = lambda message: say(spoken(message)), lambda what: progress(spoken(what))
-        forget()
+        translate = bind_locale()  # kernels are compiled in other threads, too
+        _jit.on_message, _jit.on_compile = lambda message: info(translate(message)), lambda task: progress(translate(task))
+        reset_warnings()
         try:
-            with ending_in_order(), ledger(sys.stdout), quietly("--quiet" in ctx.obj or None), progress("working"):
+            with graceful_exit(), track_files(sys.stdout), quiet_output("--quiet" in ctx.obj or None), progress("working"):
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            told = suggested(as_options(tell(error.said), ctx), error.said)
-            click.secho(f"seisblock: {on_a_screen(plain_text(told))}", fg="red", err=True)
+            text = add_suggestion(with_option_names(gettext(error.message), ctx), error.message)
+            click.secho(f"seisblock: {truncate(escape_control(text))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
-            _tell_of_interruption()
+            _report_interrupt()
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
             # the reader went away (| head): nothing to say, and nothing may be flushed at exit
@@ -185,20 +185,22 @@ class SeisblockGroup(click.Group):
         except Terminated:
             ctx.exit(TERMINATED)
         except MemoryError:
-            told = tell("this takes more memory than there is: cut a window out of the record, or ask for less at a time")
-            click.secho(f"seisblock: {told}", fg="red", err=True)
+            text = gettext("this takes more memory than there is: cut a window out of the record, or ask for less at a time")
+            click.secho(f"seisblock: {text}", fg="red", err=True)
             ctx.exit(SeisblockError.exit_code)
         except OSError as error:
             discard_stdout()
-            why = tell("cannot write {file}: {error}", file=error.filename or said("the answer"), error=reason(error))
-            click.secho(f"seisblock: {why}", fg="red", err=True)
+            write_error = gettext(
+                "cannot write {file}: {error}", file=error.filename or lazy_gettext("the answer"), error=os_error_text(error)
+            )
+            click.secho(f"seisblock: {write_error}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
         finally:
-            _jit.announce = _jit.at_work = None
+            _jit.on_message = _jit.on_compile = None
 
 
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(__version__, prog_name="seisblock", help=noted("Show the version and exit."))
+@click.version_option(__version__, prog_name="seisblock", help=N_("Show the version and exit."))
 def main() -> None:
     """Tell what ground motion does to objects that nobody bolted down.
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import click
 
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
-from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, record_options
-from seisblock.cli.quiet import quietly
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import MU, Count
-from seisblock.words import noted
+from seisblock.cli.verbosity import quiet_output
+from seisblock.core.i18n import N_
 
 SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
 
@@ -31,16 +31,16 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     multiple=True,
     required=True,
     metavar="FILE|NAME",
-    shell_complete=offered.bodies(),
+    shell_complete=shell_completion.complete_bodies(),
     section="Body",
     help="A table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; may be repeated.",
 )
-@option("--solver", type=OneOf(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
+@option("--solver", type=SuggestingChoice(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
 @option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
 @option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
 @option(
     "--runs",
-    type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
+    type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
     default=0,
     show_default=True,
     help="Perturbed runs behind a probability; 0 for none.",
@@ -87,12 +87,12 @@ def batch(
     record and body: that of the direction which is worst for it. Finished records are kept in FILE.journal until the table is whole:
     --resume goes on.
     """
-    from seisblock.cli.batching import Asked, run
+    from seisblock.cli.run_batch import BatchRequest, run_batch
 
-    with quietly(quiet):
-        run(
+    with quiet_output(quiet):
+        run_batch(
             source,
-            Asked(bodies, solver, runs, seed, options),
+            BatchRequest(bodies, solver, runs, seed, options),
             out,
             resume=resume,
             force=force,

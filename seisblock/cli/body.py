@@ -7,20 +7,20 @@ from typing import Any
 
 import click
 
-from seisblock import checks
-from seisblock.bodies.inset import SHARP, Inset
-from seisblock.cli import offered
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.emit import emit
-from seisblock.cli.options import checked, gravity_option, output_options
+from seisblock.cli.console import info
+from seisblock.cli.options import check_callback, gravity_option, output_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
-from seisblock.cli.talk import say
 from seisblock.cli.types import INSET, LENGTH
-from seisblock.errors import OutputError
-from seisblock.units import LENGTH_UNITS
+from seisblock.cli.write_results import write_results
+from seisblock.core import checks
+from seisblock.core.errors import OutputError
+from seisblock.core.units import LENGTH_UNITS
 
-_positive, _finite = checked(checks.positive), checked(checks.finite)
+_positive, _finite = check_callback(checks.positive), check_callback(checks.finite)
 
 UPWARD = ("x", "y", "z", "-x", "-y", "-z")
 
@@ -36,7 +36,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     "scan",
     metavar="SCAN",
     section="Body",
-    shell_complete=offered.scans,
+    shell_complete=shell_completion.complete_scans,
     help="A closed surface of triangles: an .stl, .ply or .obj file, or the bundled boulder.ply.",
 )
 @option(
@@ -93,7 +93,7 @@ def body(
     output: Output,
     scan: str,
     density: float,
-    inset: Inset | None,
+    inset: EdgeWear | None,
     tolerance: float | None,
     unit: str,
     up: str,
@@ -109,35 +109,37 @@ def body(
     convex hull of the points within --tolerance of the ground, and --inset moves each of its sides inwards. The file of --out is a body
     for rock, respond, criteria, batch and fit, which take its arms for the azimuth that they solve.
     """
-    from seisblock.bodies.scan.directions import scan_azimuths
+    from seisblock.bodies.scan.azimuths import scan_azimuths
     from seisblock.bodies.scan.scan import scan_body
-    from seisblock.bodies.scan.toml import told
-    from seisblock.present.documents.body import document
-    from seisblock.present.files import checked_target, write_text
-    from seisblock.present.text import body as shown
+    from seisblock.bodies.scan.toml import scan_to_toml
+    from seisblock.report.io.atomic import check_target, write_text
+    from seisblock.report.json.body import document
+    from seisblock.report.text import body as shown
 
     if out is not None:
         if out.suffix.lower() != ".toml":
             raise OutputError("{path}: a body is written as .toml", path=out)
-        checked_target(out)
+        check_target(out)
     with progress("reading {names}", names=[Path(scan).name]):
-        worn = SHARP if inset is None else inset
-        found = scan_body(scan, density=density, inset=worn, tolerance=tolerance, unit=unit, up=up, facing=facing, called=name)
-    directions = scan_azimuths(found.body, step_deg=step, gravity=gravity)
+        edge_wear = SHARP_EDGES if inset is None else inset
+        scan_result = scan_body(
+            scan, density=density, inset=edge_wear, tolerance=tolerance, unit=unit, up=up, facing=facing, body_name=name
+        )
+    directions = scan_azimuths(scan_result.body, step_deg=step, gravity=gravity)
     if out is not None:
-        write_text(out, told(found))
-        say("wrote {path}", path=out)
-    emit(
-        document(found, directions, step_deg=step, gravity=gravity),
+        write_text(out, scan_to_toml(scan_result))
+        info("wrote {path}", path=out)
+    write_results(
+        document(scan_result, directions, step_deg=step, gravity=gravity),
         output,
-        tables=lambda: shown.tables(found, directions, gal=output.gal),
-        csv=lambda path: shown.write(path, directions),
-        figure=lambda: _draw(found),
+        tables=lambda: shown.tables(scan_result, directions, gal=output.gal),
+        csv=lambda path: shown.write_csv(path, directions),
+        figure=lambda: _draw(scan_result),
     )
 
 
-def _draw(found: Any) -> Any:
+def _draw(scan_result: Any) -> Any:
     """Return the figure of a scanned body; matplotlib is loaded only for it."""
-    from seisblock.present.figures.body import figure
+    from seisblock.report.figures.body import figure
 
-    return figure(found)
+    return figure(scan_result)

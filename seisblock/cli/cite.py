@@ -5,13 +5,15 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.meant import OneOf
-from seisblock.cli.talk import answer, show
-from seisblock.references import CITED
+from seisblock.cli.console import print_result, print_tables
+from seisblock.cli.suggest import SuggestingChoice
+from seisblock.references import COMMAND_PAPERS
 
 
 @click.command(cls=Command, examples=("seisblock cite jump", "seisblock cite --bibtex > seisblock.bib"))
-@argument("command", required=False, metavar="[COMMAND]", type=OneOf(CITED), help="Whose papers. [default: of all commands]")
+@argument(
+    "command", required=False, metavar="[COMMAND]", type=SuggestingChoice(COMMAND_PAPERS), help="Whose papers. [default: of all commands]"
+)
 @option("--bibtex", is_flag=True, section="Output", help="BibTeX entries instead of lines of text.")
 @option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout.")
 def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
@@ -21,16 +23,16 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
     """
     from seisblock.references import REFERENCES, SOFTWARE
 
-    keys = CITED[command] if command else tuple(REFERENCES)
-    chosen = [*(REFERENCES[key] for key in keys), SOFTWARE]
+    keys = COMMAND_PAPERS[command] if command else tuple(REFERENCES)
+    references = [*(REFERENCES[key] for key in keys), SOFTWARE]
     if as_json:
-        from seisblock.present.documents.library import cite_document
-        from seisblock.present.documents.write import to_json
+        from seisblock.report.json.encode import to_json
+        from seisblock.report.json.library import cite_document
 
-        answer(to_json(cite_document(command, chosen, keys)))
+        print_result(to_json(cite_document(command, references, keys)))
     elif bibtex:
-        answer("\n\n".join(reference.bibtex() for reference in chosen))
+        print_result("\n\n".join(reference.bibtex() for reference in references))
     else:
-        from seisblock.present.text.cite import listing
+        from seisblock.report.text.cite import reference_lines
 
-        show(listing(chosen))
+        print_tables(reference_lines(references))

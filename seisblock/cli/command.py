@@ -9,19 +9,19 @@ from typing import Any
 
 import click
 
-from seisblock import checks
-from seisblock.cli.help import Context, rows_of
-from seisblock.cli.meant import OneOf, asking_for_options
-from seisblock.errors import ParameterError
-from seisblock.words import LANGUAGES, noted, tell
+from seisblock.cli.help import Context, help_rows
+from seisblock.cli.suggest import SuggestingChoice, suggest_options
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import LANGUAGES, N_, gettext
 
 SECTIONS = (
-    noted("Record options"),
-    noted("Site options"),
-    noted("Body options"),
-    noted("Solver options"),
-    noted("Output options"),
-    noted("Other options"),
+    N_("Record options"),
+    N_("Site options"),
+    N_("Body options"),
+    N_("Solver options"),
+    N_("Output options"),
+    N_("Other options"),
 )
 """Headings of ``--help``, in this order; an option names the one it belongs to."""
 
@@ -35,9 +35,9 @@ class Finite(click.types.FloatParamType):
         if math.isfinite(number):
             return number
         try:
-            return checks.finite(noted("it"), number)
+            return checks.finite(N_("it"), number)
         except ParameterError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
 
 
 class Option(click.Option):
@@ -54,9 +54,9 @@ class Argument(click.Argument):
     """A click argument that the help describes in a section, as it does options."""
 
     def __init__(self, *args: Any, section: str = "Other", **kwargs: Any) -> None:
-        told = kwargs.pop("help")
+        help_text = kwargs.pop("help")
         super().__init__(*args, **kwargs)
-        self.section, self.help = section, told
+        self.section, self.help = section, help_text
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str]:
         """Return the row of the help."""
@@ -81,25 +81,31 @@ class Command(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the line apart."""
-        with asking_for_options(self, ctx):
+        with suggest_options(self, ctx):
             if not ctx.resilient_parsing:
-                self._refuse_repeated(ctx, args)
+                self._check_repeated(ctx, args)
             return super().parse_args(ctx, args)
 
-    def _refuse_repeated(self, ctx: click.Context, args: list[str]) -> None:
+    def _check_repeated(self, ctx: click.Context, args: list[str]) -> None:
         """Refuse an option that takes one value and stands twice: the last would go before the others, without a word."""
         _, _, order = self.make_parser(ctx).parse_args(list(args))
-        given = Counter(order)
-        if self.get_help_option(ctx) in given:
+        counts = Counter(order)
+        if self.get_help_option(ctx) in counts:
             return
-        for each, count in given.items():
-            if count > 1 and isinstance(each, click.Option) and not (each.multiple or each.is_flag or each.count):
-                text = tell("{option} takes one value, found {count}: leave one of them", option=max(each.opts, key=len), count=count)
+        for option_given, count in counts.items():
+            if (
+                count > 1
+                and isinstance(option_given, click.Option)
+                and not (option_given.multiple or option_given.is_flag or option_given.count)
+            ):
+                text = gettext(
+                    "{option} takes one value, found {count}: leave one of them", option=max(option_given.opts, key=len), count=count
+                )
                 raise click.UsageError(text, ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """Return ``--help``, described in English until it is told: click keeps the option for the next call."""
-        return plainly(super().get_help_option(ctx))
+        return english_help_option(super().get_help_option(ctx))
 
     def format_arguments(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write nothing: arguments stand in the section that they belong to."""
@@ -107,17 +113,17 @@ class Command(click.Command):
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
         groups: dict[str, list[tuple[str, str]]] = {name: [] for name in SECTIONS}
-        for parameter, row in rows_of(self.get_params(ctx), ctx):
+        for parameter, row in help_rows(self.get_params(ctx), ctx):
             groups[f"{getattr(parameter, 'section', 'Other')} options"].append(row)
         for name, rows in groups.items():
             if rows:
-                with formatter.section(tell(name)):
+                with formatter.section(gettext(name)):
                     formatter.write_dl(rows)
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the examples."""
         if self.examples:
-            with formatter.section(tell("Examples")):
+            with formatter.section(gettext("Examples")):
                 for line in self.examples:
                     formatter.write(f"  {line}\n")
 
@@ -125,13 +131,13 @@ class Command(click.Command):
 def lang_option() -> click.Option:
     """Return the option that every command has; what it asks for is known before the line is parsed, see ``cli.language``."""
     text = "Language of all that is said, printed and drawn. [default: of the locale, else en]"
-    return Option(["--lang"], type=OneOf(LANGUAGES), expose_value=False, section="Output", help=text)
+    return Option(["--lang"], type=SuggestingChoice(LANGUAGES), expose_value=False, section="Output", help=text)
 
 
-def plainly(option: click.Option | None) -> click.Option | None:
+def english_help_option(option: click.Option | None) -> click.Option | None:
     """Return ``--help`` with its English description."""
     if option is not None:
-        option.help = noted("Show this message and exit.")
+        option.help = N_("Show this message and exit.")
     return option
 
 

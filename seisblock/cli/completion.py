@@ -6,16 +6,16 @@ import click
 from click.shell_completion import BashComplete, add_completion_class
 
 from seisblock.cli.command import Command, argument
-from seisblock.cli.meant import OneOf
-from seisblock.cli.talk import answer
-from seisblock.words import said
+from seisblock.cli.console import print_result
+from seisblock.cli.suggest import SuggestingChoice
+from seisblock.core.i18n import lazy_gettext
 
 VARIABLE = "_SEISBLOCK_COMPLETE"
 
-WHERE = {
-    "bash": said("add to {file}: {line}", file="~/.bashrc", line='eval "$(seisblock completion bash)"'),
-    "zsh": said("add to {file}: {line}", file="~/.zshrc", line='eval "$(seisblock completion zsh)"'),
-    "fish": said("{line}", line="seisblock completion fish > ~/.config/fish/completions/seisblock.fish"),
+INSTALL_HINTS = {
+    "bash": lazy_gettext("add to {file}: {line}", file="~/.bashrc", line='eval "$(seisblock completion bash)"'),
+    "zsh": lazy_gettext("add to {file}: {line}", file="~/.zshrc", line='eval "$(seisblock completion zsh)"'),
+    "fish": lazy_gettext("{line}", line="seisblock completion fish > ~/.config/fish/completions/seisblock.fish"),
 }
 
 
@@ -46,23 +46,23 @@ class Bash(BashComplete):
 
     def get_completion_args(self) -> tuple[list[str], str]:
         """Return the words before the one that is typed, and that one."""
-        before, last = super().get_completion_args()
-        return [word for word in before if word != "="], "" if last == "=" else last
+        words, last = super().get_completion_args()
+        return [word for word in words if word != "="], "" if last == "=" else last
 
 
 add_completion_class(Bash)
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
-@argument("shell", type=OneOf(WHERE), help="The shell that is to complete.")
+@argument("shell", type=SuggestingChoice(INSTALL_HINTS), help="The shell that is to complete.")
 @click.pass_context
 def completion(ctx: click.Context, shell: str) -> None:
     """Print the completion script of a shell; where it belongs is said on stderr."""
     from click.shell_completion import get_completion_class
 
-    from seisblock.cli.talk import say
+    from seisblock.cli.console import info
 
     kind = get_completion_class(shell)
     assert kind is not None
-    answer(kind(ctx.find_root().command, {}, "seisblock", VARIABLE).source())
-    say(WHERE[shell])
+    print_result(kind(ctx.find_root().command, {}, "seisblock", VARIABLE).source())
+    info(INSTALL_HINTS[shell])

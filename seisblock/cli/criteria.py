@@ -8,11 +8,11 @@ import click
 
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.idle import refuse_without
+from seisblock.cli.console import info
+from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.rock import along, need_vertical
-from seisblock.cli.talk import say
+from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.types import MU
 
 
@@ -50,42 +50,44 @@ def criteria(
     frequency are given the record's equivalent frequency in each of its three definitions. Beside them stands what the block does when
     it may slide and fly, too, under all components, as respond tells it.
     """
-    from seisblock.bodies.library import friction_of
-    from seisblock.bodies.toml import read_table
+    from seisblock.bodies.factory import table_friction
+    from seisblock.bodies.toml import read_body_toml
     from seisblock.cli.bodies.block import choose_block
-    from seisblock.cli.emit import emit
-    from seisblock.cli.inputs import components, load
-    from seisblock.present.documents.criteria import document
-    from seisblock.present.text import criteria as shown
+    from seisblock.cli.load_records import load_records, selected_components
+    from seisblock.cli.write_results import write_results
     from seisblock.records import motion_of
-    from seisblock.studies.criteria_card import criteria_card
+    from seisblock.report.json.criteria import document
+    from seisblock.report.text import criteria as shown
+    from seisblock.studies.criteria_comparison import compare_criteria
 
-    chosen = choose_block({**body, "restitution": restitution, "gal": output.gal})
-    say("body: {says}", says=chosen.says)
-    source = along(source, azimuth)
+    choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
+    info("body: {says}", says=choice.description)
+    source = with_azimuths(source, azimuth)
     if mu is None and body.get("block"):
-        mu, own = friction_of(read_table(body["block"]), body["block"])
-        mu_kinetic = own if mu_kinetic is None else mu_kinetic
+        mu, kinetic_default = table_friction(read_body_toml(body["block"]), body["block"])
+        mu_kinetic = kinetic_default if mu_kinetic is None else mu_kinetic
     if mu is None:
-        refuse_without("--mu", ["mu_kinetic"])
-    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical}
+        reject_without("--mu", ["mu_kinetic"])
+    options: dict[str, Any] = {"restitution": choice.restitution, "linear": linear, "vertical": vertical}
     cards = []
-    for record in load(source):
-        for name in components(record, source):
+    for record in load_records(source):
+        for name in selected_components(record, source):
             motion = motion_of(record, name)
-            need_vertical(motion, vertical)
-            cards.append(criteria_card(record, motion, chosen.along(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
-    emit(
+            require_vertical(motion, vertical)
+            cards.append(
+                compare_criteria(record, motion, choice.block_for_motion(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options)
+            )
+    write_results(
         document(cards, options, gravity=gravity),
         output,
         tables=lambda: shown.tables(cards, gal=output.gal),
-        csv=lambda path: shown.write(path, cards),
+        csv=lambda path: shown.write_csv(path, cards),
         figure=lambda: _draw(cards, gal=output.gal),
     )
 
 
 def _draw(cards: Any, *, gal: bool) -> Any:
     """Return the figure of the cards; matplotlib is loaded only for it."""
-    from seisblock.present.figures.criteria import figure
+    from seisblock.report.figures.criteria import figure
 
     return figure(cards, gal=gal)

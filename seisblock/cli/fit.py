@@ -8,15 +8,15 @@ from typing import Any
 
 import click
 
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.emit import emit
-from seisblock.cli.options import Source, gravity_option, output_options, preparing_options
+from seisblock.cli.options import Source, gravity_option, output_options, preparation_options
 from seisblock.cli.output import Output
 from seisblock.cli.types import Count
-from seisblock.errors import ParameterError
-from seisblock.words import noted, tell
+from seisblock.cli.write_results import write_results
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, gettext
 
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "block")
 """Options that describe a body."""
@@ -26,13 +26,13 @@ def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
     """Accept the option repeated, and lists with commas; None where it is not there."""
     names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
     if value and not names:
-        raise click.BadParameter(tell("it is empty: name what is looked for, or none"), ctx, param)
+        raise click.BadParameter(gettext("it is empty: name what is looked for, or none"), ctx, param)
     return () if names == ("none",) else names or None
 
 
 def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, tuple[float, float]]:
     """Accept ``NAME=LOW:HIGH``, repeated."""
-    found = {}
+    bounds = {}
     for text in value:
         name, _, ends = text.partition("=")
         try:
@@ -40,9 +40,9 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
         except ValueError:
             low = high = math.nan
         if not (name.strip() and math.isfinite(low) and math.isfinite(high)):
-            raise click.BadParameter(tell("{text!r} is not NAME=LOW:HIGH, for example alpha=0.1:0.5", text=text), ctx, param)
-        found[name.strip()] = low, high
-    return found
+            raise click.BadParameter(gettext("{text!r} is not NAME=LOW:HIGH, for example alpha=0.1:0.5", text=text), ctx, param)
+        bounds[name.strip()] = low, high
+    return bounds
 
 
 @click.command(
@@ -56,10 +56,10 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     "outcomes",
     metavar="OUTCOMES",
     section="Record",
-    shell_complete=offered.outcomes,
+    shell_complete=shell_completion.complete_outcomes,
     help="Table (.csv): record, a file beside it; fell or moved, 0 or 1; where needed weight, component, scale. Bundled: shaken_block.csv.",
 )
-@preparing_options
+@preparation_options
 @option(
     "--outcome",
     type=click.Choice(["fell", "moved"]),
@@ -106,14 +106,14 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @option("--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]")
 @option(
     "--folds",
-    type=Count(noted("folds"), "SEISBLOCK_VALUES", least=2),
+    type=Count(N_("folds"), "SEISBLOCK_VALUES", minimum=2),
     metavar="K",
     help="Parts into which the records are dealt, each foretold by the others. [default: 5]",
 )
 @option("--confidence", type=float, default=0.9, show_default=True, help="Level of the intervals, 0 to 1.")
 @option(
     "--runs",
-    type=Count(noted("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
     default=16,
     show_default=True,
     help="Versions of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
@@ -121,54 +121,54 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @option("--seed", type=int, default=0, show_default=True, help="Seed of what is drawn.")
 @gravity_option
 @output_options(histories=False, film=False)
-def fit(outcomes: str, source: Source, output: Output, **asked: Any) -> None:
+def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
     """Find the block that explains under which records it fell and under which it stood.
 
     Its slenderness alpha, frequency parameter p, restitution and worn edges, whichever are asked for, with their intervals; and how well
     records are foretold by blocks that were found without them.
     """
     from seisblock.cli.progress import progress
-    from seisblock.present.documents.fit import document
-    from seisblock.present.text import fit as shown
+    from seisblock.report.json.fit import document
+    from seisblock.report.text import fit as shown
     from seisblock.studies.fit.fit import fit_block
 
-    observed = _read(outcomes, source, asked.pop("outcome"))
-    block, inset, restitution = _body(asked)
-    told = {key: asked[key] for key in ("free", "bounds", "scatter", "lapse", "vertical", "folds", "runs", "seed", "gravity")}
+    observed = _read_outcomes(outcomes, source, params.pop("outcome"))
+    block, inset, restitution = _choose_body(params)
+    options = {key: params[key] for key in ("free", "bounds", "scatter", "lapse", "vertical", "folds", "runs", "seed", "gravity")}
     with progress("records followed") as advance:
-        found = fit_block(
+        result = fit_block(
             observed,
             kind=observed.kind,
             block=block,
             inset=inset,
             restitution=restitution,
-            level=asked["confidence"],
+            level=params["confidence"],
             progress=advance,
-            **told,
+            **options,
         )
-    answer = document(found, observed, block, outcomes, vertical=told["vertical"], gravity=told["gravity"])
+    answer = document(result, observed, block, outcomes, vertical=options["vertical"], gravity=options["gravity"])
 
     def figure() -> Any:
-        from seisblock.present.figures.fit import fit_figure
+        from seisblock.report.figures.fit import fit_figure
 
-        return fit_figure(found, Path(outcomes).name, gal=output.gal)
+        return fit_figure(result, Path(outcomes).name, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.present.files import write_table
+        from seisblock.report.io.atomic import write_table
 
-        write_table(path, *shown.columns(found, observed))
+        write_table(path, *shown.csv_columns(result, observed))
 
-    emit(answer, output, tables=lambda: shown.tables(found, observed, Path(outcomes).name), figure=figure, csv=csv)
+    write_results(answer, output, tables=lambda: shown.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
 
 
-def _read(outcomes: str, source: Source, kind: str | None) -> Any:
+def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
     """Return the outcomes of the table with their records."""
-    from seisblock.cli.inputs import preparation_of, refuse_windows
+    from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
-    from seisblock.readers.dispatch import Options
-    from seisblock.studies.fit.table import read_outcomes
+    from seisblock.readers.dispatch import ReadOptions
+    from seisblock.studies.fit.outcome_table import read_outcomes
 
-    refuse_windows(source)
+    check_single_window(source)
     if len(source.component) > 1:
         raise ParameterError("one component is shaken, found {names}: name others in a column `component`", names=list(source.component))
     with progress("reading {names}", names=[Path(outcomes).name]) as advance:
@@ -176,23 +176,23 @@ def _read(outcomes: str, source: Source, kind: str | None) -> Any:
             outcomes,
             kind=kind,
             component=source.component[0] if source.component else None,
-            preparation=preparation_of(source, source.component),
-            reading=Options(source.format, source.units, source.dt, source.station, source.level),
+            preparation=make_preparation(source, source.component),
+            read_options=ReadOptions(source.format, source.units, source.dt, source.station, source.level),
             strict=source.strict,
             progress=advance,
         )
 
 
-def _body(asked: dict[str, Any]) -> tuple[Any, Any, float | None]:
+def _choose_body(params: dict[str, Any]) -> tuple[Any, Any, float | None]:
     """Return the block that is described, if any, the inset where it is given, and the restitution that is given or that a file brings."""
     from seisblock.cli.bodies.block import choose_block
-    from seisblock.cli.talk import say
+    from seisblock.cli.console import info
 
-    if all(asked[key] is None for key in SIZES):
-        return None, asked["inset"], asked["restitution"]
-    looked_for = asked["free"] or ()
-    chosen = choose_block(asked)
-    say("body: {says}", says=chosen.says)
+    if all(params[key] is None for key in SIZES):
+        return None, params["inset"], params["restitution"]
+    free = params["free"] or ()
+    choice = choose_block(params)
+    info("body: {says}", says=choice.description)
     # what a body's file brings along does not stand in the way of what is looked for
-    block = chosen.block if asked["azimuth"] is None else chosen.towards(asked["azimuth"])
-    return block, asked["inset"], asked["restitution"] if "restitution" in looked_for else chosen.restitution
+    block = choice.block if params["azimuth"] is None else choice.towards(params["azimuth"])
+    return block, params["inset"], params["restitution"] if "restitution" in free else choice.restitution

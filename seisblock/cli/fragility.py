@@ -7,13 +7,13 @@ from typing import Any
 
 import click
 
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
 from seisblock.cli.output import Output
 from seisblock.cli.types import FLOATS, MU, Count
-from seisblock.words import noted
+from seisblock.core.i18n import N_
 
 SOLVERS = ("respond", "rock", "slide", "stack")
 METHODS = ("stripes", "ida", "cloud")
@@ -54,7 +54,7 @@ METHODS = ("stripes", "ida", "cloud")
     "--bodies",
     multiple=True,
     metavar="FILE|NAME",
-    shell_complete=offered.bodies(),
+    shell_complete=shell_completion.complete_bodies(),
     section="Body",
     help="Instead of one body: a table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; "
     "may be repeated.",
@@ -91,14 +91,14 @@ METHODS = ("stripes", "ida", "cloud")
 )
 @option(
     "--steps",
-    type=Count(noted("levels"), "SEISBLOCK_VALUES", least=2),
+    type=Count(N_("levels"), "SEISBLOCK_VALUES", minimum=2),
     default=60,
     show_default=True,
     help="How many levels are chosen, evenly in their logarithm.",
 )
 @option(
     "--perturb",
-    type=Count(noted("versions"), "SEISBLOCK_RUNS", least=2),
+    type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=2),
     metavar="N",
     help="N versions of each body (size, edges, restitution, friction): how much of the scatter is its own. [default: as it is alone]",
 )
@@ -106,7 +106,7 @@ METHODS = ("stripes", "ida", "cloud")
 @option("--confidence", type=float, default=0.95, show_default=True, help="Level of the intervals, 0 to 1.")
 @option(
     "--bootstrap",
-    type=Count(noted("samples of the records"), "SEISBLOCK_RUNS", least=2),
+    type=Count(N_("samples of the records"), "SEISBLOCK_RUNS", minimum=2),
     default=1000,
     show_default=True,
     help="Samples of the records behind the intervals.",
@@ -150,7 +150,7 @@ def fragility(
     im: tuple[str, ...],
     levels: tuple[float, ...] | None,
     compare: str | None,
-    **asked: Any,
+    **params: Any,
 ) -> None:
     """Tell how likely an object falls, slides or rocks, against the intensity of the shaking: a lognormal curve with its intervals.
 
@@ -158,8 +158,8 @@ def fragility(
     to every level (stripes, ida), or taken as it is (cloud); vertical motion is scaled along. With --component all-azimuths each record
     counts once, in the direction that is worst for the object, and its intensity is the largest of all directions.
     """
-    from seisblock.cli.fragilities import run
+    from seisblock.cli.run_fragility import run_study
 
     measures = tuple(name for text in im or ("pga",) for name in text.split(","))
     states = tuple(name for text in limit for name in text.split(",")) or ("slip=1cm" if solver == "slide" else "overturn",)
-    run(source, output, bodies=bodies, solver=solver, limits=states, measures=measures, levels=levels, compare=compare, asked=asked)
+    run_study(source, output, bodies=bodies, solver=solver, limits=states, measures=measures, levels=levels, compare=compare, params=params)

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator
 
 import click
 
-from seisblock.present.wrap import is_wide, wrapped
-from seisblock.words import tell
+from seisblock.core.i18n import gettext
+from seisblock.report.text.wrap import is_wide, wrap_text
 
-CLICKS_OWN = re.compile(r"  \[([^\[\]]*)\]\Z")
+CLICK_SUFFIX = re.compile(r"  \[([^\[\]]*)\]\Z")
 """A default as click puts it behind a meaning; among wide letters brackets are wide, as in what is written by hand."""
 
 
@@ -24,29 +24,29 @@ class Formatter(click.HelpFormatter):
 
     def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
         """Write the line that says how a command is called."""
-        super().write_usage(prog, args, f"{tell('Usage:')} ")
+        super().write_usage(prog, args, f"{gettext('Usage:')} ")
 
     def write_text(self, text: str) -> None:
         """Write paragraphs, told."""
         indent = " " * self.current_indent
-        for index, part in enumerate(map(tell, paragraphs(text))):
+        for index, part in enumerate(map(gettext, paragraphs(text))):
             if index:
                 self.write("\n")
             if is_wide(part):
-                self.write("".join(f"{indent}{line}\n" for line in wrapped(part, self.width - self.current_indent)))
+                self.write("".join(f"{indent}{line}\n" for line in wrap_text(part, self.width - self.current_indent)))
             else:
                 super().write_text(part)
 
     def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
         """Write terms and what they mean."""
-        listed = list(rows)
-        if not any(is_wide(meaning) for _, meaning in listed):
-            super().write_dl(listed, col_max, col_spacing)
+        entries = list(rows)
+        if not any(is_wide(meaning) for _, meaning in entries):
+            super().write_dl(entries, col_max, col_spacing)
             return
-        first = min(max(len(term) for term, _ in listed), col_max) + col_spacing
+        first = min(max(len(term) for term, _ in entries), col_max) + col_spacing
         indent = " " * self.current_indent
-        for term, meaning in listed:
-            lines = iter(wrapped(meaning, max(self.width - first - 2, 10)))
+        for term, meaning in entries:
+            lines = iter(wrap_text(meaning, max(self.width - first - 2, 10)))
             self.write(f"{indent}{term:{first}}{next(lines)}\n" if len(term) <= first - col_spacing else f"{indent}{term}\n")
             self.write("".join(f"{indent}{'':{first}}{line}\n" for line in lines))
 
@@ -57,11 +57,11 @@ class Context(click.Context):
     formatter_class = Formatter
 
 
-def rows_of(parameters: Iterable[click.Parameter], ctx: click.Context) -> Iterator[tuple[click.Parameter, tuple[str, str]]]:
+def help_rows(parameters: Iterable[click.Parameter], ctx: click.Context) -> Iterator[tuple[click.Parameter, tuple[str, str]]]:
     """Yield each parameter with its line of help, told."""
     for parameter in parameters:
         row = parameter.get_help_record(ctx)
         if row is not None:
             text = getattr(parameter, "help", None) or ""
-            meaning = row[1].replace(text, tell(text), 1)
-            yield parameter, (row[0], CLICKS_OWN.sub(r"［\1］", meaning) if is_wide(meaning) else meaning)
+            meaning = row[1].replace(text, gettext(text), 1)
+            yield parameter, (row[0], CLICK_SUFFIX.sub(r"［\1］", meaning) if is_wide(meaning) else meaning)

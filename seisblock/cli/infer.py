@@ -9,25 +9,25 @@ from typing import Any
 
 import click
 
-from seisblock.bodies.inset import WORN
-from seisblock.cli import offered
+from seisblock.bodies.edge_wear import DEFAULT_WEAR
+from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.idle import RECORD_OPTIONS, refuse_beside
-from seisblock.cli.meant import OneOf
+from seisblock.cli.console import info
+from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
-from seisblock.words import noted, said, tell
+from seisblock.cli.write_results import write_results
+from seisblock.core.i18n import N_, gettext, lazy_gettext
 
 DEFAULT_BLOCK = "chozusha"
-FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
+FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
 
-STONES = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error")
-SLID = ("mu", "mu_kinetic", "largest", "vertical", "limit", "steps", "gravity")
-JUMPED = (
+STONE_OPTIONS = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error")
+SLID_OPTIONS = ("mu", "mu_kinetic", "largest", "vertical", "limit", "steps", "gravity")
+JUMPED_OPTIONS = (
     *("block", "side", "mu", "mu_kinetic", "restitution_x", "restitution_y", "drop", "flight_only", "first", "repeat", "landing", "spin"),
     *("limit", "steps", "gravity"),
 )
@@ -46,7 +46,7 @@ JUMPED = (
     "--cemetery",
     multiple=True,
     metavar="FILE|NAME",
-    shell_complete=offered.cemeteries,
+    shell_complete=shell_completion.complete_cemeteries,
     section="Body",
     help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存); several: all of one shaking.",
 )
@@ -70,7 +70,7 @@ JUMPED = (
 )
 @option(
     "--criterion",
-    type=OneOf(["furukawa", "rigid"]),
+    type=SuggestingChoice(["furukawa", "rigid"]),
     default="furukawa",
     show_default=True,
     help="Stones: fit to whole stones (9), (10), or one rigid block under a half sine.",
@@ -105,186 +105,188 @@ JUMPED = (
 @option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
 @option(
     "--steps",
-    type=Count(noted("factors"), "SEISBLOCK_RUNS"),
+    type=Count(N_("factors"), "SEISBLOCK_RUNS"),
     default=300,
     show_default=True,
     help="slid, jumped: steps of the scan up to it.",
 )
 @gravity_option
 @output_options(histories=False, film=False)
-def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **asked: Any) -> None:
+def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
     """Read shaking back from what it did.
 
     From gravestones: PGA, PGV and JMA intensity with their intervals, for an equivalent frequency or over 0.5 to 3 Hz
     (Furukawa et al. 2009 read backwards). From a displacement: every factor on each candidate RECORD that gives it.
     """
-    forms = {"--cemetery": cemetery or None, "--slid": asked["slid"], "--jumped": asked["jumped"]}
-    asks = [name for name, value in forms.items() if value is not None]
-    if len(asks) != 1:
-        raise click.UsageError(tell("give one of {forms}; found {asks}", forms=said(FORMS), asks=asks or said("none")))
-    refuse_beside(asks[0], _idle(asks[0], rigid=asked["criterion"] == "rigid"))
+    forms = {"--cemetery": cemetery or None, "--slid": params["slid"], "--jumped": params["jumped"]}
+    given_forms = [name for name, value in forms.items() if value is not None]
+    if len(given_forms) != 1:
+        raise click.UsageError(
+            gettext("give one of {forms}; found {asks}", forms=lazy_gettext(FORM_NAMES), asks=given_forms or lazy_gettext("none"))
+        )
+    reject_with(given_forms[0], _foreign_options(given_forms[0], rigid=params["criterion"] == "rigid"))
     if not cemetery:
         if rate is not None:
-            raise click.UsageError(tell("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv"))
-        return _displacement(source, output, asked)
+            raise click.UsageError(gettext("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv"))
+        return _infer_from_displacement(source, output, params)
     if source.record:
         raise click.UsageError(
-            tell("stones need no RECORD, found {record}; give its equivalent frequency with --frequency", record=source.record[0])
+            gettext("stones need no RECORD, found {record}; give its equivalent frequency with --frequency", record=source.record[0])
         )
     if len(cemetery) > 1 and rate is not None:
-        raise click.UsageError(tell("--rate is of one place: several cemeteries need a column fallen each"))
-    if twice := [name for name, count in Counter(os.path.realpath(name) for name in cemetery).items() if count > 1]:
-        raise click.UsageError(tell("--cemetery names {name} twice: its stones would count double", name=Path(twice[0]).name))
-    return _stones(output, cemetery, rate, asked)
+        raise click.UsageError(gettext("--rate is of one place: several cemeteries need a column fallen each"))
+    if repeated := [name for name, count in Counter(os.path.realpath(name) for name in cemetery).items() if count > 1]:
+        raise click.UsageError(gettext("--cemetery names {name} twice: its stones would count double", name=Path(repeated[0]).name))
+    return _infer_from_stones(output, cemetery, rate, params)
 
 
-def _idle(form: str, *, rigid: bool) -> list[str]:
+def _foreign_options(form: str, *, rigid: bool) -> list[str]:
     """Return the options that belong to other forms than that which was given; with rigid stones gravity has a say."""
-    own = {"--cemetery": (*STONES, *(["gravity"] if rigid else [])), "--slid": SLID, "--jumped": JUMPED}
-    of_forms = dict.fromkeys(name for names in (STONES, SLID, JUMPED) for name in names)
-    return [name for name in of_forms if name not in own[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
+    own_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
+    of_forms = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
+    return [name for name in of_forms if name not in own_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
-def _stones(output: Output, cemetery: tuple[str, ...], rate: str | None, asked: dict[str, Any]) -> None:
+def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
     """Answer from fallen stones."""
     from seisblock.bodies.cemetery.table import read_cemetery
-    from seisblock.present.documents.infer import StonesParameters, stones_document
-    from seisblock.studies.cemetery.rate import FREQUENCIES
-    from seisblock.studies.inverse.estimate import contour, estimate_shaking, groups_of, remarks_of
-    from seisblock.studies.inverse.joint import joint_estimate, remarks_of_joint
-    from seisblock.studies.inverse.plausible import remark_on_plausibility
-    from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
+    from seisblock.report.json.infer import StonesParameters, stones_document
+    from seisblock.studies.survey.consistency import consistency_warning
+    from seisblock.studies.survey.estimate import estimate_shaking, estimate_warnings, frequency_contour, stone_groups
+    from seisblock.studies.survey.joint import joint_estimate, joint_warnings
+    from seisblock.studies.survey.likelihood import counted_survey, marked_survey, parse_rate
+    from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
     places = [read_cemetery(name) for name in cemetery]
-    for name, place in zip(cemetery, places, strict=True):
-        for note in place.notes[:1]:
-            say("{cemetery}: {note}", cemetery=name, note=said(note))
+    for name, site in zip(cemetery, places, strict=True):
+        for note in site.notes[:1]:
+            info("{cemetery}: {note}", cemetery=name, note=lazy_gettext(note))
     surveys = [(p.name, marked_survey(p) if rate is None else counted_survey(p, *parse_rate(rate))) for p in places]
-    assumptions = _assumptions(asked)
-    frequencies = asked["frequency"] or (None, *FREQUENCIES)
-    several = len(surveys) > 1
+    assumptions = _assumptions(params)
+    frequencies = params["frequency"] or (None, *FREQUENCIES)
+    has_several = len(surveys) > 1
     estimates = [
-        estimate_shaking(part, f, assumptions, stones=f"{place}, {kind}" if several else kind)
-        for place, survey in surveys
-        for kind, part in groups_of(survey)
+        estimate_shaking(part, f, assumptions, stones=f"{site}, {kind}" if has_several else kind)
+        for site, survey in surveys
+        for kind, part in stone_groups(survey)
         for f in frequencies
     ]
-    joint = [joint_estimate(surveys, f, assumptions) for f in frequencies] if several else []
-    line = contour(surveys[0][1], assumptions)
-    warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
-    warnings += [text for name, survey in surveys if (text := remark_on_plausibility(name, survey, assumptions))]
-    warnings += remarks_of_joint(joint[0]) if joint else []
+    joint = [joint_estimate(surveys, f, assumptions) for f in frequencies] if has_several else []
+    line = frequency_contour(surveys[0][1], assumptions)
+    warnings = list(dict.fromkeys(text for estimate in estimates for text in estimate_warnings(estimate)))
+    warnings += [text for name, survey in surveys if (text := consistency_warning(name, survey, assumptions))]
+    warnings += joint_warnings(joint[0]) if joint else []
     parameters = StonesParameters(
         cemetery=", ".join(cemetery),
-        stones=sum(place.size for place in places),
+        stones=sum(site.size for site in places),
         rate=rate,
-        unknown_stones=0 if rate else sum(p.size - s.judged for p, (_, s) in zip(places, surveys, strict=True)),
+        unknown_stones=0 if rate else sum(p.size - s.stone_count for p, (_, s) in zip(places, surveys, strict=True)),
         confidence=assumptions.level,
         common_error_ln_pga=assumptions.common_error,
         stone_error_ln_pga=assumptions.stone_error,
         bias_ln_pga=assumptions.bias,
         frequency_error_ln_f=assumptions.frequency_error,
-        criterion=asked["criterion"],
-        inset=asked["inset"] if asked["criterion"] != "rigid" else asked["inset"] or WORN,
+        criterion=params["criterion"],
+        inset=params["inset"] if params["criterion"] != "rigid" else params["inset"] or DEFAULT_WEAR,
     )
     answer = stones_document(estimates, line, parameters, warnings, joint)
-    whole, name = surveys[0][1], ", ".join(place.name for place in places)
+    first_survey, name = surveys[0][1], ", ".join(site.name for site in places)
 
     def tables() -> Any:
-        from seisblock.present.text.infer import estimate_tables
+        from seisblock.report.text.infer import estimate_tables
 
         return estimate_tables(name, estimates, joint, assumptions, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.present.figures.infer import estimate_figure
+        from seisblock.report.figures.infer import estimate_figure
 
-        shown = [each for each in estimates if not several or each.stones.startswith(surveys[0][0])]
-        return estimate_figure(surveys[0][0], whole, assumptions, shown, gal=output.gal)
+        selection = [estimate for estimate in estimates if not has_several or estimate.stones.startswith(surveys[0][0])]
+        return estimate_figure(surveys[0][0], first_survey, assumptions, selection, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.present.files import write_table
-        from seisblock.present.text.infer import estimate_columns
+        from seisblock.report.io.atomic import write_table
+        from seisblock.report.text.infer import estimate_csv
 
-        write_table(path, *estimate_columns(line))
+        write_table(path, *estimate_csv(line))
 
-    emit(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(answer, output, tables=tables, figure=figure, csv=csv)
 
 
-def _assumptions(asked: dict[str, Any]) -> Any:
+def _assumptions(params: dict[str, Any]) -> Any:
     """Return what an estimate rests on: the criterion, and how far it and the stones are to be trusted."""
     from functools import partial
 
-    from seisblock.studies.cemetery.limits import rigid_limits
-    from seisblock.studies.inverse.assumptions import assumptions_for
+    from seisblock.studies.survey.assumptions import make_assumptions
+    from seisblock.studies.survey.limits import rigid_limits
 
-    given = {name: asked[name] for name in ("common_error", "stone_error", "bias", "frequency_error")}
-    given["level"] = asked["confidence"]
-    if asked["criterion"] != "rigid":
-        return assumptions_for(asked["inset"], **given)
-    given["bias"] = 0.0 if given["bias"] is None else given["bias"]
-    return assumptions_for(None, limits=partial(rigid_limits, inset=asked["inset"] or WORN, gravity=asked["gravity"]), **given)
+    options = {name: params[name] for name in ("common_error", "stone_error", "bias", "frequency_error")}
+    options["level"] = params["confidence"]
+    if params["criterion"] != "rigid":
+        return make_assumptions(params["inset"], **options)
+    options["bias"] = 0.0 if options["bias"] is None else options["bias"]
+    return make_assumptions(None, limits=partial(rigid_limits, inset=params["inset"] or DEFAULT_WEAR, gravity=params["gravity"]), **options)
 
 
-def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None:
+def _infer_from_displacement(source: Source, output: Output, params: dict[str, Any]) -> None:
     """Answer from a displacement: every factor on each record."""
-    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
-    from seisblock.studies.inverse.factors import scale_factors
+    from seisblock.studies.survey.scale_search import scale_factors
 
-    if asked["slid"] is not None and asked["mu"] is None:
-        raise click.UsageError(tell("--slid needs --mu, the static friction coefficient, for example --mu 0.3"))
-    observed = asked["jumped"] if asked["slid"] is None else asked["slid"]
-    moves, document = _moving_object(source, asked)
+    if params["slid"] is not None and params["mu"] is None:
+        raise click.UsageError(gettext("--slid needs --mu, the static friction coefficient, for example --mu 0.3"))
+    observed = params["jumped"] if params["slid"] is None else params["slid"]
+    moves, document = _moving_object(source, params)
     curves: list[tuple[Any, Any]] = []
     # a jump goes on beyond the window in which it may start
-    for record in load(source, whole=asked["jumped"] is not None):
-        for motion in motions(record, source):
+    for record in load_records(source, keep_whole=params["jumped"] is not None):
+        for motion in selected_motions(record, source):
             displacement = moves(motion)
-            with progress("{name}: factors up to {limit:g}", name=motion.name, limit=asked["limit"]) as advance:
-                found = scale_factors(displacement, observed, motion, limit=asked["limit"], steps=asked["steps"], progress=advance)
-            curves.append((record, found))
-    answer = document(curves, observed_m=observed, limit=asked["limit"], steps=asked["steps"])
+            with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
+                factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
+            curves.append((record, factors))
+    answer = document(curves, observed_m=observed, limit=params["limit"], steps=params["steps"])
 
     def tables() -> Any:
-        from seisblock.present.text.infer import factor_tables
+        from seisblock.report.text.infer import factor_tables
 
-        return factor_tables(curves, gal=output.gal, moved=noted("displacement") if asked["slid"] is None else noted("slip"))
+        return factor_tables(curves, gal=output.gal, displacement_kind=N_("displacement") if params["slid"] is None else N_("slip"))
 
     def figure() -> Any:
-        from seisblock.present.figures.infer import factor_figure
+        from seisblock.report.figures.infer import factor_figure
 
         return factor_figure(curves, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.present.files import write_table
-        from seisblock.present.text.infer import factor_columns
+        from seisblock.report.io.atomic import write_table
+        from seisblock.report.text.infer import factor_csv
 
-        write_table(path, *factor_columns(curves))
+        write_table(path, *factor_csv(curves))
 
-    emit(answer, output, tables=tables, figure=figure, csv=csv)
+    write_results(answer, output, tables=tables, figure=figure, csv=csv)
 
 
-def _moving_object(source: Source, asked: dict[str, Any]) -> tuple[Any, Any]:
+def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     """Return what gives the displacement under a motion, and what makes a document of the factors."""
     from functools import partial
 
     from seisblock.bodies.sliding_base import SlidingBase
-    from seisblock.present.documents.infer import jumped_document, slid_document
-    from seisblock.studies.inverse import factors as study
+    from seisblock.report.json.infer import jumped_document, slid_document
+    from seisblock.studies.survey import scale_search as study
 
-    gravity = asked["gravity"]
-    if asked["slid"] is not None:
-        base = SlidingBase(asked["mu"], asked["mu_kinetic"])
-        moves = partial(study.slid, base, vertical=asked["vertical"], gravity=gravity, largest=asked["largest"])
-        rubs = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"]}
-        return moves, partial(slid_document, largest=asked["largest"], vertical=asked["vertical"], gravity_m_s2=gravity, **rubs)
+    gravity = params["gravity"]
+    if params["slid"] is not None:
+        base = SlidingBase(params["mu"], params["mu_kinetic"])
+        moves = partial(study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"])
+        frictions = {"mu": params["mu"], "mu_kinetic": params["mu_kinetic"]}
+        return moves, partial(slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions)
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
-    chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
-    say("body: {name}; {says}", name=said(chosen.block.name), says=chosen.says)
-    if asked["first"]:
-        say("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
-    body: dict[str, Any] = {"contact": chosen.contact, "flight_only": asked["flight_only"]}
-    body |= {key: asked[key] for key in ("spin", "landing", "first")}
-    moves = partial(study.jumped, chosen.block, drop=asked["drop"], gravity=gravity, windows=source.window, **body)
-    return moves, partial(jumped_document, block=chosen.block, drop_m=asked["drop"], gravity_m_s2=gravity, windows_s=source.window, **body)
+    choice = two_layer_choice(params, default=DEFAULT_BLOCK)
+    info("body: {name}; {says}", name=lazy_gettext(choice.block.name), says=choice.description)
+    if params["first"]:
+        info("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
+    body: dict[str, Any] = {"contact": choice.contact, "flight_only": params["flight_only"]}
+    body |= {key: params[key] for key in ("spin", "landing", "first")}
+    moves = partial(study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body)
+    return moves, partial(jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body)

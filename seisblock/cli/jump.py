@@ -7,18 +7,18 @@ from typing import Any
 
 import click
 
-from seisblock import checks
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.idle import refuse_beside, refuse_without
-from seisblock.cli.inputs import load, motions
-from seisblock.cli.meant import OneOf
-from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
+from seisblock.cli.console import info
+from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.option_checks import reject_with, reject_without
+from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES, MU
-from seisblock.words import said, tell
+from seisblock.cli.write_results import write_results
+from seisblock.core import checks
+from seisblock.core.i18n import gettext, lazy_gettext
 
 DEFAULT_BLOCK = "chozusha"
 
@@ -34,7 +34,7 @@ DEFAULT_BLOCK = "chozusha"
 @option(
     "--depth",
     type=LENGTH,
-    callback=checked(checks.positive),
+    callback=check_callback(checks.positive),
     section="Body",
     help="Width across the motion, m; changes nothing in the plane. [default: --width]",
 )
@@ -54,7 +54,7 @@ DEFAULT_BLOCK = "chozusha"
 )
 @option(
     "--direction",
-    type=OneOf(["+", "-", "both"]),
+    type=SuggestingChoice(["+", "-", "both"]),
     default="both",
     show_default=True,
     help="Sign of the ground acceleration that may start a chain.",
@@ -65,13 +65,13 @@ DEFAULT_BLOCK = "chozusha"
 @option(
     "--tenon",
     type=LENGTH,
-    callback=checked(checks.positive),
+    callback=check_callback(checks.positive),
     section="Output",
     help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.",
 )
 @gravity_option
 @output_options()
-def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **asked: Any) -> None:
+def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **params: Any) -> None:
     """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
 
     Each horizontal component is solved by itself, chain of motion after chain; what moves when the record ends comes to rest on still
@@ -79,31 +79,31 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
     direction, displacements of the centroid are relative to the ground.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
-    from seisblock.cli.elsewhere import after_jump
-    from seisblock.present.documents.jump import document
-    from seisblock.present.text import jump as shown
-    from seisblock.solvers.jump.solve import solve_jump
+    from seisblock.cli.hints import jump_hint
+    from seisblock.models.jump.solve import solve_jump
+    from seisblock.report.json.jump import document
+    from seisblock.report.text import jump as shown
 
-    if repeat and asked["first"]:
-        raise click.UsageError(tell("give either --first or --repeat, which is the default"))
-    if asked["width"] is None:
-        refuse_without("--width", ["depth"])
+    if repeat and params["first"]:
+        raise click.UsageError(gettext("give either --first or --repeat, which is the default"))
+    if params["width"] is None:
+        reject_without("--width", ["depth"])
     else:
-        refuse_beside("--width", ["side"])
-    chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
-    say("body: {name}; {says}", name=said(chosen.block.name), says=chosen.says)
-    options = {key: asked[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}
+        reject_with("--width", ["side"])
+    choice = two_layer_choice(params, default=DEFAULT_BLOCK)
+    info("body: {name}; {says}", name=lazy_gettext(choice.block.name), says=choice.description)
+    options = {key: params[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}
     responses = [
-        solve_jump(chosen.block, motion, contact=chosen.contact, windows=source.window, **options)
-        for record in load(source, whole=True)
-        for motion in motions(record, source)
+        solve_jump(choice.block, motion, contact=choice.contact, windows=source.window, **options)
+        for record in load_records(source, keep_whole=True)
+        for motion in selected_motions(record, source)
     ]
-    emit(
-        document(responses, chosen.block, tenon=tenon),
+    write_results(
+        document(responses, choice.block, tenon=tenon),
         output,
         responses=responses,
         tables=lambda: chain(
             shown.tables(responses, gal=output.gal, tenon=tenon),
-            after_jump(source, asked, DEFAULT_BLOCK, chosen.block, chosen.contact, tenon),
+            jump_hint(source, params, DEFAULT_BLOCK, choice.block, choice.contact, tenon),
         ),
     )

@@ -9,38 +9,38 @@ import click
 
 from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.idle import refuse_without
-from seisblock.cli.meant import OneOf
+from seisblock.cli.console import info
+from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH
-from seisblock.errors import InputError
-from seisblock.units import parse_acceleration
-from seisblock.words import said, tell
+from seisblock.core.errors import InputError
+from seisblock.core.i18n import gettext, lazy_gettext
+from seisblock.core.units import parse_acceleration
 
 if TYPE_CHECKING:
     from seisblock.measures.duration import Side
 
 
-SIDES: dict[str, Side] = {"+": "positive", "-": "negative", "both": "both"}
+THRESHOLD_SIDES: dict[str, Side] = {"+": "positive", "-": "negative", "both": "both"}
 """Which side of the threshold each value of ``--direction`` means."""
 
 
-def _acceleration(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+def _parse_acceleration(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
     """Accept an acceleration with its unit."""
     if value is None:
         return None
     try:
-        return parse_acceleration(value, what=said("the threshold"))
+        return parse_acceleration(value, quantity=lazy_gettext("the threshold"))
     except InputError as error:
-        raise click.BadParameter(tell(error.said), ctx, param) from error
+        raise click.BadParameter(gettext(error.message), ctx, param) from error
 
 
-def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
+def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
     """Refuse a negative corner; 0 is none."""
     if not 0.0 <= value < float("inf"):
-        raise click.BadParameter(tell("must be 0 (none) or a positive number of Hz, found {value}", value=value), ctx, param)
+        raise click.BadParameter(gettext("must be 0 (none) or a positive number of Hz, found {value}", value=value), ctx, param)
     return value or None
 
 
@@ -51,7 +51,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
 @real_record_options
 @option(
     "--threshold",
-    callback=_acceleration,
+    callback=_parse_acceleration,
     metavar="A",
     help="Threshold of the durations, with its unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]",
 )
@@ -61,7 +61,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
 @side_option("Which side of --block in plan lies along the motion.")
 @option(
     "--direction",
-    type=OneOf(SIDES),
+    type=SuggestingChoice(THRESHOLD_SIDES),
     default="both",
     show_default=True,
     help="Sign of the acceleration that counts for the durations.",
@@ -71,7 +71,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
     type=float,
     default=0.05,
     show_default=True,
-    callback=_corner,
+    callback=_check_corner,
     metavar="HZ",
     help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.",
 )
@@ -90,36 +90,36 @@ def measure(
     Durations are those during which the acceleration exceeds a threshold: a given one, or that at which a block begins to
     rock. JMA intensity needs all three components. Times count from the record's first sample.
     """
-    from seisblock.cli.emit import emit
-    from seisblock.cli.inputs import components, load
+    from seisblock.cli.load_records import load_records, selected_components
+    from seisblock.cli.write_results import write_results
     from seisblock.measures import Conventions
     from seisblock.measures import measure as measured
-    from seisblock.present.documents.measure import document
-    from seisblock.present.scales import acceleration_unit
+    from seisblock.report.json.measure import document
+    from seisblock.report.units_display import acceleration_unit
 
     if threshold["block"] is None:
-        refuse_without("--block", ["side"])
-    rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
+        reject_without("--block", ["side"])
+    rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=THRESHOLD_SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
-    records = load(source, vertical_counts=True, real=True)
-    answers = [measured(r, components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
+    records = load_records(source, vertical_counts=True, use_recording=True)
+    answers = [measured(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
-    def shown() -> Any:
-        from seisblock.present.text.measure import tables
+    def make_tables() -> Any:
+        from seisblock.report.text.measure import tables
 
         return tables(records, answers, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.present.figures.measure import measure_figure
+        from seisblock.report.figures.measure import measure_figure
 
         if len(records) > 1:
             raise InputError("--plot draws one record, found {count}: give one, or run the command for each", count=len(records))
         return measure_figure(records[0], answers[0], gal=output.gal)
 
     size, unit = acceleration_unit(gal=output.gal)
-    say("threshold of the durations: {level:.4g} {unit} ({origin})", level=level / size, unit=unit, origin=origin)
-    emit(answer, output, tables=shown, csv=lambda path: _write(path, records, answers), figure=figure)
+    info("threshold of the durations: {level:.4g} {unit} ({origin})", level=level / size, unit=unit, origin=origin)
+    write_results(answer, output, tables=make_tables, csv=lambda path: _write_histories(path, records, answers), figure=figure)
 
 
 def _threshold(
@@ -128,31 +128,31 @@ def _threshold(
     """Return the threshold, m/s^2, and where it comes from, from whichever of its forms was given."""
     sizes = width is not None or height is not None
     if (threshold is not None) + sizes + (block is not None) > 1:
-        raise click.UsageError(tell("give one of --threshold, --width with --height, and --block"))
+        raise click.UsageError(gettext("give one of --threshold, --width with --height, and --block"))
     if block is not None:
-        from seisblock.bodies.toml import read_table
-        from seisblock.bodies.two_layer import two_layer_block
+        from seisblock.bodies.toml import read_body_toml
+        from seisblock.bodies.two_layer import two_layer_from_table
 
-        body = two_layer_block(read_table(block), side)
-        return body.rocking_threshold(gravity), said("rocking threshold of {name}", name=said(body.name))
+        body = two_layer_from_table(read_body_toml(block), side)
+        return body.rocking_threshold(gravity), lazy_gettext("rocking threshold of {name}", name=lazy_gettext(body.name))
     if sizes:
         from seisblock.measures import block_threshold
 
         if width is None or height is None:
-            raise click.UsageError(tell("the rocking threshold g B/H of a block needs both --width and --height"))
-        return block_threshold(width, height, gravity=gravity), said(
+            raise click.UsageError(gettext("the rocking threshold g B/H of a block needs both --width and --height"))
+        return block_threshold(width, height, gravity=gravity), lazy_gettext(
             "g B/H of a block {width:g} m wide and {height:g} m high", width=width, height=height
         )
     if threshold is not None:
-        return threshold, said("given")
+        return threshold, lazy_gettext("given")
     from seisblock.measures.summary import DEFAULT_THRESHOLD
 
-    return DEFAULT_THRESHOLD, said("default, 0.1 g")
+    return DEFAULT_THRESHOLD, lazy_gettext("default, 0.1 g")
 
 
-def _write(path: Path, records: list[Any], answers: list[Any]) -> None:
+def _write_histories(path: Path, records: list[Any], answers: list[Any]) -> None:
     """Write the histories behind the numbers."""
-    from seisblock.present.files import write_table
-    from seisblock.present.text.measure import history_table
+    from seisblock.report.io.atomic import write_table
+    from seisblock.report.text.measure import history_table
 
     write_table(path, *history_table(records, answers))

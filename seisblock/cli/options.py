@@ -10,17 +10,17 @@ from typing import Any
 
 import click
 
-from seisblock import checks
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import argument, option
-from seisblock.cli.meant import OneOf
 from seisblock.cli.output import DPI, SLOW, Output, check_output
-from seisblock.cli.quiet import quietly
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import SIZE, STOREY, WINDOW
-from seisblock.errors import ParameterError
-from seisblock.records.storey import Storey
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted, tell
+from seisblock.cli.verbosity import quiet_output
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, gettext
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.records.floor_motion import Storey
 
 Function = Callable[..., Any]
 
@@ -45,43 +45,45 @@ class Source:
     strict: bool
 
 
-def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
-    """Return a callback that refuses what a check of :mod:`seisblock.checks` does."""
+def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
+    """Return a callback that refuses what a check of :mod:`seisblock.core.checks` does."""
 
     def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
         try:
-            return None if value is None else check(noted("it"), value)
+            return None if value is None else check(N_("it"), value)
         except ParameterError as error:
-            raise click.BadParameter(tell(error.said), ctx, param) from None
+            raise click.BadParameter(gettext(error.message), ctx, param) from None
 
     return refuse
 
 
-_positive, _nonzero = checked(checks.positive), checked(checks.nonzero)
+_positive, _nonzero = check_callback(checks.positive), check_callback(checks.nonzero)
 
 
-def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
+def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
     """Accept the option repeated, and lists with commas; a list of nothing is refused."""
     names = [[part.strip() for part in text.split(",") if part.strip()] for text in value]
     if not all(names):
-        raise click.BadParameter(tell("it is empty: name a component, or degrees clockwise from north"), ctx, param)
-    return tuple(name for each in names for name in each)
+        raise click.BadParameter(gettext("it is empty: name a component, or degrees clockwise from north"), ctx, param)
+    return tuple(name for group in names for name in group)
 
 
-def _record(told: str) -> Callable[[Function], Function]:
+def _record_argument(help_text: str) -> Callable[[Function], Function]:
     """Return the argument RECORD, of which the help says what stands for none."""
-    return argument("record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=offered.records, help=told)
+    return argument(
+        "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
+    )
 
 
-_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
-_REAL_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
-_SUITE_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: those of --suite]"))
+_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
+_REAL_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
+_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: those of --suite]"))
 _RECORD_OPTIONS = (
     option(
         "--component",
         multiple=True,
-        callback=_components,
-        shell_complete=offered.components,
+        callback=_split_components,
+        shell_complete=shell_completion.complete_components,
         metavar="NS|EW|UD|all|DEGREES",
         section="Record",
         help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",
@@ -135,20 +137,20 @@ _RECORD_OPTIONS = (
         section="Record",
         help="Station code, in a bundle that holds several, or place in a structure; all takes each for itself.",
     ),
-    option("--level", type=OneOf(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
+    option("--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
     option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
 )
 
 _JSON = option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
 
 
-def _csv(text: str) -> Any:
+def _csv_option(text: str) -> Any:
     """Return ``--csv``, with what it writes."""
     return option("--csv", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE", help=text)
 
 
-_CSV_HISTORIES = _csv("Write the time history, SI units; - writes it to stdout, and nothing else.")
-_CSV_ROWS = _csv("Write what the table holds, SI units; - writes it to stdout, and nothing else.")
+_CSV_HISTORIES = _csv_option("Write the time history, SI units; - writes it to stdout, and nothing else.")
+_CSV_ROWS = _csv_option("Write what the table holds, SI units; - writes it to stdout, and nothing else.")
 
 _FIGURE_OPTIONS = (
     option(
@@ -171,7 +173,7 @@ _FIGURE_OPTIONS = (
     option("--title", section="Output", metavar="TEXT", help="Line above the figure; empty for none. [default: station, time, processing]"),
 )
 
-_FILM_OPTIONS = (
+_ANIMATION_OPTIONS = (
     option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
     option(
         "--slow",
@@ -197,22 +199,22 @@ _QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stde
 
 def record_options(function: Function) -> Function:
     """Give a command RECORD and the options that select and prepare it; it receives one ``source``."""
-    return _collected(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
+    return _collect_options(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def real_record_options(function: Function) -> Function:
     """Give a command the same, where a recording stands for none."""
-    return _collected(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
+    return _collect_options(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def suite_record_options(function: Function) -> Function:
     """Give a command the same, where a suite stands for none."""
-    return _collected(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
+    return _collect_options(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
-def preparing_options(function: Function) -> Function:
+def preparation_options(function: Function) -> Function:
     """Give a command the options that prepare records that it is told of otherwise; it receives one ``source``, of no record."""
-    return _collected(function, _RECORD_OPTIONS, Source, "source", record=())
+    return _collect_options(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
 def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
@@ -227,12 +229,12 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
     accelerations : bool
         Whether there are any to have a unit.
     """
-    texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_FILM_OPTIONS if film else ()))
+    texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
-    return lambda function: _collected(_looking_ahead(function), declarations, Output, "output")
+    return lambda function: _collect_options(_with_output_check(function), declarations, Output, "output")
 
 
-def _looking_ahead(function: Function) -> Function:
+def _with_output_check(function: Function) -> Function:
     """Let a command look at where its answer goes before it computes it."""
 
     @functools.wraps(function)
@@ -256,16 +258,16 @@ def gravity_option(function: Function) -> Function:
     )(function)
 
 
-def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **known: Any) -> Function:
+def _collect_options(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **constants: Any) -> Function:
     """Gather a family of options, and what is known beside them, into one argument."""
     names = [field.name for field in fields(kind)]
 
     @functools.wraps(function)
-    def gathered(*args: Any, **kwargs: Any) -> Any:
-        chosen = kind(**{key: kwargs.pop(key) for key in names if key in kwargs}, **known)
-        with quietly(getattr(chosen, "quiet", None)):
-            return function(*args, **{name: chosen}, **kwargs)
+    def wrapper(*args: Any, **kwargs: Any) -> Any:
+        collected = kind(**{key: kwargs.pop(key) for key in names if key in kwargs}, **constants)
+        with quiet_output(getattr(collected, "quiet", None)):
+            return function(*args, **{name: collected}, **kwargs)
 
     for declare in reversed(declarations):
-        gathered = declare(gathered)
-    return gathered
+        wrapper = declare(wrapper)
+    return wrapper

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from seisblock.errors import OutputError
-from seisblock.present.files import check_figure, check_film, refuse_collisions
-from seisblock.present.suffixes import check_text
-from seisblock.units import Size
+from seisblock.core.errors import OutputError
+from seisblock.core.units import FigureSize
+from seisblock.report.io.atomic import check_animation, check_distinct_outputs, check_figure
+from seisblock.report.io.suffix import check_text_suffix
 
 STDOUT = Path("-")
 """The name that stands for stdout."""
@@ -24,7 +24,7 @@ class Output:
     json: bool
     csv: Path | None
     plot: Path | None
-    size: Size | None
+    size: FigureSize | None
     dpi: int
     title: str | None
     quiet: bool
@@ -48,20 +48,20 @@ def check_output(output: Output) -> None:
     if output.plot is not None and output.plot != STDOUT:
         check_figure(output.plot)
     if output.animate is not None:
-        check_film(output.animate)
+        check_animation(output.animate)
     _check_stdout(output)
-    refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
+    check_distinct_outputs(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
     if output.csv is not None and output.csv != STDOUT:
-        check_text(output.csv, "CSV")
+        check_text_suffix(output.csv, "CSV")
 
 
 def _check_stdout(output: Output) -> None:
     """Refuse two things that both go to stdout, and a name beside ``-`` that would be left unwritten."""
     if STDOUT not in (output.csv, output.plot):
         return
-    named = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}
-    asked = [name for name, value in named.items() if value is not None]
+    destinations = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}
+    requested = [name for name, value in destinations.items() if value is not None]
     first = "--csv" if output.csv == STDOUT else "--plot"
-    others = [name for name in asked if name != first and (first == "--csv" or named[name] in (STDOUT, True))]
-    if others:
-        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=others)
+    conflicting = [name for name in requested if name != first and (first == "--csv" or destinations[name] in (STDOUT, True))]
+    if conflicting:
+        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=conflicting)

@@ -16,17 +16,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from seisblock.cli.quiet import is_quiet
-from seisblock.dynamics.halt import hearing
-from seisblock.words import percent, tell
+from seisblock.cli.verbosity import is_quiet
+from seisblock.core.i18n import format_percent, gettext
+from seisblock.dynamics.cancellation import progress_scope
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-PATIENCE_S = 0.6
+SHOW_DELAY_S = 0.6
 """Silence that is borne, so that a second does not pass without a sign: work that is done sooner shows nothing."""
 
-READY_S = 0.3
+REFRESH_DELAY_S = 0.3
 """After so long in silence what paints is fetched, so that it is there when patience ends."""
 
 TICK_S = 0.1
@@ -35,33 +35,33 @@ TICK_S = 0.1
 STALE_S = 1.0
 """A motion of which nothing was heard for so long is followed no more."""
 
-MOST_COUNTED = 100_000
+MAX_COUNT = 100_000
 """What there is more of is told as a share."""
 
 
 @dataclass(eq=False)
-class Work:
+class Task:
     """What is being done, and how much of it; a total of None: nobody knows."""
 
     text: str
-    done: int = 0
+    completed: int = 0
     total: int | None = None
-    begun: float = field(default_factory=time.monotonic)
+    started: float = field(default_factory=time.monotonic)
 
-    def advance(self, done: int, total: int) -> None:
+    def advance(self, completed: int, total: int) -> None:
         """Take note of the number done and the number in all."""
-        self.done, self.total = done, total
+        self.completed, self.total = completed, total
 
     def told(self) -> str:
         """Return how much is done."""
         if self.total is None:
             return ""
-        counted = f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else percent(self.done / self.total)
-        passed = time.monotonic() - self.begun
+        count_text = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
+        elapsed = time.monotonic() - self.started
         return (
-            counted
-            if passed < PATIENCE_S or not self.done
-            else tell("{counted}, {rate:.3g} per s", counted=counted, rate=self.done / passed)
+            count_text
+            if elapsed < SHOW_DELAY_S or not self.completed
+            else gettext("{counted}, {rate:.3g} per s", counted=count_text, rate=self.completed / elapsed)
         )
 
 
@@ -69,16 +69,16 @@ class StatusLine:
     """The line of one run, and the thread that paints it."""
 
     def __init__(self) -> None:
-        self.works: list[Work] = []
-        self._followed = Work(tell("following the motion"))
-        self._news, self._heard = time.monotonic(), -math.inf
-        self._shown: tuple[str, bool] | None = None
+        self.works: list[Task] = []
+        self._motion_task = Task(gettext("following the motion"))
+        self._last_message_s, self._last_event_s = time.monotonic(), -math.inf
+        self._displayed: tuple[str, bool] | None = None
         self._bar: Bar | None = None
         self._lock, self._ended = threading.Lock(), threading.Event()
         self._painter = threading.Thread(target=self._watch, daemon=True)
 
     @contextlib.contextmanager
-    def watched(self) -> Iterator[None]:
+    def painting(self) -> Iterator[None]:
         """Paint inside the block; nothing is left behind."""
         self._painter.start()
         try:
@@ -88,12 +88,12 @@ class StatusLine:
             self._painter.join()
 
     @contextlib.contextmanager
-    def hushed(self) -> Iterator[None]:
+    def paused(self) -> Iterator[None]:
         """Leave the screen to what is said inside the block; patience begins anew after it."""
         with self._lock:
             self._clear()
             yield
-            self._news = time.monotonic()
+            self._last_message_s = time.monotonic()
 
     def end(self) -> None:
         """Leave the screen for good."""
@@ -101,34 +101,34 @@ class StatusLine:
         with self._lock:
             self._clear()
 
-    def hear(self, done: int, total: int) -> None:
+    def on_progress(self, completed: int, total: int) -> None:
         """Take note of how far a single motion was followed; shown where nothing else is."""
-        self._followed.advance(done, total)
-        self._heard = time.monotonic()
+        self._motion_task.advance(completed, total)
+        self._last_event_s = time.monotonic()
 
     def _watch(self) -> None:
         """Paint again and again, until the end."""
-        if not self._ended.wait(READY_S):
-            _bar(known=False)
+        if not self._ended.wait(REFRESH_DELAY_S):
+            _make_bar(has_total=False)
         while not self._ended.wait(TICK_S):
             with self._lock:
-                if time.monotonic() - self._news > PATIENCE_S and not self._ended.is_set():
+                if time.monotonic() - self._last_message_s > SHOW_DELAY_S and not self._ended.is_set():
                     self._paint(self._present())
 
-    def _present(self) -> Work:
+    def _present(self) -> Task:
         """Return what is done last, or the motion that is being followed."""
-        followed = len(self.works) == 1 and time.monotonic() - self._heard < STALE_S
-        return self._followed if followed else self.works[-1]
+        follows_motion = len(self.works) == 1 and time.monotonic() - self._last_event_s < STALE_S
+        return self._motion_task if follows_motion else self.works[-1]
 
-    def _paint(self, work: Work) -> None:
+    def _paint(self, work: Task) -> None:
         """Show what is being done."""
-        known = work.total is not None
-        if self._bar is None or self._shown != (work.text, known):
+        has_total = work.total is not None
+        if self._bar is None or self._displayed != (work.text, has_total):
             self._clear()
-            self._bar, self._shown = _bar(known=known), (work.text, known)
+            self._bar, self._displayed = _make_bar(has_total=has_total), (work.text, has_total)
             self._bar.add_task(work.text, total=work.total, told=work.told())
             self._bar.start()
-        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.done, total=work.total, told=work.told())
+        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.completed, total=work.total, told=work.told())
         self._bar.refresh()
 
     def _clear(self) -> None:
@@ -143,7 +143,7 @@ _line: StatusLine | None = None
 
 
 @contextlib.contextmanager
-def progress(what: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
+def progress(text: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
     """Say what is being done inside the block, a text that is told; give a function to call with the number done and the number in all.
 
     The outermost block of a run has the line; inside it, what is done last is what is shown.
@@ -152,38 +152,38 @@ def progress(what: str, /, **values: Any) -> Iterator[Callable[[int, int], None]
     with contextlib.ExitStack() as stack:
         if _line is None and _is_watched():
             _line = StatusLine()
-            stack.callback(_forget)
-            stack.enter_context(hearing(_line.hear))
-            work = Work(tell(what, **values))
+            stack.callback(_reset)
+            stack.enter_context(progress_scope(_line.on_progress))
+            work = Task(gettext(text, **values))
             _line.works.append(work)
-            stack.enter_context(_line.watched())
+            stack.enter_context(_line.painting())
         elif _line is not None:
-            work = Work(tell(what, **values))
+            work = Task(gettext(text, **values))
             _line.works.append(work)
             stack.callback(_line.works.remove, work)
         else:
-            work = Work(what)
+            work = Task(text)
         yield work.advance
 
 
-def at_work(what: str, /, **values: Any) -> None:
+def set_task(text: str, /, **values: Any) -> None:
     """Say what a run does from now on, wherever it says nothing more particular."""
     if _line is not None:
-        _line.works[0].text = tell(what, **values)
+        _line.works[0].text = gettext(text, **values)
 
 
-def hushed() -> contextlib.AbstractContextManager[None]:
+def paused() -> contextlib.AbstractContextManager[None]:
     """Leave the screen to a text that is said inside the block."""
-    return contextlib.nullcontext() if _line is None else _line.hushed()
+    return contextlib.nullcontext() if _line is None else _line.paused()
 
 
-def end() -> None:
+def close_line() -> None:
     """Clear the line for the rest of the run: its answer is about to be shown, or silence was asked for."""
     if _line is not None:
         _line.end()
 
 
-def _forget() -> None:
+def _reset() -> None:
     """Let the next run have a line of its own."""
     global _line
     _line = None
@@ -194,13 +194,13 @@ def _is_watched() -> bool:
     return not is_quiet() and sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
 
 
-def _bar(*, known: bool) -> Bar:
+def _make_bar(*, has_total: bool) -> Bar:
     """Return what rich paints: a bar that fills and the time that is left, or one that only moves and the time that has passed."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    from seisblock.present.text.tables import console
+    from seisblock.report.text.tables import console
 
     columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[told]}", markup=False)
-    clock = TimeRemainingColumn() if known else TimeElapsedColumn()
+    clock = TimeRemainingColumn() if has_total else TimeElapsedColumn()
     screen = console(stderr=True)
     return Progress(*columns, clock, console=screen, transient=True, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)

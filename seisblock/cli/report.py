@@ -8,17 +8,17 @@ from pathlib import Path
 import click
 
 from seisblock.bodies.kinds import KINDS
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.idle import refuse_without
-from seisblock.cli.meant import OneOf
+from seisblock.cli.console import info, warning
+from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, record_options
-from seisblock.cli.quiet import quietly
-from seisblock.cli.talk import say, warn
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, MU
-from seisblock.errors import InputError
-from seisblock.words import language, said
+from seisblock.cli.verbosity import quiet_output
+from seisblock.core.errors import InputError
+from seisblock.core.i18n import get_locale, lazy_gettext
 
 DEFAULT_BODIES = ("gravestone", "chozusha")
 
@@ -32,13 +32,16 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     "--body",
     multiple=True,
     metavar="NAME|FILE|BxH",
-    shell_complete=offered.bodies(),
+    shell_complete=shell_completion.complete_bodies(),
     section="Body",
     help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]",
 )
 @side_option("Side of a two-layer body along the motion.")
 @option(
-    "--kind", type=OneOf(KINDS), section="Body", help="Kind of the bodies given by width and height. [default: block, with sharp edges]"
+    "--kind",
+    type=SuggestingChoice(KINDS),
+    section="Body",
+    help="Kind of the bodies given by width and height. [default: block, with sharp edges]",
 )
 @option(
     "--mu", type=MU, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
@@ -86,39 +89,41 @@ def report(
 
     It opens without network, on a phone and on paper. Margins stand beside every verdict.
     """
-    from seisblock.bodies.subjects import is_sizes, subject
-    from seisblock.cli.inputs import components, load
+    from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.progress import progress
-    from seisblock.present.figures.fonts import MISSING, drawable
-    from seisblock.present.files import refuse_collisions, write_text
-    from seisblock.present.pages.report import report as page
-    from seisblock.present.suffixes import check_text
+    from seisblock.report.figures.fonts import NO_FONT, drawable_locale
+    from seisblock.report.html.report import report as page
+    from seisblock.report.io.atomic import check_distinct_outputs, write_text
+    from seisblock.report.io.suffix import check_text_suffix
     from seisblock.studies.assessment import assess
+    from seisblock.studies.report.models import body_models, is_sizes
 
-    refuse_collisions(output)
-    check_text(output, "HTML")
-    with quietly(quiet):
+    check_distinct_outputs(output)
+    check_text_suffix(output, "HTML")
+    with quiet_output(quiet):
         names = body or DEFAULT_BODIES
         if not body:
-            say("no --body given: {bodies}", bodies=DEFAULT_BODIES)
+            info("no --body given: {bodies}", bodies=DEFAULT_BODIES)
         subjects = [
-            subject(name, side=side, kind=kind or "block", mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical)
+            body_models(name, side=side, kind=kind or "block", mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical)
             for name in names
         ]
-        if all(each.layers is None for each in subjects):
-            refuse_without(said("a two-layer --body"), ("side", "drop"))
+        if all(item.layers is None for item in subjects):
+            reject_without(lazy_gettext("a two-layer --body"), ("side", "drop"))
         if not any(is_sizes(name) for name in names):
-            refuse_without(said("a --body given by width and height"), ("kind",))
-        records = load(source)
+            reject_without(lazy_gettext("a --body given by width and height"), ("kind",))
+        records = load_records(source)
         if len(records) != 1:
             raise InputError("a report is about one record, found {count}: give one, or run the command for each", count=len(records))
-        if drawable() != language():
-            say(MISSING)
+        if drawable_locale() != get_locale():
+            info(NO_FONT)
         with progress("reporting") as advance:
-            found = assess(records[0], subjects, components=components(records[0], source), drop=drop, gravity=gravity, progress=advance)
-        for message in found.warnings:
-            warn(message)
+            assessment = assess(
+                records[0], subjects, components=selected_components(records[0], source), drop=drop, gravity=gravity, progress=advance
+            )
+        for message in assessment.warnings:
+            warning(message)
         with progress("drawing"):
-            made = page(found, command=shlex.join(["seisblock", *click.get_current_context().obj]))
-        write_text(output, made)
-        say("wrote {path}", path=output)
+            html = page(assessment, command=shlex.join(["seisblock", *click.get_current_context().obj]))
+        write_text(output, html)
+        info("wrote {path}", path=output)

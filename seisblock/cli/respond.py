@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.bodies.standing import choose_standing, standing_options
+from seisblock.cli.azimuth_sweep import azimuth_figure, sweep_motions
+from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
+from seisblock.cli.console import info
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.sweeping import drawing, swept
-from seisblock.cli.talk import say
-from seisblock.cli.versions import ranges_replaced, version_options, widths_of
+from seisblock.cli.versions import pop_spreads, ranges_replaced, version_options
+from seisblock.cli.write_results import write_results
 
 if TYPE_CHECKING:
     from seisblock.records import Record
-    from seisblock.studies.standing.azimuths import AzimuthFate
+    from seisblock.studies.respond.azimuths import RespondAzimuth
 
-VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth")
+VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth")
 
 
 @click.command(
@@ -31,13 +31,13 @@ VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth")
     ),
 )
 @record_options
-@standing_options
+@free_standing_options
 @option(
     "--vertical/--no-vertical",
     default=None,
     help="Whether the vertical component acts. [default: where the record has one]",
 )
-@version_options(*VARIED, runs=200)
+@version_options(*VARIED_PARAMETERS, runs=200)
 @option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
 @gravity_option
 @output_options()
@@ -50,7 +50,7 @@ def respond(
     moved: float,
     seed: int,
     settle: float,
-    **given: Any,
+    **params: Any,
 ) -> None:
     """Tell what a free-standing object does: rests, slides, rocks, slides while rocking, flies, falls, whichever comes.
 
@@ -61,50 +61,50 @@ def respond(
     answers for the worst. A scanned --block is another block in each direction.
     """
     from seisblock.cli.progress import progress
-    from seisblock.present.documents.respond import document
-    from seisblock.present.text import respond as shown
-    from seisblock.solvers.respond.solve import solve_respond
-    from seisblock.studies.standing.probability import Versions, respond_probability
+    from seisblock.models.respond.solve import solve_respond
+    from seisblock.report.json.respond import document
+    from seisblock.report.text import respond as shown
+    from seisblock.studies.respond.probability import ParameterVariation, respond_probability
 
-    widths = widths_of(given, *VARIED)
+    widths = pop_spreads(params, *VARIED_PARAMETERS)
     replaced = ranges_replaced()
-    chosen = choose_standing({**given, "gal": output.gal})
-    say("body: {says}", says=chosen.says)
+    choice = choose_free_standing({**params, "gal": output.gal})
+    info("body: {says}", says=choice.description)
     options: dict[str, Any] = {
-        "mu": chosen.mu,
-        "mu_kinetic": chosen.mu_kinetic,
-        **{name: given[name] for name in ("restitution", "rocking_restitution", "tenon")},
+        "mu": choice.mu,
+        "mu_kinetic": choice.mu_kinetic,
+        **{name: params[name] for name in ("restitution", "rocking_restitution", "tenon")},
         "gravity": gravity,
         "settle_s": settle,
     }
     responses, extras = [], []
-    for motion, directions in swept(source, _all_around(chosen.body, vertical, options)):
-        block = chosen.along(motion)
+    for motion, directions in sweep_motions(source, _azimuth_study(choice.body, vertical, options)):
+        block = choice.block_for_motion(motion)
         responses.append(solve_respond(block, motion, vertical=vertical, **options))
-        extra: dict[str, Any] = chosen.entry_of(block)
+        extra: dict[str, Any] = choice.block_key(block)
         if runs:
-            same = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
+            study_options = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
             with progress("versions {name}", name=motion.name) as advance:
                 extra["probability"] = respond_probability(
-                    block.known(*replaced), motion, versions=Versions(**widths), progress=advance, **same
+                    block.without_ranges(*replaced), motion, versions=ParameterVariation(**widths), progress=advance, **study_options
                 )
         if directions:
             extra["directions"] = directions
         extras.append(extra)
-    emit(
+    write_results(
         document(responses, responses[0].body, extras),
         output,
         responses=responses,
-        figure=drawing(responses, extras, gal=output.gal),
+        figure=azimuth_figure(responses, extras, gal=output.gal),
         tables=lambda: shown.tables(responses, extras, gal=output.gal),
     )
 
 
-def _all_around(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[AzimuthFate]]:
+def _azimuth_study(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[RespondAzimuth]]:
     """Return what looks in every direction of a record."""
 
-    def look(record: Record) -> Sequence[AzimuthFate]:
-        from seisblock.studies.standing.azimuths import respond_directions
+    def look(record: Record) -> Sequence[RespondAzimuth]:
+        from seisblock.studies.respond.azimuths import respond_directions
 
         return respond_directions(body, record, vertical=vertical, **options)
 

@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock import checks
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.options import checked, output_options
+from seisblock.cli.console import info
+from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
-from seisblock.words import tell
+from seisblock.cli.write_results import write_results
+from seisblock.core import checks
+from seisblock.core.i18n import gettext
 
 if TYPE_CHECKING:
+    from seisblock.studies.fragility.io import FragilityCurve
     from seisblock.studies.hazard.curve import Hazard
-    from seisblock.studies.hazard.given import GivenFragility
 
-_YEARS = checked(partial(checks.positive, unit="years"))
+_check_years = check_callback(partial(checks.positive, unit="years"))
 
 
 @click.command(
@@ -36,7 +36,7 @@ _YEARS = checked(partial(checks.positive, unit="years"))
     required=True,
     metavar="FILE",
     type=click.Path(path_type=Path),
-    shell_complete=offered.hazards,
+    shell_complete=shell_completion.complete_hazards,
     section="Site",
     help="CSV of the hazard: levels with their unit (pgv_m_s, pga_g, sa(0.5)_gal), annual_rate (or annual_poe, poe_50_years), and branch "
     "and weight where there are several curves. Bundled: synthetic_hazard.csv.",
@@ -66,63 +66,63 @@ _YEARS = checked(partial(checks.positive, unit="years"))
     type=float,
     default=50.0,
     show_default=True,
-    callback=_YEARS,
+    callback=_check_years,
     help="Time for which the probability is told, years.",
 )
 @option(
     "--stood",
     type=float,
-    callback=_YEARS,
+    callback=_check_years,
     metavar="YEARS",
     help="How long it did not happen, years: the likelihood of each branch of the hazard. [default: not asked]",
 )
 @output_options(histories=False, film=False)
-def risk(output: Output, hazard: Path, years: float, stood: float | None, **asked: Any) -> None:
+def risk(output: Output, hazard: Path, years: float, stood: float | None, **params: Any) -> None:
     """Tell how often an object falls, slides or rocks at a site, in a year and in many.
 
     The frequency is the integral of the fragility over the hazard, a power law between the levels of its table; beyond them it goes on
     with its slope, and it is said how much comes from there.
     """
-    from seisblock.present.documents.risk import document
+    from seisblock.report.json.risk import document
     from seisblock.studies.hazard.risk import find_risk
 
-    ways = [asked["fragility"] is not None, asked["median"] is not None or asked["beta"] is not None]
-    if sum(ways) != 1 or (asked["median"] is None) != (asked["beta"] is None):
-        raise click.UsageError(tell("give --fragility FILE, or --median and --beta"))
-    site, curves = _given(hazard, asked)
-    found = [(each, find_risk(each.curve, site, years=years, stood_years=stood)) for each in curves]
+    forms = [params["fragility"] is not None, params["median"] is not None or params["beta"] is not None]
+    if sum(forms) != 1 or (params["median"] is None) != (params["beta"] is None):
+        raise click.UsageError(gettext("give --fragility FILE, or --median and --beta"))
+    site, curves = _load_inputs(hazard, params)
+    risks = [(fragility, find_risk(fragility.curve, site, years=years, stood_years=stood)) for fragility in curves]
 
     def tables() -> Any:
-        from seisblock.present.text.risk import tables as shown
+        from seisblock.report.text.risk import tables as shown
 
-        return shown(found, site, gal=output.gal)
+        return shown(risks, site, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.present.figures.risk import figure as drawn
+        from seisblock.report.figures.risk import figure as drawn
 
-        return drawn(found, site, gal=output.gal)
+        return drawn(risks, site, gal=output.gal)
 
     def csv(path: Path) -> None:
-        from seisblock.present.files import write_table
-        from seisblock.present.text.risk import columns
+        from seisblock.report.io.atomic import write_table
+        from seisblock.report.text.risk import csv_columns
 
-        write_table(path, *columns(found, site))
+        write_table(path, *csv_columns(risks, site))
 
-    emit(document(found, site, hazard.name), output, tables=tables, figure=figure, csv=csv)
+    write_results(document(risks, site, hazard.name), output, tables=tables, figure=figure, csv=csv)
 
 
-def _given(path: Path, asked: dict[str, Any]) -> tuple[Hazard, tuple[GivenFragility, ...]]:
+def _load_inputs(path: Path, params: dict[str, Any]) -> tuple[Hazard, tuple[FragilityCurve, ...]]:
     """Return the hazard, and the curves that belong to it."""
-    from seisblock.studies.hazard.given import fragility_in, matching, read_fragility
+    from seisblock.core.units import is_unitless
+    from seisblock.studies.fragility.io import check_measure, fragility_from_median, read_fragility
     from seisblock.studies.hazard.table import read_hazard
-    from seisblock.units import is_bare
 
-    if asked["fragility"] is None:
-        site = read_hazard(path, im=asked["im"])
-        given = fragility_in(site, asked["median"], asked["beta"])
-        if is_bare(asked["median"]) and given.unit != "1":
-            say("the median, {median}, has no unit: it is taken in {unit}", median=asked["median"].strip(), unit=given.unit)
-        return site, (given,)
-    curves = read_fragility(asked["fragility"])
-    site = read_hazard(path, im=asked["im"] or curves[0].im)
-    return site, matching(curves, site)
+    if params["fragility"] is None:
+        site = read_hazard(path, im=params["im"])
+        fragility = fragility_from_median(site, params["median"], params["beta"])
+        if is_unitless(params["median"]) and fragility.unit != "1":
+            info("the median, {median}, has no unit: it is taken in {unit}", median=params["median"].strip(), unit=fragility.unit)
+        return site, (fragility,)
+    curves = read_fragility(params["fragility"])
+    site = read_hazard(path, im=params["im"] or curves[0].im)
+    return site, check_measure(curves, site)

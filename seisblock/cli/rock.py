@@ -9,23 +9,23 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.cli.azimuth_sweep import azimuth_figure, sweep_motions
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.idle import refuse_without
+from seisblock.cli.console import info
+from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
-from seisblock.cli.sweeping import drawing, swept
-from seisblock.cli.talk import say
 from seisblock.cli.types import MU, Count
-from seisblock.errors import ComponentError, ParameterError
-from seisblock.words import noted, said, tell
+from seisblock.cli.write_results import write_results
+from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.core.i18n import N_, gettext, lazy_gettext
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
 
-VERSIONS = 200
+DEFAULT_RUNS = 200
 """Versions of body and shaking that a margin is accompanied by, where no number is asked for."""
 
 
@@ -44,7 +44,7 @@ VERSIONS = 200
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
 @option(
     "--perturb",
-    type=Count(noted("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
     metavar="N",
     help="Repeat N times with small changes: probability of overturning.",
 )
@@ -82,32 +82,32 @@ def rock(
     degrees, and answers for the worst. A scanned --block is another block in each direction.
     """
     from seisblock.cli.bodies.block import choose_block
-    from seisblock.cli.elsewhere import after_rock
-    from seisblock.present.documents.rock import document
-    from seisblock.present.text import rock as shown
-    from seisblock.solvers.rock.outcome import friction_suffices
-    from seisblock.solvers.rock.solve import solve_rock
-    from seisblock.studies.agreement import agreement
-    from seisblock.studies.rocking.margin import find_margin, flagged
+    from seisblock.cli.hints import rock_hint
+    from seisblock.models.rock.outcome import friction_suffices
+    from seisblock.models.rock.solve import solve_rock
+    from seisblock.report.json.rock import document
+    from seisblock.report.text import rock as shown
+    from seisblock.studies.model_comparison import compare_models
+    from seisblock.studies.rocking.margin import find_margin, flag_near_flip
     from seisblock.studies.rocking.perturb import Spread
     from seisblock.studies.rocking.perturb import perturb as perturbed
 
     if not margin:
-        refuse_without("--margin", ["margin_limit"])
+        reject_without("--margin", ["margin_limit"])
         if perturb is None:
-            refuse_without(said("--perturb or --margin"), ["spread", "seed"])
-    chosen = choose_block({**body, "restitution": restitution, "gal": output.gal})
-    say("body: {says}", says=chosen.says)
-    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
-    source = along(source, azimuth)
+            reject_without(lazy_gettext("--perturb or --margin"), ["spread", "seed"])
+    choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
+    info("body: {says}", says=choice.description)
+    options: dict[str, Any] = {"restitution": choice.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
+    source = with_azimuths(source, azimuth)
     if mu is not None and not 0.0 <= mu < float("inf"):
         raise ParameterError("the friction coefficient must be zero or positive, found {value}", value=mu)
     responses, extras = [], []
-    for motion, directions in swept(source, _all_around(chosen.body, options)):
-        need_vertical(motion, vertical)
-        block = chosen.along(motion)
-        responses.append(flagged(solve_rock(block, motion, **options)))
-        extra: dict[str, Any] = {"agreement": agreement(block, motion, **options), **chosen.entry_of(block)}
+    for motion, directions in sweep_motions(source, _azimuth_study(choice.body, options)):
+        require_vertical(motion, vertical)
+        block = choice.block_for_motion(motion)
+        responses.append(flag_near_flip(solve_rock(block, motion, **options)))
+        extra: dict[str, Any] = {"agreement": compare_models(block, motion, **options), **choice.block_key(block)}
         if directions:
             extra["directions"] = directions
         if mu is not None:
@@ -116,23 +116,23 @@ def rock(
             with progress("margin {name}", name=motion.name) as advance:
                 extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, **options)
         if margin or perturb is not None:
-            widths, runs = Spread(spread, spread, spread, spread), perturb or VERSIONS
+            widths, runs = Spread(spread, spread, spread, spread), perturb or DEFAULT_RUNS
             with progress("perturb {name}", name=motion.name) as advance:
                 extra["perturbation"] = perturbed(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
-    emit(
+    write_results(
         document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
         output,
         responses=responses,
-        figure=drawing(responses, extras, gal=output.gal),
+        figure=azimuth_figure(responses, extras, gal=output.gal),
         tables=lambda: chain(
             shown.tables(responses, extras, gal=output.gal, mu=mu),
-            after_rock(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
+            rock_hint(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
         ),
     )
 
 
-def _all_around(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
+def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
     """Return what looks in every direction of a record."""
 
     def look(record: Record) -> Sequence[Any]:
@@ -144,7 +144,7 @@ def _all_around(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequen
     return look
 
 
-def need_vertical(motion: Motion, vertical: bool) -> None:
+def require_vertical(motion: Motion, vertical: bool) -> None:
     """Refuse ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
@@ -152,7 +152,7 @@ def need_vertical(motion: Motion, vertical: bool) -> None:
         )
 
 
-def along(source: Source, azimuth: tuple[str, ...]) -> Source:
+def with_azimuths(source: Source, azimuth: tuple[str, ...]) -> Source:
     """Return the record options with azimuths taken for components."""
     if not azimuth:
         return source
@@ -162,6 +162,6 @@ def along(source: Source, azimuth: tuple[str, ...]) -> Source:
             float(name)
         except ValueError:
             raise click.BadParameter(
-                tell("{name!r} is not a number of degrees clockwise from north", name=name), param_hint="--azimuth"
+                gettext("{name!r} is not a number of degrees clockwise from north", name=name), param_hint="--azimuth"
             ) from None
     return replace(source, component=(*source.component, *names))

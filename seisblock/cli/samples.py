@@ -6,14 +6,16 @@ from pathlib import Path
 
 import click
 
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.quiet import quietly
-from seisblock.cli.talk import answer, say, show
+from seisblock.cli.console import info, print_result, print_tables
+from seisblock.cli.verbosity import quiet_output
 
 
 @click.command(cls=Command, examples=("seisblock samples", "seisblock samples --copy synthetic_knet"))
-@argument("name", nargs=-1, metavar="[NAME]...", shell_complete=offered.samples, help="Names of bundled files. [default: all]")
+@argument(
+    "name", nargs=-1, metavar="[NAME]...", shell_complete=shell_completion.complete_samples, help="Names of bundled files. [default: all]"
+)
 @option(
     "--copy",
     "target",
@@ -29,26 +31,26 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
     NAME is a file name, or its beginning up to the first dot. Any command takes a sample's name in place of a file.
     """
-    from seisblock.present.text import samples as shown
+    from seisblock.report.text import samples as shown
 
     directory = None
     if target is not None:
         directory, name = _destination(target, name)
-    chosen = shown.chosen(name)
-    with quietly(quiet):
+    selection = shown.select_samples(name)
+    with quiet_output(quiet):
         if directory is not None:
-            written = shown.copy_samples(chosen, directory, overwrite=overwrite)
-            for path in written:
-                say("wrote {path}", path=path)
-            if not written:
-                say("{directory} holds them already", directory=directory)
+            paths = shown.copy_samples(selection, directory, overwrite=overwrite)
+            for path in paths:
+                info("wrote {path}", path=path)
+            if not paths:
+                info("{directory} holds them already", directory=directory)
     if as_json:
-        from seisblock.present.documents.library import samples_document
-        from seisblock.present.documents.write import to_json
+        from seisblock.report.json.encode import to_json
+        from seisblock.report.json.library import samples_document
 
-        answer(to_json(samples_document(chosen, directory)))
+        print_result(to_json(samples_document(selection, directory)))
     elif directory is None:
-        show(shown.listing(chosen))
+        print_tables(shown.sample_lines(selection))
 
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.inputs import load, motions
+from seisblock.cli.console import info
+from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
-from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, LENGTH, MUS
+from seisblock.cli.write_results import write_results
+from seisblock.core.i18n import gettext, lazy_gettext
 from seisblock.records.motion import ALL_AZIMUTHS
-from seisblock.words import said, tell
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
@@ -25,11 +25,11 @@ if TYPE_CHECKING:
 AZIMUTH_STEP = 5
 
 
-def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
+def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     """Say what --mu is when it is missing."""
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
-            tell(
+            gettext(
                 "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; a list "
                 "0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study"
             ),
@@ -50,7 +50,7 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @option(
     "--mu",
     type=MUS,
-    callback=_needed,
+    callback=_require_mu,
     metavar="MU",
     section="Body",
     help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
@@ -97,7 +97,7 @@ def slide(
     component is solved by itself; --component all-azimuths sweeps the directions in steps of 5 degrees and reports the worst.
     """
     scales = vertical_scale or ((1.0,) if vertical else (0.0,))
-    choice = {
+    parameters = {
         "mu": mu,
         "mu_kinetic": mu_kinetic,
         "kappa": kappa,
@@ -106,80 +106,85 @@ def slide(
     }
     fixed = {"slope_length": slope_length, "one_way": one_way, "gravity": gravity}
     sweeps = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
-    several = any(values is not None and len(values) > 1 for values in choice.values())
-    records = load(_without_azimuths(source) if sweeps else source)
-    directions = _azimuths(both=one_way or any(slope)) if sweeps else None
-    if several:
-        _study(records, source, output, directions, choice, fixed)
+    is_study = any(values is not None and len(values) > 1 for values in parameters.values())
+    records = load_records(_without_azimuths(source) if sweeps else source)
+    directions = _sweep_azimuths(full_circle=one_way or any(slope)) if sweeps else None
+    if is_study:
+        _run_study(records, source, output, directions, parameters, fixed)
     else:
-        single = {name: values[0] for name, values in choice.items() if values is not None}
-        _one(records, source, output, directions, single, fixed)
+        single = {name: values[0] for name, values in parameters.items() if values is not None}
+        _run_single(records, source, output, directions, single, fixed)
 
 
-def _one(
+def _run_single(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
 ) -> None:
     """Solve one set of parameters for each direction, or for the worst one."""
     from seisblock.bodies.sliding_base import sliding_base
-    from seisblock.cli.elsewhere import after_slide
-    from seisblock.present.documents.slide import document
-    from seisblock.present.text import slide as shown
+    from seisblock.cli.hints import slide_hint
+    from seisblock.models.slide.solve import solve_slide
     from seisblock.records import motion_of
-    from seisblock.solvers.slide.solve import solve_slide
+    from seisblock.report.json.slide import document
+    from seisblock.report.text import slide as shown
     from seisblock.studies.sliding import slide_study, worst_directions
 
-    laid = {name: value for name, value in single.items() if name != "vertical"}
-    base = sliding_base(**laid, slope_length=fixed["slope_length"], one_way=fixed["one_way"])
+    base_options = {name: value for name, value in single.items() if name != "vertical"}
+    base = sliding_base(**base_options, slope_length=fixed["slope_length"], one_way=fixed["one_way"])
     vertical = single["vertical"]
     responses, sweep = [], []
     for record in records:
         if directions is None:
-            chosen = list(_motions(record, source, None))
+            selected = list(_motions(record, source, None))
         else:
             points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
-            worst = worst_directions(points)[0].component
-            say("largest slip of {count} directions at azimuth {azimuth} degrees", count=len(directions), azimuth=worst)
-            chosen = [motion_of(record, worst)]
-        responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in chosen]
-    emit(
+            worst_azimuth = worst_directions(points)[0].component
+            info("largest slip of {count} directions at azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
+            selected = [motion_of(record, worst_azimuth)]
+        responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in selected]
+    write_results(
         document(responses, sweep),
         output,
         responses=responses,
         tables=lambda: chain(
             shown.tables(responses, sweep, gal=output.gal),
-            after_slide(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
+            slide_hint(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
         ),
     )
 
 
-def _study(
+def _run_study(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
 ) -> None:
     """Compute every combination of parameters."""
-    from seisblock.present.documents.slide import study_document
-    from seisblock.present.files import write_table
-    from seisblock.present.text import slide_study as shown
+    from seisblock.report.io.atomic import write_table
+    from seisblock.report.json.slide import study_document
+    from seisblock.report.text import slide_study as shown
     from seisblock.studies.sliding import slide_study, worst_directions
 
     points = []
     for record in records:
         with progress("sliding") as advance:
-            found = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=advance)
-        points.append(found if directions is None else worst_directions(found))
-    pairs = [(record, point) for record, found in zip(records, points, strict=True) for point in found]
-    steep = sum(not point.holds_at_rest for found in points for point in found)
+            record_points = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=advance)
+        points.append(record_points if directions is None else worst_directions(record_points))
+    pairs = [(record, point) for record, record_points in zip(records, points, strict=True) for point in record_points]
+    omitted_count = sum(not point.holds_at_rest for record_points in points for point in record_points)
     warnings = (
-        [said("{count} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction", count=steep)]
-        if steep
+        [
+            lazy_gettext(
+                "{count} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction",
+                count=omitted_count,
+            )
+        ]
+        if omitted_count
         else []
     )
     parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
-    emit(
+    write_results(
         study_document(parameters, pairs, warnings),
         output,
         tables=lambda: shown.tables(records, points, gal=output.gal),
-        csv=lambda path: write_table(path, *shown.study_columns(records, points)),
+        csv=lambda path: write_table(path, *shown.study_csv(records, points)),
         figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal),
     )
 
@@ -189,15 +194,15 @@ def _motions(record: Record, source: Source, directions: list[str] | None) -> It
     from seisblock.records import motion_of
 
     if directions is None:
-        yield from motions(record, source)
+        yield from selected_motions(record, source)
     else:
         for name in directions:
             yield motion_of(record, name)
 
 
-def _azimuths(*, both: bool) -> list[str]:
+def _sweep_azimuths(*, full_circle: bool) -> list[str]:
     """Return the azimuths of a sweep: half the circle, all of it where the two senses of a direction differ."""
-    return [str(azimuth) for azimuth in range(0, 360 if both else 180, AZIMUTH_STEP)]
+    return [str(azimuth) for azimuth in range(0, 360 if full_circle else 180, AZIMUTH_STEP)]
 
 
 def _without_azimuths(source: Source) -> Source:
@@ -207,8 +212,8 @@ def _without_azimuths(source: Source) -> Source:
     return replace(source, component=())
 
 
-def _draw(*shown: Any, **fixed: Any) -> Any:
+def _draw(*data: Any, **fixed: Any) -> Any:
     """Return the figure of a study; matplotlib is loaded only for it."""
-    from seisblock.present.figures.slide_study import figure
+    from seisblock.report.figures.slide_study import figure
 
-    return figure(*shown, **fixed)
+    return figure(*data, **fixed)

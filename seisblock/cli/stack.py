@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.inputs import load, motions
+from seisblock.cli.console import info
+from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
-from seisblock.cli.types import INSET, MU, Touching
-from seisblock.cli.versions import version_options, widths_of
-from seisblock.words import said
+from seisblock.cli.types import INSET, MU, ContactType
+from seisblock.cli.versions import pop_spreads, version_options
+from seisblock.cli.write_results import write_results
+from seisblock.core.i18n import lazy_gettext
 
 if TYPE_CHECKING:
-    from seisblock.bodies.inset import Inset
+    from seisblock.bodies.edge_wear import EdgeWear
     from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
@@ -29,10 +29,10 @@ RIGID, SPRINGS = "rigid", "springs"
 EDGES, GRID = 2, 5
 """Points along each side of a joint: on its edges, and as in Furukawa2009."""
 
-VARIED = ("size", "inset", "mu", "amplitude", "azimuth")
+VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
 """What versions of a pile differ in."""
 
-COARSEST = 29
+MAX_GRID = 29
 """Of the heights of the study one is left."""
 
 
@@ -49,7 +49,7 @@ COARSEST = 29
 @option(
     "--stones",
     metavar="NAME|FILE",
-    shell_complete=offered.bodies("pile"),
+    shell_complete=shell_completion.complete_bodies("pile"),
     default=DEFAULT_PILE,
     show_default=True,
     section="Body",
@@ -57,13 +57,18 @@ COARSEST = 29
 )
 @option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
 @option(
-    "--without", multiple=True, metavar="STONE", shell_complete=offered.stones, section="Body", help="Leave a stone out; may be repeated."
+    "--without",
+    multiple=True,
+    metavar="STONE",
+    shell_complete=shell_completion.complete_stones,
+    section="Body",
+    help="Leave a stone out; may be repeated.",
 )
 @option(
     "--fix",
     multiple=True,
     metavar="STONE",
-    shell_complete=offered.stones,
+    shell_complete=shell_completion.complete_stones,
     section="Body",
     help="Let a stone move with the ground; may be repeated.",
 )
@@ -89,7 +94,7 @@ COARSEST = 29
 )
 @option(
     "--contact",
-    type=Touching(),
+    type=ContactType(),
     metavar="edges|grid=N",
     help="Where stones touch: on the edges of their bases, or at N x N points of each joint, 1, as Furukawa2009 has 5; these make a stone "
     "act narrower. [default: edges; --criterion: grid=5]",
@@ -122,7 +127,7 @@ COARSEST = 29
 )
 @option(
     "--grid",
-    type=click.IntRange(1, COARSEST),
+    type=click.IntRange(1, MAX_GRID),
     default=1,
     show_default=True,
     help="--criterion: take every so many-th amplitude and height.",
@@ -133,7 +138,7 @@ COARSEST = 29
     metavar="FILE",
     help="--criterion: keep finished sines in this file, and go on from it.",
 )
-@version_options(*VARIED, runs=0)
+@version_options(*VARIED_PARAMETERS, runs=0)
 @gravity_option
 @output_options()
 def stack(
@@ -143,12 +148,12 @@ def stack(
     reinforced: bool,
     without: tuple[str, ...],
     fix: tuple[str, ...],
-    inset: Inset | None,
+    inset: EdgeWear | None,
     mu: float | None,
     criterion: bool,
     grid: int,
     resume: Path | None,
-    **asked: Any,
+    **params: Any,
 ) -> None:
     """Follow a pile of stones through an earthquake, in three dimensions (Furukawa et al. 2009).
 
@@ -157,90 +162,90 @@ def stack(
     share of plausible versions of it and the shaking each stone falls.
     """
     from seisblock.bodies.pile.contact import PileContact
-    from seisblock.errors import ParameterError
+    from seisblock.core.errors import ParameterError
 
-    if asked["young"] is not None and asked["joint_stiffness"] is not None:
+    if params["young"] is not None and params["joint_stiffness"] is not None:
         raise ParameterError("give --young or --joint-stiffness, not both")
-    law, young, stiffness, damping = (asked.pop(name) for name in ("law", "young", "joint_stiffness", "damping"))
-    asked["points"] = asked.pop("contact") or (GRID if criterion else EDGES)
+    law, young, stiffness, damping = (params.pop(name) for name in ("law", "young", "joint_stiffness", "damping"))
+    params["points"] = params.pop("contact") or (GRID if criterion else EDGES)
     springs = law == SPRINGS or (law is None and (criterion or young is not None or stiffness is not None))
     if not springs and not (young is None and stiffness is None):
         raise ParameterError("rigid stones have no springs: leave --young and --joint-stiffness out, or choose --law springs")
     if damping is not None and young is None and stiffness is None:
         raise ParameterError("--damping goes with --young or --joint-stiffness")
     contact = PileContact(young=young, stiffness=stiffness, damping_ratio=1.0 if damping is None else damping) if springs else None
-    body = _pile(stones, reinforced, mu, without, fix)
-    body = body if inset is None else body.worn(inset)
-    say(
+    body = _load_pile(stones, reinforced, mu, without, fix)
+    body = body if inset is None else body.with_wear(inset)
+    info(
         "pile: {name}, {count} stones, mu {mu:g}{dowels}",
-        name=said(body.name),
+        name=lazy_gettext(body.name),
         count=len(body.stones),
         mu=body.mu,
-        dowels=said(", dowels in") if body.dowels else "",
+        dowels=lazy_gettext(", dowels in") if body.dowels else "",
     )
-    widths = widths_of(asked, *VARIED)
+    widths = pop_spreads(params, *VARIED_PARAMETERS)
     if criterion:
-        if asked["runs"]:
+        if params["runs"]:
             raise ParameterError("--criterion takes no --runs")
-        if not (asked["mu_kinetic"] is None and asked["restitution"] is None):
+        if not (params["mu_kinetic"] is None and params["restitution"] is None):
             raise ParameterError("--criterion takes no --mu-kinetic and no --restitution")
-        if not (asked["step"] is None and asked["vertical"] is None and asked["across"]):
+        if not (params["step"] is None and params["vertical"] is None and params["across"]):
             raise ParameterError(
                 "--criterion has steps of its own, and all components of a record act: leave out --step, --vertical and --across"
             )
-        _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
+        _run_study(source, output, body, contact, grid, resume, points=params["points"], gravity=params["gravity"], reinforced=reinforced)
         return
     if grid != 1 or resume is not None:
         raise ParameterError("--grid and --resume go with --criterion")
-    _record(source, output, body, contact, widths, asked)
+    _run_records(source, output, body, contact, widths, params)
 
 
-def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
+def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
     """Return the pile that the options of the body describe."""
     from dataclasses import replace
 
     from seisblock.bodies.pile.toml import load_pile
-    from seisblock.errors import BodyError
+    from seisblock.core.errors import BodyError
 
     body = load_pile(stones, reinforced=reinforced, mu=mu)
-    for name in without:
+    for name in removed:
         if name not in body.names:
             raise BodyError("--without names {name!r}, but the pile {pile} has {names}", name=name, pile=body.name, names=list(body.names))
-    body = body.without(*without) if without else body
+    body = body.without(*removed) if removed else body
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
 
-def _record(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], asked: dict[str, Any]) -> None:
+def _run_records(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
     """Follow the pile through the records."""
     from seisblock.cli.progress import progress
-    from seisblock.errors import ParameterError
-    from seisblock.present.documents.stack import document
-    from seisblock.present.text import stack as shown
-    from seisblock.readers.heap import give_back
-    from seisblock.solvers.stack.solve import solve_stack
-    from seisblock.studies.agreement import pile_agreement
-    from seisblock.studies.standing.pile_probability import PileVersions, stack_probability
+    from seisblock.core.errors import ParameterError
+    from seisblock.models.stack.solve import solve_stack
+    from seisblock.readers._memory import trim_heap
+    from seisblock.report.json.stack import document
+    from seisblock.report.text import stack as shown
+    from seisblock.studies.model_comparison import compare_pile_models
+    from seisblock.studies.respond.pile_probability import PileVariation, stack_probability
 
-    versions = PileVersions(**widths)
-    told = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
-    if told and versions.inset and asked["points"] != EDGES:
-        raise ParameterError("--vary-inset goes with stones on their edges: leave --contact grid={points} out", points=asked["points"])
-    varied = {"versions": versions, **{name: asked.pop(name) for name in ("runs", "seed")}, "moved_m": asked.pop("moved")}
+    versions = PileVariation(**widths)
+    inset_given = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
+    if inset_given and versions.inset and params["points"] != EDGES:
+        raise ParameterError("--vary-inset goes with stones on their edges: leave --contact grid={points} out", points=params["points"])
+    study_options = {"versions": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
     responses, extras = [], []
-    for record in load(source):
-        turned = list(motions(record, source))
+    for record in load_records(source):
+        directions = list(selected_motions(record, source))
         # all components act in every run: without --component one run tells all
-        for motion in turned if source.component else turned[:1]:
+        for motion in directions if source.component else directions[:1]:
             name = f"{record.station} {motion.name}".strip()
             with progress(name) as advance:
-                responses.append(solve_stack(body, motion, contact=contact, progress=advance, **asked))
-            give_back()  # a day's models of one stone find no room beside what compiling has freed
-            extra: dict[str, Any] = {"agreement": pile_agreement(responses[-1])}
-            if varied["runs"]:
+                responses.append(solve_stack(body, motion, contact=contact, progress=advance, **params))
+            trim_heap()  # a day's models of one stone find no room beside what compiling has freed
+            extra: dict[str, Any] = {"agreement": compare_pile_models(responses[-1])}
+            if study_options["runs"]:
                 with progress("versions {name}", name=name) as advance:
-                    extra["probability"] = stack_probability(body, motion, progress=advance, contact=contact, **varied, **asked)
+                    extra["probability"] = stack_probability(body, motion, progress=advance, contact=contact, **study_options, **params)
             extras.append(extra)
-    emit(
+    write_results(
         document(responses, body, contact, extras),
         output,
         responses=responses,
@@ -248,7 +253,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, widths: di
     )
 
 
-def _study(
+def _run_study(
     source: Source,
     output: Output,
     body: Pile,
@@ -262,11 +267,11 @@ def _study(
 ) -> None:
     """Run the criterion study."""
     from seisblock.cli.progress import progress
-    from seisblock.present.documents.stack import study_document
-    from seisblock.present.text import stack_criterion as shown
+    from seisblock.report.json.stack import study_document
+    from seisblock.report.text import stack_criterion as shown
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
-    same: dict[str, Any] = {
+    common: dict[str, Any] = {
         "pgas": PGAS[::-1][::grid][::-1],
         "ratios": RATIOS[::grid],
         "law": RIGID if contact is None else SPRINGS,
@@ -275,26 +280,33 @@ def _study(
         "gravity": gravity,
     }
     with progress("sines") as advance:
-        study = criterion_study(body, **same, resume=resume, progress=advance)
-    records = load(source) if source.record else []
-    scaled = {}
+        study = criterion_study(body, **common, resume=resume, progress=advance)
+    records = load_records(source) if source.record else []
+    record_levels = {}
     for record in records:
-        for motion in motions(record, source):
+        for motion in selected_motions(record, source):
             with progress(f"{record.station} {motion.name}".strip()) as advance:
-                scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=advance)
+                record_levels[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **common, progress=advance)
     rigid = rigid_levels(study, body, points=points, gravity=gravity)
-    chosen: dict[str, Any] = {"pile": body, "law": same["law"], "contact": contact, "points": points, "gravity": gravity, "grid": grid}
-    emit(
-        study_document(study, rigid, scaled, records, reinforced=reinforced, **chosen),
+    study_options: dict[str, Any] = {
+        "pile": body,
+        "law": common["law"],
+        "contact": contact,
+        "points": points,
+        "gravity": gravity,
+        "grid": grid,
+    }
+    write_results(
+        study_document(study, rigid, record_levels, records, reinforced=reinforced, **study_options),
         output,
-        tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
-        csv=lambda path: shown.write(study, scaled, path),
-        figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
+        tables=lambda: shown.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
+        csv=lambda path: shown.write_csv(study, record_levels, path),
+        figure=lambda: _draw(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
     )
 
 
-def _draw(*shown: Any, **choice: Any) -> Any:
+def _draw(*data: Any, **choice: Any) -> Any:
     """Return the figure of the study; matplotlib is loaded only for it."""
-    from seisblock.present.figures.stack_criterion import figure
+    from seisblock.report.figures.stack_criterion import figure
 
-    return figure(*shown, **choice)
+    return figure(*data, **choice)

@@ -7,48 +7,48 @@ from typing import Any
 
 import click
 
-from seisblock.bodies.inset import Inset, parse_inset
+from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.cli.command import Finite
-from seisblock.errors import InputError
-from seisblock.limits import check_budget
-from seisblock.records.storey import Storey, parse_storey
-from seisblock.units import LENGTH_UNITS, Size, narrowed, parse_length, parse_mass
-from seisblock.words import noted, said, tell
+from seisblock.core.errors import InputError
+from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.limits import check_limit
+from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
+from seisblock.records.floor_motion import Storey, parse_storey
 
-SMALLEST_SIDE, LARGEST_SIDE = 0.04, 1.2
+MIN_SIDE, MAX_SIDE = 0.04, 1.2
 """Of a figure, m."""
 
 
 class Count(click.ParamType):  # type: ignore[type-arg]
-    """How many of something: a whole number within a limit of :mod:`seisblock.limits`.
+    """How many of something: a whole number within a limit of :mod:`seisblock.core.limits`.
 
     Parameters
     ----------
-    what : str
-        What is counted, see :func:`seisblock.limits.check_budget`.
+    quantity : str
+        What is counted, see :func:`seisblock.core.limits.check_limit`.
     variable : str
         Of the limit.
-    least : int
+    minimum : int
     power : int
         How often the number counts: as many points on two axes make the square of it.
     """
 
     name = "integer"
 
-    def __init__(self, what: str, variable: str, *, least: int = 1, power: int = 1) -> None:
-        self.what, self.variable, self.least, self.power = what, variable, least, power
+    def __init__(self, quantity: str, variable: str, *, minimum: int = 1, power: int = 1) -> None:
+        self.quantity, self.variable, self.minimum, self.power = quantity, variable, minimum, power
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         """Return the number."""
-        count: int = click.IntRange(min=self.least).convert(value, param, ctx)
+        count: int = click.IntRange(min=self.minimum).convert(value, param, ctx)
         try:
-            check_budget(self.what, count**self.power, self.variable)
+            check_limit(self.quantity, count**self.power, self.variable)
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
         return count
 
 
-class Touching(click.ParamType):  # type: ignore[type-arg]
+class ContactType(click.ParamType):  # type: ignore[type-arg]
     """Where stones touch: on their edges, or at n x n points, as the number of points along each side."""
 
     name = "contact"
@@ -59,8 +59,8 @@ class Touching(click.ParamType):  # type: ignore[type-arg]
             return 2 if value == "edges" else value
         name, _, count = str(value).partition("=")
         if name != "grid":
-            self.fail(tell("{value!r} is neither edges nor grid=N, as in grid=5", value=value), param, ctx)
-        return Count(noted("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", least=3).convert(count, param, ctx)
+            self.fail(gettext("{value!r} is neither edges nor grid=N, as in grid=5", value=value), param, ctx)
+        return Count(N_("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]
@@ -73,9 +73,9 @@ class Length(click.ParamType):  # type: ignore[type-arg]
         if isinstance(value, float):
             return value  # a default, or converted already
         try:
-            return parse_length(value, what=said((param.name or "length").replace("_", " ") if param else "length"))
+            return parse_length(value, quantity=lazy_gettext((param.name or "length").replace("_", " ") if param else "length"))
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
 
 
 class Mass(click.ParamType):  # type: ignore[type-arg]
@@ -88,7 +88,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
         try:
             return parse_mass(value)
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
 
 
 class InsetType(click.ParamType):  # type: ignore[type-arg]
@@ -96,20 +96,20 @@ class InsetType(click.ParamType):  # type: ignore[type-arg]
 
     name = "inset"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Inset:
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> EdgeWear:
         """Return the inset."""
         try:
-            return value if isinstance(value, Inset) else parse_inset(value)
+            return value if isinstance(value, EdgeWear) else parse_edge_wear(value)
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
 
 
-class Share(Finite):
+class ShareType(Finite):
     """A number, or per cent: ``0.2``, ``20%``."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
-        text = narrowed(value).strip() if isinstance(value, str) else ""
+        text = to_halfwidth(value).strip() if isinstance(value, str) else ""
         if not text.endswith("%"):
             return super().convert(value, param, ctx)
         return round(super().convert(text[:-1], param, ctx) / 100.0, 15)
@@ -132,7 +132,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
         try:
             return tuple(x for part in value.split(",") for x in self._range(part, param, ctx))
         except ValueError:
-            self.fail(tell("{value!r} is not a number, a list a,b,c or a range first:last:step", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a number, a list a,b,c or a range first:last:step", value=value), param, ctx)
 
     def _range(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
         """Return the values of one part of the list."""
@@ -143,12 +143,12 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
             raise ValueError(text)
         first, last, step = pieces
         if step == 0 or (last - first) * step < 0:
-            self.fail(tell("{text!r}: the step does not lead from the first value to the last", text=text), param, ctx)
+            self.fail(gettext("{text!r}: the step does not lead from the first value to the last", text=text), param, ctx)
         count = math.floor(min((last - first) / step, 1e18) + 1e-9) + 1
         try:
-            check_budget(noted("values"), count, "SEISBLOCK_VALUES", where=repr(text))
+            check_limit(N_("values"), count, "SEISBLOCK_VALUES", source=repr(text))
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
         return [round(first + i * step, 12) for i in range(count)]
 
     def _number(self, text: str) -> float:
@@ -164,24 +164,24 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
 
     name = "size"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Size:
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> FigureSize:
         """Return width and height, m, and the unit of the first."""
-        if isinstance(value, Size):
+        if isinstance(value, FigureSize):
             return value
-        sides = narrowed(value).lower().replace("×", "x").split("x")
+        sides = to_halfwidth(value).lower().replace("×", "x").split("x")
         if len(sides) != 2:
-            self.fail(tell("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
         try:
-            width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", what="size") for side in sides)
+            width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", quantity="size") for side in sides)
         except InputError as error:
             self.fail(str(error), param, ctx)
         unit = sides[0].strip().lstrip("0123456789.+-e ") or "cm"
         for side in (width, height):
-            if not SMALLEST_SIDE <= side <= LARGEST_SIDE:
-                least, most = (f"{each / LENGTH_UNITS[unit]:.4g} {unit}" for each in (SMALLEST_SIDE, LARGEST_SIDE))
-                text = tell("{value!r}: a figure is between {least} and {most} wide and high", value=value, least=least, most=most)
+            if not MIN_SIDE <= side <= MAX_SIDE:
+                lower, upper = (f"{limit_m / LENGTH_UNITS[unit]:.4g} {unit}" for limit_m in (MIN_SIDE, MAX_SIDE))
+                text = gettext("{value!r}: a figure is between {least} and {most} wide and high", value=value, least=lower, most=upper)
                 self.fail(text, param, ctx)
-        return Size(width, height, unit)
+        return FigureSize(width, height, unit)
 
 
 class WindowType(click.ParamType):  # type: ignore[type-arg]
@@ -196,11 +196,11 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
         try:
             first, last = (float(piece) if piece.strip() else None for piece in value.split(":"))
         except ValueError:
-            self.fail(tell("{value!r} is not a window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
         if any(end is not None and not math.isfinite(end) for end in (first, last)):
-            self.fail(tell("{value!r}: both ends must be finite", value=value), param, ctx)
+            self.fail(gettext("{value!r}: both ends must be finite", value=value), param, ctx)
         if first is not None and last is not None and last <= first:
-            self.fail(tell("{value!r} ends before it begins", value=value), param, ctx)
+            self.fail(gettext("{value!r} ends before it begins", value=value), param, ctx)
         return first, last
 
 
@@ -214,12 +214,12 @@ class StoreyType(click.ParamType):  # type: ignore[type-arg]
         try:
             return value if isinstance(value, Storey) else parse_storey(value)
         except InputError as error:
-            self.fail(tell(error.said), param, ctx)
+            self.fail(gettext(error.message), param, ctx)
 
 
 def _share(text: str) -> float:
     """Return a share, 0.2 or 20%."""
-    return float(MU.convert(text, None, None)) if narrowed(text).strip().endswith("%") else float(text)
+    return float(MU.convert(text, None, None)) if to_halfwidth(text).strip().endswith("%") else float(text)
 
 
 LENGTH = Length()
@@ -227,7 +227,7 @@ MASS = Mass()
 INSET = InsetType()
 FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
-MU = Share()
+MU = ShareType()
 MUS = Floats(unit=_share)
 MASSES = Floats(unit=parse_mass)
 WINDOW = WindowType()

@@ -7,24 +7,24 @@ from typing import Any
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit
-from seisblock.cli.idle import RECORD_OPTIONS, refuse_beside
-from seisblock.cli.inputs import load, motions
-from seisblock.cli.meant import OneOf
+from seisblock.cli.console import info
+from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
-from seisblock.errors import ParameterError
+from seisblock.cli.write_results import write_results
+from seisblock.core.errors import ParameterError
 
 SHAKING = ("alpha", "gamma", "phi", "rho")
 RATIOS = (*SHAKING, "beta", "damping")
-MEASURED = ("width", "depth", "height", "stiffness")
-SIZES = (*MEASURED, "mass", "frequency_vertical")
+DIMENSIONS = ("width", "depth", "height", "stiffness")
+SIZES = (*DIMENSIONS, "mass", "frequency_vertical")
 """Names of the options that go together."""
 
 
-def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[tuple[float, ...], bool] | None:
+def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[tuple[float, ...], bool] | None:
     """Return the frequency ratios, and whether they were given as a range."""
     return None if value is None else (FLOATS.convert(value, param, ctx), ":" in value)
 
@@ -64,19 +64,19 @@ def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 @option("--rho", type=FLOATS, help="With --harmonic: angle of the shaking from the vertical, degrees. [default: 90]")
 @option(
     "--frequency-ratio",
-    callback=_ratios,
+    callback=_parse_ratios,
     metavar="LIST|A:B:STEP",
     help="With --harmonic: evaluate exactly at these theta/omega_1; a range also bounds the search for minima. [default: 0.01:6:0.01]",
 )
 @option("--corner", type=click.IntRange(1, 4), help="With --harmonic: this corner alone; the paper's is 4. [default: the first to lift]")
 @option(
     "--figure",
-    type=OneOf(["3", "4", "6", "7", "8", "9", "10", "11"]),
+    type=SuggestingChoice(["3", "4", "6", "7", "8", "9", "10", "11"]),
     help="The parameters of this figure of the paper; implies --harmonic, other options prevail.",
 )
 @gravity_option
 @output_options()
-def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **given: Any) -> None:
+def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).
 
     With a record: three-component motion, corners that hold only while compressed; first uplift, which corner, how high and how
@@ -84,19 +84,21 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     natural modes and the least A/g that lifts a corner, against the frequency.
     """
     if harmonic or figure:
-        _harmonic(source, output, int(figure) if figure else None, given)
+        _run_harmonic(source, output, int(figure) if figure else None, params)
         return
-    from seisblock.bodies.spring_choice import spring_block
-    from seisblock.present.documents.uplift import document
-    from seisblock.present.text import uplift as shown
-    from seisblock.solvers.uplift.solve import solve_uplift
+    from seisblock.bodies.spring_factory import spring_block
+    from seisblock.models.uplift.solve import solve_uplift
+    from seisblock.report.json.uplift import document
+    from seisblock.report.text import uplift as shown
 
-    only = [_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if given.pop(name) is not None]
-    if only:
-        raise ParameterError("{only} speak of harmonic shaking: add --harmonic, or leave them out", only=only)
-    body = spring_block(**{name: _single(name, value) for name, value in given.items()})
-    responses = [solve_uplift(body, motion, gravity=gravity) for record in load(source) for motion in motions(record, source)]
-    emit(
+    harmonic_flags = [_option_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if params.pop(name) is not None]
+    if harmonic_flags:
+        raise ParameterError("{only} speak of harmonic shaking: add --harmonic, or leave them out", only=harmonic_flags)
+    body = spring_block(**{name: _single_value(name, value) for name, value in params.items()})
+    responses = [
+        solve_uplift(body, motion, gravity=gravity) for record in load_records(source) for motion in selected_motions(record, source)
+    ]
+    write_results(
         document(responses, body),
         output,
         responses=responses,
@@ -104,60 +106,60 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     )
 
 
-def _harmonic(source: Source, output: Output, figure: int | None, given: dict[str, Any]) -> None:
+def _run_harmonic(source: Source, output: Output, figure: int | None, params: dict[str, Any]) -> None:
     """Answer for harmonic shaking."""
     from seisblock.cli.progress import progress
-    from seisblock.present.documents.uplift import harmonic_document
-    from seisblock.present.text import uplift_harmonic as shown
+    from seisblock.report.json.uplift import harmonic_document
+    from seisblock.report.text import uplift_harmonic as shown
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 
     if source.record:
         raise ParameterError(
             "--harmonic shakes with a sine: leave the record {record} out, or leave --harmonic out", record=source.record[0]
         )
-    refuse_beside("--harmonic" if figure is None else "--figure", [*RECORD_OPTIONS, "gravity"])
-    ratios, is_range = given["frequency_ratio"] or (DEFAULT_RATIOS, False)
-    between = (min(ratios), max(ratios)) if is_range else None
-    if given["frequency_vertical"] is None and given["stiffness"] is None:
-        given["frequency_vertical"] = 1.0
-        say("no --frequency-vertical given: natural frequencies are those for omega_V / 2 pi = 1 Hz; ratios need none")
-    sizes = {name: given[name] for name in SIZES} if any(given[name] is not None for name in MEASURED) else None
+    reject_with("--harmonic" if figure is None else "--figure", [*RECORD_OPTIONS, "gravity"])
+    ratios, is_range = params["frequency_ratio"] or (DEFAULT_RATIOS, False)
+    search_range = (min(ratios), max(ratios)) if is_range else None
+    if params["frequency_vertical"] is None and params["stiffness"] is None:
+        params["frequency_vertical"] = 1.0
+        info("no --frequency-vertical given: natural frequencies are those for omega_V / 2 pi = 1 Hz; ratios need none")
+    sizes = {name: params[name] for name in SIZES} if any(params[name] is not None for name in DIMENSIONS) else None
     blocks = harmonic_blocks(
-        {name: given[name] for name in RATIOS},
+        {name: params[name] for name in RATIOS},
         sizes=sizes,
         figure=figure,
-        frequency_vertical=given["frequency_vertical"] or 1.0,
-        **({} if given["mass"] is None else {"mass": given["mass"]}),
+        frequency_vertical=params["frequency_vertical"] or 1.0,
+        **({} if params["mass"] is None else {"mass": params["mass"]}),
     )
     with progress("uplift regions") as advance:
-        regions = uplift_regions(blocks, ratios, corner=given["corner"], between=between, progress=advance)
-    emit(
+        regions = uplift_regions(blocks, ratios, corner=params["corner"], between=search_range, progress=advance)
+    write_results(
         harmonic_document(regions),
         output,
-        tables=lambda: shown.tables(regions, every=given["frequency_ratio"] is not None),
-        csv=lambda path: shown.write(path, regions),
+        tables=lambda: shown.tables(regions, all_rows=params["frequency_ratio"] is not None),
+        csv=lambda path: shown.write_csv(path, regions),
         figure=lambda: _draw(regions, figure),
     )
 
 
 def _draw(regions: Any, figure: int | None) -> Any:
     """Return the figure of harmonic regions; matplotlib is loaded only for it."""
-    from seisblock.present.figures.uplift_harmonic import harmonic_figure
+    from seisblock.report.figures.uplift_harmonic import harmonic_figure
 
     return harmonic_figure(regions, figure)
 
 
-def _single(name: str, value: Any) -> Any:
+def _single_value(name: str, value: Any) -> Any:
     """Return the one number of an option that takes a list only with --harmonic."""
     if name not in RATIOS or value is None:
         return value
     if len(value) != 1:
         raise ParameterError(
-            "{name} takes one number with a record, found {count}: lists go with --harmonic", name=_flag(name), count=len(value)
+            "{name} takes one number with a record, found {count}: lists go with --harmonic", name=_option_flag(name), count=len(value)
         )
     return value[0]
 
 
-def _flag(name: str) -> str:
+def _option_flag(name: str) -> str:
     """Return how an option is written."""
     return "--" + name.replace("_", "-")

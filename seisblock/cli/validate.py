@@ -7,8 +7,8 @@ from pathlib import Path
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.quiet import quietly
-from seisblock.cli.talk import answer, say, show
+from seisblock.cli.console import info, print_result, print_tables
+from seisblock.cli.verbosity import quiet_output
 
 FAILED = 1
 
@@ -28,35 +28,35 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
     was explained, counts as one.
     """
     from seisblock.cli.progress import progress
-    from seisblock.present.files import refuse_collisions, write_text
-    from seisblock.present.suffixes import check_text
-    from seisblock.present.text import validate as shown
+    from seisblock.report.io.atomic import check_distinct_outputs, write_text
+    from seisblock.report.io.suffix import check_text_suffix
+    from seisblock.report.text import validate as shown
     from seisblock.validation import cases_of
-    from seisblock.validation.case import counts
+    from seisblock.validation.case import count_verdicts
 
-    chosen = [case for case in cases_of(paper) if case.quick or not quick]
+    cases = [case for case in cases_of(paper) if case.quick or not quick]
     if html is not None:
-        refuse_collisions(html)
-        check_text(html, "HTML")
-    with quietly(quiet):
+        check_distinct_outputs(html)
+        check_text_suffix(html, "HTML")
+    with quiet_output(quiet):
         results = []
         with progress("validating") as advance:
-            for done, case in enumerate(chosen):
-                advance(done, len(chosen))
+            for index, case in enumerate(cases):
+                advance(index, len(cases))
                 results.append(case.run())
         if html is not None:
-            from seisblock.present.pages.gallery import gallery
+            from seisblock.report.html.gallery import gallery
 
             with progress("drawing"):
                 page = gallery(results)
             write_text(html, page)
-            say("wrote {path}", path=html)
+            info("wrote {path}", path=html)
     if as_json:
-        from seisblock.present.documents.validate import document
-        from seisblock.present.documents.write import to_json
+        from seisblock.report.json.encode import to_json
+        from seisblock.report.json.validate import document
 
-        answer(to_json(document(results, quick=quick)))
+        print_result(to_json(document(results, quick=quick)))
     else:
-        show(shown.tables(results, every=every))
-    if counts(results)["fails"]:
+        print_tables(shown.tables(results, all_cases=every))
+    if count_verdicts(results)["fails"]:
         ctx.exit(FAILED)

@@ -8,11 +8,11 @@ from typing import Any
 import click
 
 from seisblock.cli.command import option
-from seisblock.cli.idle import given
+from seisblock.cli.option_checks import given_flags
 from seisblock.cli.types import LENGTH, Count
-from seisblock.words import noted
+from seisblock.core.i18n import N_
 
-_VARIED = {
+_SPREAD_OPTIONS = {
     "size": (0.05, "Versions: half width of width and height, a share of each."),
     "inset": (0.1, "Versions: half width of a known inset, a share of itself."),
     "mu": (0.2, "Versions: half width of the friction, a share."),
@@ -23,7 +23,7 @@ _VARIED = {
 """What versions may differ in: how far, and what is said of it."""
 
 
-def version_options(*varied: str, runs: int) -> Callable[..., Any]:
+def version_options(*names: str, runs: int) -> Callable[..., Any]:
     """Return a decorator that adds --runs with its default, --moved, one option for all that versions differ in, and --seed.
 
     Examples
@@ -32,32 +32,32 @@ def version_options(*varied: str, runs: int) -> Callable[..., Any]:
     >>> [each.name for each in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
     ['runs', 'moved', 'vary_size', 'vary_azimuth', 'seed']
     """
-    added = [
+    options = [
         option(
             "--runs",
-            type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
+            type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
             default=runs,
             show_default=True,
             help="Plausible versions behind the probability; 0 for none.",
         ),
         option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]"),
         *(
-            option(f"--vary-{name}", type=float, default=_VARIED[name][0], show_default=True, help=_VARIED[name][1])
-            for name in varied
+            option(f"--vary-{name}", type=float, default=_SPREAD_OPTIONS[name][0], show_default=True, help=_SPREAD_OPTIONS[name][1])
+            for name in names
         ),
         option("--seed", type=int, default=0, show_default=True, help="Seed of the versions."),
     ]  # fmt: skip
 
     def decorate(function: Any) -> Any:
         """Return the command with the options."""
-        for add in reversed(added):
+        for add in reversed(options):
             function = add(function)
         return function
 
     return decorate
 
 
-def widths_of(given: dict[str, Any], *varied: str) -> dict[str, float]:
+def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
     """Return how far versions differ, taken out of what was given, by the names of their fields.
 
     Raises
@@ -65,19 +65,19 @@ def widths_of(given: dict[str, Any], *varied: str) -> dict[str, float]:
     ParameterError
         If it is said how far, of versions of which there are none.
     """
-    _refuse_idle(*(f"vary_{name}" for name in varied), "moved", "seed")
-    return {"azimuth_deg" if name == "azimuth" else name: given.pop(f"vary_{name}") for name in varied}
+    _check_options(*(f"vary_{name}" for name in names), "moved", "seed")
+    return {"azimuth_deg" if name == "azimuth" else name: params.pop(f"vary_{name}") for name in names}
 
 
 def ranges_replaced() -> list[str]:
     """Return the ranges of a body's kind that a width given on the command line replaces, by the names of their fields."""
-    return [name for option, name in (("vary_inset", "inset_m"), ("vary_mu", "mu")) if given([option])]
+    return [name for option, name in (("vary_inset", "inset_m"), ("vary_mu", "mu")) if given_flags([option])]
 
 
-def _refuse_idle(*names: str) -> None:
+def _check_options(*names: str) -> None:
     """Refuse what is said of versions where there are none."""
-    from seisblock.errors import ParameterError
+    from seisblock.core.errors import ParameterError
 
-    flags = given(names)
+    flags = given_flags(names)
     if flags and not click.get_current_context().params["runs"]:
         raise ParameterError("without versions there is nothing for {flags} to do: give --runs, say --runs 100", flags=flags)

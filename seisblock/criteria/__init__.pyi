@@ -1,16 +1,16 @@
-from .card import Row, overturning_card
+from .compare import CriterionResult, overturning_card
 from .gravestones import (
     DOWELLED,
     PLAIN,
     GravestoneFit,
-    judge,
-    outside_fit,
+    fit_range_warnings,
     overturning_frequency,
     overturning_level,
     overturning_pga,
     overturning_ratio,
+    predict,
 )
-from .initiation import first_mode, friction_to_rock, loading
+from .initiation import first_mode, friction_to_rock, peak_loading_ratio
 from .intensity import intensity_from_velocity
 from .overturning import (
     housner_acceleration,
@@ -23,15 +23,15 @@ from .overturning import (
     velocity_step,
 )
 from .pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
-from .sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
+from .sliding import min_friction_to_hold, min_friction_to_stop, pulse_slip, slip_acceleration, slip_limits, steady_slip
 from .uplift import SquareBaseModes, harmonic_uplift_ratio, square_base_modes
 
 __all__ = [
     "DOWELLED",
     "first_mode",
     "PLAIN",
-    "friction_that_holds",
-    "friction_that_stops",
+    "min_friction_to_hold",
+    "min_friction_to_stop",
     "friction_to_rock",
     "GravestoneFit",
     "half_sine_ratio",
@@ -41,10 +41,10 @@ __all__ = [
     "intensity_from_velocity",
     "ishiyama_acceleration",
     "ishiyama_velocity",
-    "judge",
-    "loading",
+    "predict",
+    "peak_loading_ratio",
     "one_sine_ratio",
-    "outside_fit",
+    "fit_range_warnings",
     "overturning_card",
     "overturning_frequency",
     "overturning_level",
@@ -52,7 +52,7 @@ __all__ = [
     "overturning_ratio",
     "pulse_slip",
     "rectangular_ratio",
-    "Row",
+    "CriterionResult",
     "slip_acceleration",
     "slip_limits",
     "square_base_modes",

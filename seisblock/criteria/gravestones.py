@@ -11,11 +11,11 @@ from typing import Literal
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.typing import ArrayLike, BoolArray, FloatArray
-from seisblock.units import GAL
-from seisblock.words import noted, said
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.typing import ArrayLike, BoolArray, FloatArray
+from seisblock.core.units import GAL
 
 FITTED_RATIO = (1.25, 6.5)
 """H/B of the stones behind the fit ([Furukawa2009]_ table 1)."""
@@ -26,18 +26,18 @@ FITTED_PGA = (1.0, 13.0)
 FITTED_FREQUENCY = (0.5, 3.0)
 """Frequencies of the sines behind the fit, Hz ([Furukawa2009]_ section 3(3)a)."""
 
-ON_THE_LINE = 0.1
+BORDERLINE_TOLERANCE = 0.1
 """A stone whose H/B is within this of the threshold is judged to stand on the line ([Furukawa2009]_ table 5)."""
 
 ROUND_OFF = 1e-9
 """Relative slack at the ends of these ranges: 2.6 - 2.5 is not 0.1 to the last bit."""
 
-DOWELLED_REMARK = said(
+DOWELLED_NOTE = lazy_gettext(
     "reinforced stones: (10) as printed, p = 1162.9 gal; two verdicts of the paper's table 5 need 1342 to 1409 gal, so that fewer may fall"
 )
 """What to tell a user who relies on (10)."""
 
-Judgement = Literal["stands", "on the line", "overturns"]
+Prediction = Literal["stands", "on the line", "overturns"]
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ The text before (10) gives q = 1.85, at most 1.1 % apart. Differs: the two verdi
 come from p = 1162.9 gal; they need 1342 to 1409 gal, and 1362.9 (one digit) would do. The printed value stands here."""
 
 
-def published(reinforced: bool) -> tuple[GravestoneFit, str]:
+def furukawa_fit(reinforced: bool) -> tuple[GravestoneFit, str]:
     """Return the paper's fit, and the number of its equation ([Furukawa2009]_ eqs. (9), (10))."""
     return (DOWELLED, "(10)") if reinforced else (PLAIN, "(9)")
 
@@ -104,7 +104,7 @@ def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> Float
     >>> float(overturning_level(2.0).round(4))
     12.2817
     """
-    f = _checked(frequency, noted("frequency"), "Hz", zero=True)
+    f = _validate(frequency, N_("frequency"), "Hz", allow_zero=True)
     return fit.p_m_s2 * np.sqrt(1.0 + (f / fit.q_hz) ** fit.r)
 
 
@@ -118,12 +118,12 @@ def overturning_ratio(pga: ArrayLike, frequency: ArrayLike, fit: GravestoneFit =
     frequency : array, Hz
     fit : GravestoneFit
     """
-    return overturning_level(frequency, fit) / _checked(pga, noted("PGA"), "m/s^2")
+    return overturning_level(frequency, fit) / _validate(pga, N_("PGA"), "m/s^2")
 
 
 def overturning_pga(ratio: ArrayLike, frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
     """Return the least PGA, m/s^2, that overturns a stone of a given H/B: [Furukawa2009]_ eq. (7) solved for PGA."""
-    return overturning_level(frequency, fit) / _checked(ratio, noted("height over width"), "1")
+    return overturning_level(frequency, fit) / _validate(ratio, N_("height over width"), "1")
 
 
 def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
@@ -131,25 +131,25 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
 
     [Furukawa2009]_ eqs. (7), (8) solved for f.
     """
-    level = _checked(pga, noted("PGA"), "m/s^2") * _checked(ratio, noted("height over width"), "1")
+    level = _validate(pga, N_("PGA"), "m/s^2") * _validate(ratio, N_("height over width"), "1")
     surplus = (level / fit.p_m_s2) ** 2 - 1.0
     return np.where(surplus >= 0.0, fit.q_hz * np.maximum(surplus, 0.0) ** (1.0 / fit.r), np.nan)
 
 
-def judge(ratio: float, threshold: float) -> Judgement:
+def predict(ratio: float, threshold: float) -> Prediction:
     """Return the verdict on a stone of a given H/B: on the line within 0.1 of the threshold ([Furukawa2009]_ table 5).
 
     Examples
     --------
-    >>> judge(2.6, 2.5), judge(2.6, 2.4), judge(2.6, 2.75)
+    >>> predict(2.6, 2.5), predict(2.6, 2.4), predict(2.6, 2.75)
     ('on the line', 'overturns', 'stands')
     """
-    if abs(threshold - ratio) <= ON_THE_LINE * (1.0 + ROUND_OFF):
+    if abs(threshold - ratio) <= BORDERLINE_TOLERANCE * (1.0 + ROUND_OFF):
         return "on the line"
     return "overturns" if ratio > threshold else "stands"
 
 
-def outside_fit(pga: float, frequency: float, ratios: ArrayLike = ()) -> tuple[str, ...]:
+def fit_range_warnings(pga: float, frequency: float, ratios: ArrayLike = ()) -> tuple[str, ...]:
     """Return what lies outside the range of the fit, a sentence each, none when all is inside ([Furukawa2009]_ section 3(3)).
 
     Parameters
@@ -159,41 +159,48 @@ def outside_fit(pga: float, frequency: float, ratios: ArrayLike = ()) -> tuple[s
     ratios : array
         H/B of the stones judged.
     """
-    found = []
+    messages = []
     (low, high), stones = FITTED_PGA, np.asarray(ratios, dtype=np.float64)
-    if _outside(pga, FITTED_PGA).any():
+    if _is_outside(pga, FITTED_PGA).any():
         text = "a PGA of {pga:.4g} gal lies outside the range of the fit, {low:g} to {high:g} gal"
-        found.append(said(text, pga=pga / GAL, low=low / GAL, high=high / GAL))
-    if _outside(frequency, FITTED_FREQUENCY).any():
-        slow, fast = FITTED_FREQUENCY
-        found.append(
-            said("a frequency of {f:.3g} Hz lies outside the range of the fit, {slow:g} to {fast:g} Hz", f=frequency, slow=slow, fast=fast)
+        messages.append(lazy_gettext(text, pga=pga / GAL, low=low / GAL, high=high / GAL))
+    if _is_outside(frequency, FITTED_FREQUENCY).any():
+        min_frequency, max_frequency = FITTED_FREQUENCY
+        messages.append(
+            lazy_gettext(
+                "a frequency of {f:.3g} Hz lies outside the range of the fit, {slow:g} to {fast:g} Hz",
+                f=frequency,
+                slow=min_frequency,
+                fast=max_frequency,
+            )
         )
-    if count := int(np.count_nonzero(_outside(stones, FITTED_RATIO))):
-        least, most = FITTED_RATIO
+    if count := int(np.count_nonzero(_is_outside(stones, FITTED_RATIO))):
+        min_ratio, max_ratio = FITTED_RATIO
         text = "{count} of {stones} stones have H/B outside the range of the fit, {least:g} to {most:g}"
-        found.append(said(text, count=count, stones=stones.size, least=least, most=most))
-    return tuple(found)
+        messages.append(lazy_gettext(text, count=count, stones=stones.size, least=min_ratio, most=max_ratio))
+    return tuple(messages)
 
 
-def _outside(values: ArrayLike, between: tuple[float, float]) -> BoolArray:
+def _is_outside(values: ArrayLike, interval: tuple[float, float]) -> BoolArray:
     """Return which values lie outside a range, round-off at its ends forgiven."""
     array = np.asarray(values, dtype=np.float64)
-    outside: BoolArray = (array < between[0] * (1.0 - ROUND_OFF)) | (array > between[1] * (1.0 + ROUND_OFF))
-    return outside
+    mask: BoolArray = (array < interval[0] * (1.0 - ROUND_OFF)) | (array > interval[1] * (1.0 + ROUND_OFF))
+    return mask
 
 
-def _checked(values: ArrayLike, what: str, unit: str, *, zero: bool = False) -> FloatArray:
+def _validate(values: ArrayLike, quantity: str, unit: str, *, allow_zero: bool = False) -> FloatArray:
     """Return an array of positive numbers, or of numbers that are not negative."""
     array = np.asarray(values, dtype=np.float64)
-    good = (array >= 0.0 if zero else array > 0.0) & np.isfinite(array)
-    if not good.all():
+    valid = (array >= 0.0 if allow_zero else array > 0.0) & np.isfinite(array)
+    if not valid.all():
         raise ParameterError(
-            "{what} must be zero or positive, in {unit}; found {found}" if zero else "{what} must be positive, in {unit}; found {found}",
-            what=said(what),
+            "{what} must be zero or positive, in {unit}; found {found}"
+            if allow_zero
+            else "{what} must be positive, in {unit}; found {found}",
+            what=lazy_gettext(quantity),
             unit=unit,
-            found=array[~good].flat[0],
+            found=array[~valid].flat[0],
         )
     if array.size:
-        checks.finite(what, float(array.max()), unit)
+        checks.finite(quantity, float(array.max()), unit)
     return array

@@ -13,18 +13,18 @@ import math
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
+from seisblock.core import checks
+from seisblock.core.i18n import N_
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
-from seisblock.records.given import Factor, vertical_gain
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.records._validation import Gain, vertical_gain
 
-REST, SLIDE, ROCK, SLIDE_ROCK = noted("rest"), noted("slide"), noted("rock"), noted("slide-rock")
+REST, SLIDE, ROCK, SLIDE_ROCK = N_("rest"), N_("slide"), N_("rock"), N_("slide-rock")
 """Modes that begin from rest."""
 
 
-def loading(motion: Motion, *, vertical: Factor | None = None, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
+def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
     """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s (derived here, as in [Shenton1996]_).
 
     A block rests throughout if, and only if, neither mu nor b/h is below it: between samples both sides of the conditions of rest
@@ -39,15 +39,15 @@ def loading(motion: Motion, *, vertical: Factor | None = None, gravity: float = 
 
     Examples
     --------
-    >>> loading(Motion.from_arrays([0.0, 2.0, -3.0], 0.1, vertical=[0.0, 0.0, -4.0]), gravity=10.0)
+    >>> peak_loading_ratio(Motion.from_arrays([0.0, 2.0, -3.0], 0.1, vertical=[0.0, 0.0, -4.0]), gravity=10.0)
     (0.5, 0.2)
     """
     checks.gravity(gravity)
     weight = gravity + motion.vertical * vertical_gain(motion, vertical)
     with np.errstate(divide="ignore"):
         ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)
-    largest = int(np.argmax(ratio))
-    return float(ratio[largest]), float(motion.time[largest])
+    peak_index = int(np.argmax(ratio))
+    return float(ratio[peak_index]), float(motion.time[peak_index])
 
 
 def friction_to_rock(block: Block, ratio: float) -> float | None:
@@ -67,7 +67,7 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
     >>> friction_to_rock(block, 0.2), round(friction_to_rock(block, 0.6), 4)
     (None, 0.3706)
     """
-    ratio = checks.not_negative("the ratio of accelerations A", ratio)
+    ratio = checks.non_negative("the ratio of accelerations A", ratio)
     b, h = min(block.arms), block.centre
     if ratio <= b / h:
         return None
@@ -93,10 +93,10 @@ def first_mode(block: Block, mu: float, ratio: float) -> str:
     >>> [first_mode(Block(0.3, 1.0), mu, 0.6) for mu in (0.2, 0.31, 0.5, 0.7)]
     ['slide', 'slide-rock', 'rock', 'rock']
     """
-    mu = checks.not_negative("the friction coefficient mu", mu)
-    needed = friction_to_rock(block, ratio)
-    if needed is None:
+    mu = checks.non_negative("the friction coefficient mu", mu)
+    required_mu = friction_to_rock(block, ratio)
+    if required_mu is None:
         return REST if ratio <= mu else SLIDE
-    if mu >= needed:
+    if mu >= required_mu:
         return ROCK
     return SLIDE if mu * block.centre <= min(block.arms) else SLIDE_ROCK

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from seisblock import checks
-from seisblock.units import KINE
+from seisblock.core import checks
+from seisblock.core.units import KINE
 
 SCATTER = 0.21
 """Standard deviation of the intensity about the relation ([Midorikawa1999]_)."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_
+from seisblock.core.units import STANDARD_GRAVITY
 
 
 def static_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -31,7 +31,7 @@ def static_acceleration(width: float, height: float, gravity: float = STANDARD_G
     >>> round(static_acceleration(1.0, 4.0, 9.8), 12)
     2.45
     """
-    _sizes(width, height, gravity)
+    _check_sizes(width, height, gravity)
     return gravity * width / height
 
 
@@ -56,7 +56,7 @@ def housner_acceleration(slenderness: float, frequency_parameter: float, frequen
     ParameterError
         If something is not positive.
     """
-    _all_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, frequency=frequency, gravity=gravity)
+    _check_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, frequency=frequency, gravity=gravity)
     return gravity * slenderness * math.hypot(1.0, 2 * math.pi * frequency / frequency_parameter)
 
 
@@ -76,8 +76,8 @@ def housner_acceleration_as_printed(width: float, height: float, frequency: floa
     ParameterError
         If something is not positive.
     """
-    _sizes(width, height, gravity)
-    _all_positive(frequency=frequency)
+    _check_sizes(width, height, gravity)
+    _check_positive(frequency=frequency)
     omega = 2 * math.pi * frequency
     return gravity * math.atan2(width, height) * math.sqrt(1.0 + math.hypot(width, height) * omega**2 / (3 * gravity))
 
@@ -106,7 +106,7 @@ def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAV
     >>> round(tsutsui_velocity(0.242, 0.726, 9.8, cosine=True), 3)
     0.709
     """
-    _sizes(width, height, gravity)
+    _check_sizes(width, height, gravity)
     return math.sqrt(width * width / height * gravity * (2 / math.pi if cosine else 1.0))
 
 
@@ -123,7 +123,7 @@ def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
     ParameterError
         If one is not positive.
     """
-    _all_positive(acceleration=acceleration, frequency=frequency)
+    _check_positive(acceleration=acceleration, frequency=frequency)
     return acceleration / (math.pi * frequency)
 
 
@@ -153,7 +153,7 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
     >>> round(block_of_1_by_4, 4)
     1.3073
     """
-    _all_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, gravity=gravity)
+    _check_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, gravity=gravity)
     if slenderness >= math.pi / 2:
         raise ParameterError("the slenderness must be below pi/2 rad, found {found}", found=slenderness)
     return gravity / frequency_parameter * 2 * math.sin(slenderness / 2) / math.cos(slenderness)
@@ -186,28 +186,28 @@ def ishiyama_velocity(width: float, height: float) -> float:
     >>> ishiyama_velocity(0.25, 1.0)
     0.25
     """
-    _sizes(width, height, STANDARD_GRAVITY)
+    _check_sizes(width, height, STANDARD_GRAVITY)
     return width / math.sqrt(height)
 
 
 _QUANTITIES = {
-    "width": (noted("the width"), "m"),
-    "height": (noted("the height"), "m"),
-    "slenderness": (noted("the slenderness"), "rad"),
-    "frequency_parameter": (noted("the frequency parameter"), "rad/s"),
-    "frequency": (noted("the frequency"), "Hz"),
-    "acceleration": (noted("the acceleration"), "m/s^2"),
-    "gravity": (noted("gravity"), "m/s^2"),
+    "width": (N_("the width"), "m"),
+    "height": (N_("the height"), "m"),
+    "slenderness": (N_("the slenderness"), "rad"),
+    "frequency_parameter": (N_("the frequency parameter"), "rad/s"),
+    "frequency": (N_("the frequency"), "Hz"),
+    "acceleration": (N_("the acceleration"), "m/s^2"),
+    "gravity": (N_("gravity"), "m/s^2"),
 }
 
 
-def _sizes(width: float, height: float, gravity: float) -> None:
+def _check_sizes(width: float, height: float, gravity: float) -> None:
     """Refuse sizes and a gravity that are not positive."""
-    _all_positive(width=width, height=height, gravity=gravity)
+    _check_positive(width=width, height=height, gravity=gravity)
 
 
-def _all_positive(**values: float) -> None:
+def _check_positive(**values: float) -> None:
     """Refuse what is not a positive number."""
     for name, value in values.items():
-        what, unit = _QUANTITIES[name]
-        checks.positive(what, value, unit)
+        quantity, unit = _QUANTITIES[name]
+        checks.positive(quantity, value, unit)

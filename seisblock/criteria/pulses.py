@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY
 
 
 def half_sine_ratio(w: float) -> float:
@@ -90,12 +90,12 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
         raise ParameterError("the slenderness must be below pi/2 rad, found {value}", value=alpha)
 
     def surplus(x: float) -> float:
-        push = x * math.tan(alpha)
+        acceleration_ratio = x * math.tan(alpha)
         start, end = math.asin(1.0 / x) / omega, math.pi / omega
 
         def rate(t: float, y: Any) -> tuple[float, float]:
-            lean = alpha - y[0]
-            return y[1], p * p * (push * math.sin(omega * t) * math.cos(lean) - math.sin(lean))
+            angle = alpha - y[0]
+            return y[1], p * p * (acceleration_ratio * math.sin(omega * t) * math.cos(angle) - math.sin(angle))
 
         theta, speed = solve_ivp(rate, (start, end), (0.0, 0.0), method="DOP853", rtol=1e-10, atol=1e-13 * alpha).y[:, -1]
         # the growing part of what is left, as in the linear equation; the same sign as the surplus of energy while the block rises

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.typing import ArrayLike, FloatArray
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.core import checks
+from seisblock.core.typing import ArrayLike, FloatArray
+from seisblock.core.units import STANDARD_GRAVITY
 
 
 def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY) -> FloatArray:
@@ -76,7 +76,7 @@ def slip_limits(
     return pull - friction, pull + friction
 
 
-def friction_that_stops(slope_deg: float, kappa: float) -> float:
+def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
     """Return the static friction at or below which an object once in motion slides down a slope for ever ([Fujino1978]_ eq. (14)).
 
     Parameters
@@ -96,14 +96,14 @@ def friction_that_stops(slope_deg: float, kappa: float) -> float:
 
     Examples
     --------
-    >>> round(friction_that_stops(20.0, 0.5), 4)
+    >>> round(min_friction_to_stop(20.0, 0.5), 4)
     0.7279
     """
     checks.positive("kappa, kinetic over static friction,", kappa)
     return math.tan(math.radians(slope_deg)) / kappa
 
 
-def friction_that_holds(slope_deg: float, horizontal: ArrayLike, vertical: ArrayLike = 0.0) -> FloatArray:
+def min_friction_to_hold(slope_deg: float, horizontal: ArrayLike, vertical: ArrayLike = 0.0) -> FloatArray:
     """Return the static friction below which ground acceleration sets an object in motion down a slope ([Fujino1978]_ eq. (15)).
 
     Parameters
@@ -125,7 +125,7 @@ def friction_that_holds(slope_deg: float, horizontal: ArrayLike, vertical: Array
 
     Examples
     --------
-    >>> round(float(friction_that_holds(20.0, -0.2)), 4)
+    >>> round(float(min_friction_to_hold(20.0, -0.2)), 4)
     0.6082
     """
     alpha, up = np.asarray(horizontal, dtype=np.float64), np.asarray(vertical, dtype=np.float64)
@@ -158,7 +158,7 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
     2.078865
     """
     checks.positive("the yield acceleration", yield_acceleration, "m/s^2")
-    checks.not_negative("the duration", duration, "s")
+    checks.non_negative("the duration", duration, "s")
     excess = max(acceleration - yield_acceleration, 0.0)
     return acceleration * excess * duration**2 / (2.0 * yield_acceleration)
 

@@ -1,7 +1,7 @@
 """When a block on corner springs lifts off under harmonic shaking: the paper's closed forms, for a square base.
 
 Square base (gamma = 1), equal horizontal springs, equal modal damping, small rotations, steady state. The general
-base is solved by :mod:`seisblock.solvers.uplift.harmonic`, which these formulas check and are checked by.
+base is solved by :mod:`seisblock.models.uplift.harmonic`, which these formulas check and are checked by.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.bodies.spring_block import CORNERS
-from seisblock.errors import ParameterError
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.bodies.spring_block import CORNER_SIGNS
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.typing import ArrayLike, FloatArray
 
 UNDAMPED_RESONANCE = 1e-150
 """Stands for zero in the denominator of an undamped resonance, so that a mode that takes no part stays out."""
@@ -150,10 +150,10 @@ def harmonic_uplift_ratio(
     from scipy.special import cosdg, sindg
 
     modes = square_base_modes(alpha, beta)
-    shaking = (modes.c1 * np.asarray(frequency_ratio, dtype=np.float64)) ** 2
+    forcing_squared = (modes.c1 * np.asarray(frequency_ratio, dtype=np.float64)) ** 2
     c = np.array([modes.c1, modes.c2, 1.0])[:, None]
-    e = c**2 - shaking
-    d = 2.0 * damping * c * np.sqrt(shaking)
+    e = c**2 - forcing_squared
+    d = 2.0 * damping * c * np.sqrt(forcing_squared)
     e = np.where((e == 0.0) & (d == 0.0), UNDAMPED_RESONANCE, e)
     with np.errstate(divide="ignore"):
         scale = 1.0 / np.hypot(e, d)
@@ -163,20 +163,20 @@ def harmonic_uplift_ratio(
         w1, w5 = w1 * modes.d2 / modes.m1, w5 * modes.d1 / modes.m5
         vertical = cosdg(rho_deg)
         thresholds = []
-        for sx, sy in _chosen(corner):
+        for sx, sy in _corner_signs(corner):
             s = -sindg(rho_deg) * (sx * cosdg(phi_deg) + sy * sindg(phi_deg))
-            squared = 0.25 * s**2 * (w1**2 + 2.0 * w1 * w5 * p15 + w5**2)
+            gain_squared = 0.25 * s**2 * (w1**2 + 2.0 * w1 * w5 * p15 + w5**2)
             if vertical != 0.0:
-                squared = squared - s * vertical * w3 * (w1 * p13 + w5 * p53) + (vertical * w3) ** 2
-            thresholds.append(np.where(squared > 1.0 / UNDAMPED_RESONANCE, 0.0, 1.0 / np.sqrt(np.maximum(squared, 0.0))))
-    least: FloatArray = np.min(thresholds, axis=0)
-    return least
+                gain_squared = gain_squared - s * vertical * w3 * (w1 * p13 + w5 * p53) + (vertical * w3) ** 2
+            thresholds.append(np.where(gain_squared > 1.0 / UNDAMPED_RESONANCE, 0.0, 1.0 / np.sqrt(np.maximum(gain_squared, 0.0))))
+    minimum: FloatArray = np.min(thresholds, axis=0)
+    return minimum
 
 
-def _chosen(corner: int | None) -> tuple[tuple[int, int], ...]:
+def _corner_signs(corner: int | None) -> tuple[tuple[int, int], ...]:
     """Return the signs of one corner, or of all."""
     if corner is None:
-        return CORNERS
+        return CORNER_SIGNS
     if corner not in (1, 2, 3, 4):
         raise ParameterError("there are corners 1 to 4, found {corner}", corner=corner)
-    return (CORNERS[corner - 1],)
+    return (CORNER_SIGNS[corner - 1],)

@@ -1,21 +1,19 @@
-from .changes import Change, Changes, Instant, Instants
-from .ensemble import Ensemble, follow_many
-from .following import follow
+from .ensemble import Ensemble, integrate_many
+from .events import EventLog, GuardEvent, Instant, Instants
+from .integration import integrate
 from .model import Model
-from .status import Status
-from .trajectory import Path, Trajectory, joined
+from .trajectory import Path, Trajectory, concatenate_paths
 
 __all__ = [
-    "Change",
-    "Changes",
+    "GuardEvent",
+    "EventLog",
     "Ensemble",
     "Instant",
     "Instants",
     "Model",
     "Path",
-    "Status",
     "Trajectory",
-    "follow",
-    "follow_many",
-    "joined",
+    "integrate",
+    "integrate_many",
+    "concatenate_paths",
 ]

@@ -10,75 +10,75 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import (
-    BASE,
-    BEYOND,
-    FIRST_EVENT,
-    FOUND,
-    GROUNDS,
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.status import FAILURES, PAUSED, Status
+from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
+from seisblock.dynamics.array_types import MATRIX
+from seisblock.dynamics.buffers import (
+    BATCH_FORCING,
+    BATCH_STATE,
+    FIRST_EVENT_TIME,
     MODE,
-    ROWS,
+    N_EVENTS,
     SAMPLE,
+    SAMPLES_AFTER,
+    SEGMENT_START,
     SHAPE,
     STEPS_LEFT,
     TAU,
-    Cursor,
-    Ground,
-    Grounds,
-    Kept,
-    Rows,
+    BatchForcing,
+    BatchState,
+    Forcing,
+    Output,
+    State,
 )
-from seisblock.dynamics.arrays import MATRIX
-from seisblock.dynamics.changes import BEGINNING, Instant, Instants
-from seisblock.dynamics.contract import FIELDS, LANES
-from seisblock.dynamics.following import SLICE, cursor_at
-from seisblock.dynamics.halt import heed
-from seisblock.dynamics.hybrid import POINTERS, go_on, make_room, room
-from seisblock.dynamics.lanes import integrate_in_lanes
+from seisblock.dynamics.cancellation import check_cancelled
+from seisblock.dynamics.events import BEGINNING, Instant, Instants
+from seisblock.dynamics.hybrid import MODEL_POINTERS, advance, allocate_scratch, allocate_scratch_kernel
+from seisblock.dynamics.integration import STEPS_PER_SLICE, initial_state
 from seisblock.dynamics.model import Model
-from seisblock.dynamics.status import FAILURES, PAUSED, Status
-from seisblock.errors import ParameterError, SolverError
+from seisblock.dynamics.model_api import LANE_FIELDS, N_LANES
+from seisblock.dynamics.simd import integrate_in_lanes
 from seisblock.records.motion import Motion
-from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
-from seisblock.words import said
 
 _t = types()
 
-_FAILED = np.array([status in FAILURES for status in Status])
+_IS_FAILURE = np.array([status in FAILURES for status in Status])
 
 
-@kernel(_t.int64(*POINTERS, GROUNDS, SHAPE, MATRIX, ROWS, _t.int64, _t.int64), allocates=True)
-def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first, steps):
-    """Follow one trajectory per row of `parameters` from row `first` on, for so many steps in all; return the row to go on with."""
+@kernel(_t.int64(*MODEL_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, _t.int64, _t.int64), allocates=True)
+def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_row, steps):
+    """Follow one trajectory per row of `parameters` from row `first_row` on, for so many steps in all; return the row to go on with."""
     n_states = rows.states.shape[1]
     path = np.empty((0, n_states))
     modes = np.empty(0, np.int64)
     events = np.empty((0, 4), np.int64)
     times = np.empty(0)
     limits = np.empty((0, 2, n_states))
-    scratch = room(shape, n_states, grounds.acceleration.shape[0])
-    row = first
+    scratch = allocate_scratch_kernel(shape, n_states, forcing.acceleration.shape[0])
+    row = first_row
     while row < parameters.shape[0] and steps > 0:
         if rows.statuses[row] != PAUSED:
             # it ended in an earlier stretch of the motion
             row += 1
             continue
-        place = rows.places[row]
-        place[STEPS_LEFT] = steps
-        rows.statuses[row] = go_on(
+        counters = rows.counters[row]
+        counters[STEPS_LEFT] = steps
+        rows.statuses[row] = advance(
             series,
             reset,
             skip,
-            Ground(grounds.acceleration, grounds.gains[row], grounds.dt),
+            Forcing(forcing.acceleration, forcing.gains[row], forcing.dt),
             shape,
             parameters[row],
-            Cursor(place, rows.clocks[row], rows.states[row]),
-            Kept(path, modes, events, times, limits, rows.extrema[row], rows.tallies[row], rows.stays[row]),
+            State(counters, rows.clocks[row], rows.states[row]),
+            Output(path, modes, events, times, limits, rows.extrema[row], rows.transition_counts[row], rows.dwell_times[row]),
             scratch,
         )
-        steps = place[STEPS_LEFT] - 1
-        through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] >= grounds.acceleration.shape[1] - 1
-        if rows.statuses[row] != PAUSED or through:
+        steps = counters[STEPS_LEFT] - 1
+        segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= forcing.acceleration.shape[1] - 1
+        if rows.statuses[row] != PAUSED or segment_done:
             row += 1
     return row
 
@@ -93,15 +93,15 @@ class Ensemble:
     dt : float, s
     final : (m, n_states) array
         State at the end.
-    final_mode, n_changes : (m,) arrays of int
+    final_mode, n_events : (m,) arrays of int
     end : Instants
-    first_change : (m,) array, s after sample 0
+    first_event_time : (m,) array, s after sample 0
         Time of the first event, NaN where there was none.
     extrema : (m, n_tracked, 4) array
         Highest value, its time, lowest value, its time; s after sample 0.
-    tally : (m, n_guards, n_modes) array of int
+    transition_counts : (m, n_guards, n_modes) array of int
         How often each guard led to each mode.
-    stays : (m, n_modes, 2) array, s
+    dwell_times : (m, n_modes, 2) array, s
         How long it was in each mode, in all and at the longest stretch between two events.
     failed : (m,) array of bool
         Rows that were given up: what stands in them is the state in which that happened, and no answer.
@@ -111,12 +111,12 @@ class Ensemble:
     dt: float
     final: FloatArray
     final_mode: IntArray
-    n_changes: IntArray
+    n_events: IntArray
     end: Instants
-    first_change: FloatArray
+    first_event_time: FloatArray
     extrema: FloatArray
-    tally: IntArray
-    stays: FloatArray
+    transition_counts: IntArray
+    dwell_times: FloatArray
     failed: BoolArray
 
     @property
@@ -125,7 +125,7 @@ class Ensemble:
         return self.end.sample * self.dt + self.end.tau
 
 
-def follow_many(
+def integrate_many(
     model: Model,
     motion: Motion,
     parameters: ArrayLike,
@@ -134,7 +134,7 @@ def follow_many(
     *,
     gains: ArrayLike,
     start: Instant | Instants = BEGINNING,
-    called: IntArray | None = None,
+    row_ids: IntArray | None = None,
     allow_failures: bool = False,
 ) -> Ensemble:
     """Follow a model through a motion once per row of parameters, without the GIL.
@@ -154,7 +154,7 @@ def follow_many(
         Factors on the rows along, across, up; zero leaves a row out.
     start : Instant or Instants
         Where to begin, all of them or each.
-    called : (m,) array of int
+    row_ids : (m,) array of int
         The numbers by which an error names the rows, where they are some of many.
     allow_failures : bool
         Whether rows that had to be given up are marked in the answer instead of ending all of them in an error.
@@ -176,62 +176,64 @@ def follow_many(
     m, n_states = p.shape[0], len(model.states)
     states, scale = np.empty((m, n_states)), np.empty((m, 3))
     states[:], scale[:] = initial, gains
-    begin = cursor_at(BEGINNING, 0, np.empty(n_states))
-    rows = Rows(
-        np.tile(begin.place, (m, 1)),
-        np.tile(begin.clock, (m, 1)),
+    template = initial_state(BEGINNING, 0, np.empty(n_states))
+    rows = BatchState(
+        np.tile(template.counters, (m, 1)),
+        np.tile(template.clock, (m, 1)),
         states,
         np.zeros((m, model.tracked, 4)),
         np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64),
         np.zeros((m, len(model.modes), 2)),
         np.full(m, PAUSED, dtype=np.int64),
     )
-    rows.places[:, MODE], rows.places[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
-    for stretch in motion.stretches((scale != 0.0).any(axis=0).tolist()):
-        grounds = Grounds(stretch.acceleration, scale, motion.dt)
-        rows.places[:, BASE], rows.places[:, BEYOND] = stretch.first, stretch.beyond
+    rows.counters[:, MODE], rows.counters[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
+    for segment in motion.segments((scale != 0.0).any(axis=0).tolist()):
+        forcing = BatchForcing(segment.acceleration, scale, motion.dt)
+        rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
         row = 0
         if model.stride is not None:
-            through_in_lanes(model, grounds, p, rows)
+            integrate_rows_simd(model, forcing, p, rows)
             continue
         while row < m:
-            heed()
-            row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
-    end = Instants(rows.places[:, SAMPLE], rows.clocks[:, TAU])
-    failed: BoolArray = _FAILED[rows.statuses]
+            check_cancelled()
+            row = integrate_rows(*model.pointers, forcing, model.shape, p, rows, row, STEPS_PER_SLICE)
+    end = Instants(rows.counters[:, SAMPLE], rows.clocks[:, TAU])
+    failed: BoolArray = _IS_FAILURE[rows.statuses]
     for row in () if allow_failures else np.flatnonzero(failed)[:1]:
         raise SolverError(
             "{name}, row {row}: given up at {at:.6f} s, where {failure}",
             name=model.name,
-            row=row if called is None else called[row],
+            row=row if row_ids is None else row_ids[row],
             at=motion.start_s + end.sample[row] * motion.dt + end.tau[row],
-            failure=said(FAILURES[int(rows.statuses[row])]),
+            failure=lazy_gettext(FAILURES[int(rows.statuses[row])]),
         )
     return Ensemble(
         model,
         motion.dt,
         states,
-        rows.places[:, MODE],
-        rows.places[:, FOUND],
+        rows.counters[:, MODE],
+        rows.counters[:, N_EVENTS],
         end,
-        rows.clocks[:, FIRST_EVENT],
+        rows.clocks[:, FIRST_EVENT_TIME],
         rows.extrema,
-        rows.tallies,
-        rows.stays,
+        rows.transition_counts,
+        rows.dwell_times,
         failed,
     )
 
 
-def through_in_lanes(model: Model, grounds: Grounds, p: FloatArray, rows: Rows) -> None:
+def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState) -> None:
     """Follow all rows to the end of a motion, or of a stretch of it, in lanes."""
-    chosen, waits = np.full(LANES, -1), np.ones(LANES, dtype=np.int64)
-    lanes, n_states = np.zeros(FIELDS * LANES), rows.states.shape[1]
+    lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
+    lane_state, n_states = np.zeros(LANE_FIELDS * N_LANES), rows.states.shape[1]
     path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)
     times, limits = np.empty(0), np.empty((0, 2, n_states))
-    nothing = Kept(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
-    scratch = make_room(model.shape, n_states, grounds.acceleration.shape[0])
+    no_output = Output(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
+    scratch = allocate_scratch(model.shape, n_states, forcing.acceleration.shape[0])
     functions = (*model.pointers, model.stride_pointer)
     row = 0
-    while row < p.shape[0] or (chosen >= 0).any():
-        heed()
-        row = integrate_in_lanes(*functions, grounds, model.shape, p, rows, chosen, waits, lanes, nothing, scratch, row, SLICE)
+    while row < p.shape[0] or (lane_rows >= 0).any():
+        check_cancelled()
+        row = integrate_in_lanes(
+            *functions, forcing, model.shape, p, rows, lane_rows, needs_engine, lane_state, no_output, scratch, row, STEPS_PER_SLICE
+        )

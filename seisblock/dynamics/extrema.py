@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.dynamics.polynomial import evaluate_row, first_crossing
 
 _t = types()
@@ -13,7 +13,7 @@ HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME = range(4)
 
 
 @kernel(_t.void(MATRIX, _t.int64, VECTOR, _t.float64), inline=True)
-def begin(extrema, n_tracked, y, time):
+def init_extrema(extrema, n_tracked, y, time):
     """Let the extrema of the first states begin at what these are."""
     for i in range(n_tracked):
         extrema[i, HIGHEST] = y[i]
@@ -23,7 +23,7 @@ def begin(extrema, n_tracked, y, time):
 
 
 @kernel(_t.void(MATRIX, _t.int64, _t.float64, _t.float64), inline=True)
-def keep(extrema, i, value, time):
+def update_extrema(extrema, i, value, time):
     """Widen the extrema of state `i` to hold a value."""
     if value > extrema[i, HIGHEST]:
         extrema[i, HIGHEST] = value
@@ -34,25 +34,25 @@ def keep(extrema, i, value, time):
 
 
 @kernel(_t.boolean(MATRIX, _t.int64, _t.int64, _t.float64, MATRIX), inline=True)
-def may_turn(c, i, degree, h, extrema):
+def may_exceed_extrema(c, i, degree, h, extrema):
     """Whether state `i` may reach a new extremum inside a step; False is certain."""
-    bend = 0.0
+    curvature = 0.0
     power = 1.0
     for k in range(2, degree + 1):
         power *= h
-        bend += k * abs(c[i, k]) * power
-    if bend < abs(c[i, 1]):
+        curvature += k * abs(c[i, k]) * power
+    if curvature < abs(c[i, 1]):
         return False
-    reach = (abs(c[i, 1]) + bend) * h
-    return c[i, 0] + reach > extrema[i, HIGHEST] or c[i, 0] - reach < extrema[i, LOWEST]
+    bound = (abs(c[i, 1]) + curvature) * h
+    return c[i, 0] + bound > extrema[i, HIGHEST] or c[i, 0] - bound < extrema[i, LOWEST]
 
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
-def keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
+def update_interior_extrema(c, i, degree, h, start_time, extrema, rate, q, d):
     """Widen the extrema of state `i` by its first maximum and first minimum inside a step."""
     for sign in (1.0, -1.0):
         for k in range(degree):
             rate[k] = sign * (k + 1) * c[i, k + 1]
-        at = first_crossing(rate, degree - 1, h, q, d)
-        if at > 0.0:
-            keep(extrema, i, evaluate_row(c, i, degree, at), now + at)
+        offset = first_crossing(rate, degree - 1, h, q, d)
+        if offset > 0.0:
+            update_extrema(extrema, i, evaluate_row(c, i, degree, offset), start_time + offset)

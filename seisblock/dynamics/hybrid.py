@@ -34,52 +34,52 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import (
-    AT_ONE_INSTANT,
-    BASE,
-    BEYOND,
-    CURSOR,
-    FIRST_EVENT,
-    FOUND,
-    GROUND,
-    KEPT,
-    LOGGED,
+from seisblock.core.status import CHATTERING, NOT_FINITE, PAUSED, RECORD_ENDED, STEP_TOO_SMALL, STOPPED, TOO_MANY_EVENTS
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.buffers import (
+    AT_REST,
+    FIRST_EVENT_TIME,
+    FORCING,
+    HAS_STARTED,
     LONGEST,
     MODE,
+    MODE_START,
+    N_EVENTS,
+    N_FLUSHED,
+    N_SIMULTANEOUS,
+    OUTPUT,
     SAMPLE,
+    SAMPLES_AFTER,
     SCRATCH,
+    SEGMENT_START,
     SHAPE,
-    SINCE,
-    STARTED,
+    STATE,
     STEPS_LEFT,
-    STILL,
     TAU,
     TOTAL,
     Scratch,
 )
-from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.dynamics.changes import EVENT_FROM, EVENT_GUARD, EVENT_SAMPLE, EVENT_TO
-from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP, stay
-from seisblock.dynamics.extrema import begin, keep
-from seisblock.dynamics.status import CHATTERING, NOT_FINITE, PAUSED, RECORD_ENDED, STEP_TOO_SMALL, STOPPED, TOO_MANY_EVENTS
-from seisblock.dynamics.step import first_to_fire, move, read, step_length
+from seisblock.dynamics.events import EVENT_FROM, EVENT_GUARD, EVENT_SAMPLE, EVENT_TO
+from seisblock.dynamics.extrema import init_extrema, update_extrema
+from seisblock.dynamics.model_api import CONSTANT, OFF, RESET, SERIES, SKIP, no_skip
+from seisblock.dynamics.step import advance_state, first_guard_crossing, read_forcing, step_length
 
 _t = types()
 
-SAME_INSTANT = 16
+MAX_SIMULTANEOUS_EVENTS = 16
 """More events than this at one instant are chattering."""
 
-MOST_STEPS = 1 << 18
+MAX_STEPS_PER_SAMPLE = 1 << 18
 """More steps than this in one sample lead nowhere."""
 
-SKIPPED = 64
+SKIPPED_PER_STEP = 64
 """So many samples passed over cost about as much as a step."""
 
-POINTERS = _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP)
+MODEL_POINTERS = _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP)
 """Types of a model's three functions."""
 
 
-def make_room(shape, n_states, rows):
+def allocate_scratch(shape, n_states, rows):
     """Return room for one step of a model with so many states, under a motion of so many rows."""
     terms = shape.order + 1
     return Scratch(
@@ -92,33 +92,33 @@ def make_room(shape, n_states, rows):
     )
 
 
-room = kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)(make_room)
+allocate_scratch_kernel = kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)(allocate_scratch)
 """The same for kernels."""
 
 
-@kernel(_t.void(KEPT, _t.int64, VECTOR, _t.int64), inline=True)
-def _keep_sample(kept, sample, y, mode):
+@kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.int64), inline=True)
+def _store_sample(output, sample, y, mode):
     """Keep state and mode at a sample."""
     for i in range(y.size):
-        kept.path[sample, i] = y[i]
-    kept.modes[sample] = mode
+        output.path[sample, i] = y[i]
+    output.modes[sample] = mode
 
 
-@kernel(_t.void(KEPT, _t.int64, _t.int64, VECTOR), inline=True)
-def _keep_limit(kept, event, side, y):
+@kernel(_t.void(OUTPUT, _t.int64, _t.int64, VECTOR), inline=True)
+def _store_limit(output, event, side, y):
     """Keep the state on one side of an event."""
     for i in range(y.size):
-        kept.limits[event, side, i] = y[i]
+        output.limits[event, side, i] = y[i]
 
 
-@kernel(_t.void(KEPT, _t.int64, VECTOR, _t.float64), inline=True)
-def _keep_stay(kept, mode, clock, now):
+@kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.float64), inline=True)
+def _store_dwell_time(output, mode, clock, time):
     """Keep how long a stay in a mode was that ends now, and begin the next."""
-    if kept.stays.shape[0] > 0:
-        stay = now - clock[SINCE]
-        kept.stays[mode, TOTAL] += stay
-        kept.stays[mode, LONGEST] = max(kept.stays[mode, LONGEST], stay)
-    clock[SINCE] = now
+    if output.dwell_times.shape[0] > 0:
+        dwell_time = time - clock[MODE_START]
+        output.dwell_times[mode, TOTAL] += dwell_time
+        output.dwell_times[mode, LONGEST] = max(output.dwell_times[mode, LONGEST], dwell_time)
+    clock[MODE_START] = time
 
 
 @kernel(_t.void(_t.int64, MATRIX), inline=True)
@@ -138,156 +138,182 @@ def _is_unchanged(y, c):
     return differing == 0
 
 
-@kernel(_t.int64(*POINTERS, GROUND, SHAPE, VECTOR, CURSOR, KEPT, SCRATCH))
-def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
+@kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH))
+def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     """Follow one trajectory on from its cursor; return a status.
 
     Parameters
     ----------
     series, reset, skip : function pointers
         The model; see ``SERIES``, ``RESET`` and ``SKIP``.
-    ground, shape, cursor, kept, scratch : named tuples
-        See :mod:`seisblock.dynamics.arguments`.
+    forcing, shape, state, output, scratch : named tuples
+        See :mod:`seisblock.dynamics.buffers`.
     p : array
         The model's parameters.
     """
-    acceleration, gains, dt = ground
-    place, clock, y = cursor
-    events, times, extrema, tally = kept.events, kept.times, kept.extrema, kept.tally
+    acceleration, gains, dt = forcing
+    counters, clock, y = state
+    events, times, extrema, transition_counts = output.events, output.times, output.extrema, output.transition_counts
     c, g, f = scratch.c, scratch.g, scratch.f
-    base = place[BASE]
+    segment_start = counters[SEGMENT_START]
     last = acceleration.shape[1] - 1
     order = shape.order
-    floors = p.size - y.size if shape.floored else -1
-    keeps_path = kept.path.shape[0] > 0
-    keeps_events = times.size > 0
-    logged = place[LOGGED]
-    sample, mode, found, repeated, left = place[SAMPLE] - base, place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT]
-    still = place[STILL] != 0
+    floors = p.size - y.size if shape.has_floors else -1
+    stores_path = output.path.shape[0] > 0
+    stores_events = times.size > 0
+    n_flushed = counters[N_FLUSHED]
+    sample, mode, n_events, n_simultaneous, steps_left = (
+        counters[SAMPLE] - segment_start,
+        counters[MODE],
+        counters[N_EVENTS],
+        counters[N_SIMULTANEOUS],
+        counters[STEPS_LEFT],
+    )
+    at_rest = counters[AT_REST] != 0
     tau = clock[TAU]
     # a row that is left out stays zero, whatever the trajectory before this one read
     for row in range(f.shape[0]):
         f[row, 0] = f[row, 1] = 0.0
-    if place[STARTED] == 0:
-        place[STARTED] = 1
-        clock[FIRST_EVENT] = np.nan
-        clock[SINCE] = (base + sample) * dt + tau
-        begin(extrema, shape.tracked, y, (base + sample) * dt + tau)
-        if keeps_path and tau == 0.0:
-            _keep_sample(kept, sample, y, mode)
+    if counters[HAS_STARTED] == 0:
+        counters[HAS_STARTED] = 1
+        clock[FIRST_EVENT_TIME] = np.nan
+        clock[MODE_START] = (segment_start + sample) * dt + tau
+        init_extrema(extrema, shape.tracked, y, (segment_start + sample) * dt + tau)
+        if stores_path and tau == 0.0:
+            _store_sample(output, sample, y, mode)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
-        if left <= 0 or (keeps_events and 2 * (found - logged) > times.size):
+        if steps_left <= 0 or (stores_events and 2 * (n_events - n_flushed) > times.size):
             status = PAUSED
             break
-        if tau == 0.0 and still:
-            ahead = skip(mode, acceleration, gains, sample, p)
-            if ahead > sample:
-                if keeps_path:
-                    for row in range(sample + 1, ahead + 1):
-                        _keep_sample(kept, row, y, mode)
-                left -= 1 + (ahead - sample) // SKIPPED
-                sample = ahead
+        if tau == 0.0 and at_rest:
+            next_sample = skip(mode, acceleration, gains, sample, p)
+            if next_sample > sample:
+                if stores_path:
+                    for row in range(sample + 1, next_sample + 1):
+                        _store_sample(output, row, y, mode)
+                steps_left -= 1 + (next_sample - sample) // SKIPPED_PER_STEP
+                sample = next_sample
                 continue
-        read(ground, sample, tau, f)
-        least = left - MOST_STEPS
-        before = found
+        read_forcing(forcing, sample, tau, f)
+        min_steps_left = steps_left - MAX_STEPS_PER_SAMPLE
+        n_events_before = n_events
         touched = 0
         while True:
             degree = series(mode, y, f, p, order, c, g)
             if touched != 0:
                 _lift_touched(touched, g)
-            still = degree == CONSTANT
-            rest = dt - tau
-            h = rest
+            at_rest = degree == CONSTANT
+            remaining = dt - tau
+            h = remaining
             if degree >= order:
-                h = step_length(c, y.size, order, rest, p, floors)
-                if h < 1e-12 * dt and rest > 1e-12 * dt:
+                h = step_length(c, y.size, order, remaining, p, floors)
+                if h < 1e-12 * dt and remaining > 1e-12 * dt:
                     status = STEP_TOO_SMALL
                     break
-            fired, h = first_to_fire(scratch, shape, max(degree, 1), h)
+            guard, h = first_guard_crossing(scratch, shape, max(degree, 1), h)
             if h > 0.0:
-                if degree > CONSTANT and not move(scratch, degree, h, (base + sample) * dt + tau, shape.tracked, y, extrema):
+                if degree > CONSTANT and not advance_state(
+                    scratch, degree, h, (segment_start + sample) * dt + tau, shape.tracked, y, extrema
+                ):
                     status = NOT_FINITE
                     break
                 if tau + h > tau:
-                    repeated = 0
+                    n_simultaneous = 0
                     touched = 0
-            at_sample = h == rest
+            at_sample = h == remaining
             tau += h
-            if not at_sample or fired >= 0:
+            if not at_sample or guard >= 0:
                 for row in range(f.shape[0]):
                     f[row, 0] += f[row, 1] * h
-            if fired >= 0:
-                if keeps_events:
-                    if found - logged >= times.size:
+            if guard >= 0:
+                if stores_events:
+                    if n_events - n_flushed >= times.size:
                         status = TOO_MANY_EVENTS
                         break
-                    _keep_limit(kept, found - logged, 0, y)
-                below = h == 0.0 and g[fired, 0] < 0.0
+                    _store_limit(output, n_events - n_flushed, 0, y)
+                below = h == 0.0 and g[guard, 0] < 0.0
                 if below:
                     # no step was made, so that the series has room for the state
                     for i in range(y.size):
                         c[i, 0] = y[i]
-                following = reset(mode, fired, y, f, p)
-                if below and following == mode and _is_unchanged(y, c):
-                    touched |= 1 << fired
-                    repeated += 1
-                    if repeated > SAME_INSTANT:
+                next_mode = reset(mode, guard, y, f, p)
+                if below and next_mode == mode and _is_unchanged(y, c):
+                    touched |= 1 << guard
+                    n_simultaneous += 1
+                    if n_simultaneous > MAX_SIMULTANEOUS_EVENTS:
                         status = CHATTERING
                         break
                     continue
-                if keeps_events:
-                    row = found - logged
-                    events[row, EVENT_SAMPLE] = base + sample
-                    events[row, EVENT_GUARD] = fired
+                if stores_events:
+                    row = n_events - n_flushed
+                    events[row, EVENT_SAMPLE] = segment_start + sample
+                    events[row, EVENT_GUARD] = guard
                     events[row, EVENT_FROM] = mode
-                    events[row, EVENT_TO] = following
+                    events[row, EVENT_TO] = next_mode
                     times[row] = tau
-                    _keep_limit(kept, row, 1, y)
+                    _store_limit(output, row, 1, y)
                 for i in range(shape.tracked):
-                    keep(extrema, i, y[i], (base + sample) * dt + tau)
-                if found == 0:
-                    clock[FIRST_EVENT] = (base + sample) * dt + tau
-                _keep_stay(kept, mode, clock, (base + sample) * dt + tau)
-                if tally.shape[0] > 0:
-                    tally[fired, following] += 1
-                found += 1
-                mode = following
+                    update_extrema(extrema, i, y[i], (segment_start + sample) * dt + tau)
+                if n_events == 0:
+                    clock[FIRST_EVENT_TIME] = (segment_start + sample) * dt + tau
+                _store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
+                if transition_counts.shape[0] > 0:
+                    transition_counts[guard, next_mode] += 1
+                n_events += 1
+                mode = next_mode
                 if mode < 0:
                     status = STOPPED
                     break
-                repeated += 1
-                if repeated > SAME_INSTANT:
+                n_simultaneous += 1
+                if n_simultaneous > MAX_SIMULTANEOUS_EVENTS:
                     status = CHATTERING
                     break
             if at_sample or dt - tau <= 1e-15 * dt:
                 break
-            left -= 1
-            if left < least:
-                status = TOO_MANY_EVENTS if found > before else STEP_TOO_SMALL
+            steps_left -= 1
+            if steps_left < min_steps_left:
+                status = TOO_MANY_EVENTS if n_events > n_events_before else STEP_TOO_SMALL
                 break
         if status == RECORD_ENDED:
-            left -= 1
+            steps_left -= 1
             sample += 1
             tau = 0.0
-            if keeps_path:
-                _keep_sample(kept, sample, y, mode)
-    if status == RECORD_ENDED and place[BEYOND] > 0:
+            if stores_path:
+                _store_sample(output, sample, y, mode)
+    if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
         status = PAUSED
     if status == RECORD_ENDED:
-        _keep_stay(kept, mode, clock, (base + sample) * dt + tau)
-    place[SAMPLE], place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT] = base + sample, mode, found, repeated, left
-    place[STILL] = still
+        _store_dwell_time(output, mode, clock, (segment_start + sample) * dt + tau)
+    counters[SAMPLE], counters[MODE], counters[N_EVENTS], counters[N_SIMULTANEOUS], counters[STEPS_LEFT] = (
+        segment_start + sample,
+        mode,
+        n_events,
+        n_simultaneous,
+        steps_left,
+    )
+    counters[AT_REST] = at_rest
     clock[TAU] = tau
     return status
 
 
-@kernel(_t.int64(*POINTERS, GROUND, SHAPE, VECTOR, CURSOR, KEPT), allocates=True)
-def integrate(series, reset, skip, ground, shape, p, cursor, kept):
-    """Follow one trajectory on from its cursor, as :func:`go_on` does, in room of its own; return a status."""
-    scratch = room(shape, cursor.state.size, ground.acceleration.shape[0])
-    return go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch)
+@kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT), allocates=True)
+def integrate_kernel(series, reset, skip, forcing, shape, p, state, output):
+    """Follow one trajectory on from its cursor, as :func:`advance` does, in room of its own; return a status."""
+    scratch = allocate_scratch_kernel(shape, state.state.size, forcing.acceleration.shape[0])
+    return advance(series, reset, skip, forcing, shape, p, state, output, scratch)
 
 
-__all__ = ["CONSTANT", "OFF", "POINTERS", "RESET", "SERIES", "SKIP", "go_on", "integrate", "make_room", "room", "stay"]
+__all__ = [
+    "CONSTANT",
+    "OFF",
+    "MODEL_POINTERS",
+    "RESET",
+    "SERIES",
+    "SKIP",
+    "advance",
+    "integrate_kernel",
+    "allocate_scratch",
+    "allocate_scratch_kernel",
+    "no_skip",
+]

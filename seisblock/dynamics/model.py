@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from seisblock._jit import pointer
+from seisblock._jit import function_pointer
 from seisblock.dynamics import hybrid
-from seisblock.dynamics.arguments import Shape
-from seisblock.dynamics.contract import STRIDE
+from seisblock.dynamics.buffers import Shape
+from seisblock.dynamics.model_api import STRIDE
 
 ORDER = 12
 """Terms of the power series; at 100 Hz the thirteenth is below round-off."""
@@ -36,12 +36,12 @@ class Model:
         Terms of a series that does not end by itself.
     skip : compiled function
         Signature ``SKIP``: the short cut through samples at which nothing happens.
-    floored : bool
+    has_floors : bool
         Whether the parameters end in one size per state below which it counts as that large, for the step's length.
     sharp : int
         How many of the first guards are states set to exact values: however small they start, they are not taken for zero.
     stride : compiled function or None
-        Signature ``STRIDE`` of :mod:`seisblock.dynamics.contract`: moves many trajectories at once where nothing happens to them.
+        Signature ``STRIDE`` of :mod:`seisblock.dynamics.model_api`: moves many trajectories at once where nothing happens to them.
     """
 
     name: str
@@ -53,23 +53,27 @@ class Model:
     scratch: int = 0
     tracked: int = 1
     order: int = ORDER
-    skip: Callable[..., Any] = hybrid.stay
-    floored: bool = False
+    skip: Callable[..., Any] = hybrid.no_skip
+    has_floors: bool = False
     sharp: int = 0
     stride: Callable[..., Any] | None = None
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any]:
         """Series, reset and skip, as compiled loops take them."""
-        return pointer(self.series, hybrid.SERIES), pointer(self.reset, hybrid.RESET), pointer(self.skip, hybrid.SKIP)
+        return (
+            function_pointer(self.series, hybrid.SERIES),
+            function_pointer(self.reset, hybrid.RESET),
+            function_pointer(self.skip, hybrid.SKIP),
+        )
 
     @cached_property
     def stride_pointer(self) -> Any:
         """The stride, as compiled loops take it."""
         assert self.stride is not None
-        return pointer(self.stride, STRIDE)
+        return function_pointer(self.stride, STRIDE)
 
     @cached_property
     def shape(self) -> Shape:
         """Sizes that the engine needs."""
-        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.floored), self.sharp)
+        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.has_floors), self.sharp)

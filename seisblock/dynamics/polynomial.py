@@ -10,17 +10,17 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.dynamics.array_types import MATRIX, VECTOR
 
 _t = types()
 
 ROUND_OFF = 1e-14
 """A polynomial is taken as zero where it is below this share of the sum of its terms."""
 
-NEAR = 1e-9
+NEWTON_TOLERANCE = 1e-9
 """A Newton step below this share of the root is followed by none that matters."""
 
-NEVER = -1.0
+NO_CROSSING = -1.0
 """Answer of :func:`first_crossing` when there is none."""
 
 
@@ -36,8 +36,8 @@ def evaluate(c, degree, t):
 @kernel(_t.void(VECTOR, _t.int64, _t.float64), inline=True)
 def shift(c, degree, t):
     """Move the origin of a polynomial to `t`, in place (Taylor shift by synthetic division)."""
-    for first in range(degree):
-        for k in range(degree - 1, first - 1, -1):
+    for lowest in range(degree):
+        for k in range(degree - 1, lowest - 1, -1):
             c[k] += t * c[k + 1]
 
 
@@ -82,7 +82,7 @@ def lower_bound_of_row(c, i, degree, h):
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
-def _root_between(c, degree, high):
+def _bracketed_root(c, degree, high):
     """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket).
 
     It begins at the root of the parabola that the first terms are. A step below ``NEAR`` is the last: the error is of its square.
@@ -92,11 +92,11 @@ def _root_between(c, degree, high):
     low = 0.0
     t = high
     if degree > 1:
-        under = c[1] * c[1] - 4.0 * c[0] * c[2]
-        if under >= 0.0:
-            begin = 2.0 * c[0] / (np.sqrt(under) - c[1])
-            if 0.0 < begin < high:
-                t = begin
+        discriminant = c[1] * c[1] - 4.0 * c[0] * c[2]
+        if discriminant >= 0.0:
+            guess = 2.0 * c[0] / (np.sqrt(discriminant) - c[1])
+            if 0.0 < guess < high:
+                t = guess
     for _ in range(100):
         value = c[degree]
         slope = 0.0
@@ -107,19 +107,19 @@ def _root_between(c, degree, high):
             low = t
         else:
             high = t
-        following = t - value / slope if slope != 0.0 else t
-        if value == 0.0 or (slope != 0.0 and abs(following - t) <= NEAR * t):
-            return min(max(following, low), high)
-        if not (low < following < high):
-            following = 0.5 * (low + high)
+        next_t = t - value / slope if slope != 0.0 else t
+        if value == 0.0 or (slope != 0.0 and abs(next_t - t) <= NEWTON_TOLERANCE * t):
+            return min(max(next_t, low), high)
+        if not (low < next_t < high):
+            next_t = 0.5 * (low + high)
             if high - low <= 2.3e-16 * high:
-                return following
-        t = following
+                return next_t
+        t = next_t
     return t
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64, _t.float64, VECTOR, VECTOR))
-def first_below(g, degree, h, round_off, q, d):
+def first_negative(g, degree, h, round_off, q, d):
     """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
 
     A zero that is only touched, or passed by less than `round_off` of the sum of the terms, is no crossing. A guard that a reset has
@@ -139,31 +139,31 @@ def first_below(g, degree, h, round_off, q, d):
         Scratch.
     """
     if lower_bound(g, degree, h) > 0.0:
-        return NEVER
+        return NO_CROSSING
     total = 0.0
     power = 1.0
     for k in range(degree + 1):
         total += abs(g[k]) * power
         power *= h
     if not total < np.inf:
-        return NEVER
+        return NO_CROSSING
     noise = round_off * total
-    lead = 0
+    leading = 0
     power = 1.0
-    while lead <= degree and abs(g[lead]) * power <= noise:
-        lead += 1
+    while leading <= degree and abs(g[leading]) * power <= noise:
+        leading += 1
         power *= h
-    if lead > degree:
-        return NEVER
+    if leading > degree:
+        return NO_CROSSING
     if g[0] < -noise:
         return 0.0
-    if g[lead] < 0.0:
+    if g[leading] < 0.0:
         # it may dip by less than round-off and come back, so nothing is divided out
-        lead = 0
+        leading = 0
         power = 1.0
-    n = degree - lead
+    n = degree - leading
     for k in range(n + 1):
-        q[k] = g[lead + k]
+        q[k] = g[leading + k]
     # march over [0, h], halving where the bounds cannot tell
     noise = round_off * total / power
     start = 0.0
@@ -178,16 +178,16 @@ def first_below(g, degree, h, round_off, q, d):
                 width *= 0.5
                 continue
             if evaluate(q, n, width) < -noise:
-                at = start + _root_between(q, n, width)
-                return 0.0 if at < smallest else min(at, h)
+                root = start + _bracketed_root(q, n, width)
+                return 0.0 if root < smallest else min(root, h)
         start += width
         if start < h:
             shift(q, n, width)
         width = h - start
-    return NEVER
+    return NO_CROSSING
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64, VECTOR, VECTOR), inline=True)
 def first_crossing(g, degree, h, q, d):
-    """Return :func:`first_below` of a polynomial whose coefficients carry round-off."""
-    return first_below(g, degree, h, ROUND_OFF, q, d)
+    """Return :func:`first_negative` of a polynomial whose coefficients carry round-off."""
+    return first_negative(g, degree, h, ROUND_OFF, q, d)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import VECTOR
+from seisblock.dynamics.array_types import VECTOR
 
 _t = types()
 

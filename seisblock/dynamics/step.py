@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import GROUND, SCRATCH, SHAPE
-from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.dynamics.contract import OFF
-from seisblock.dynamics.extrema import keep, keep_turning_points, may_turn
-from seisblock.dynamics.polynomial import NEVER, ROUND_OFF, evaluate_row, first_below, lower_bound_of_row
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.buffers import FORCING, SCRATCH, SHAPE
+from seisblock.dynamics.extrema import may_exceed_extrema, update_extrema, update_interior_extrema
+from seisblock.dynamics.model_api import OFF
+from seisblock.dynamics.polynomial import NO_CROSSING, ROUND_OFF, evaluate_row, first_negative, lower_bound_of_row
 
 _t = types()
 
@@ -35,17 +35,17 @@ def step_length(c, n_states, order, h, p, floors):
                 power *= h
                 size += abs(c[i, k]) * power
         if tail > TRUNCATION * size:
-            cut = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
-            top *= (cut / h) ** (order - 1)
-            h = cut
+            reduced_h = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
+            top *= (reduced_h / h) ** (order - 1)
+            h = reduced_h
     return h
 
 
-@kernel(_t.void(GROUND, _t.int64, _t.float64, MATRIX), inline=True)
-def read(ground, sample, tau, f):
+@kernel(_t.void(FORCING, _t.int64, _t.float64, MATRIX), inline=True)
+def read_forcing(forcing, sample, tau, f):
     """Write the ground motion, value and slope, `tau` after a sample."""
-    acceleration, gains = ground.acceleration, ground.gains
-    per_dt = 1.0 / ground.dt
+    acceleration, gains = forcing.acceleration, forcing.gains
+    per_dt = 1.0 / forcing.dt
     for row in range(acceleration.shape[0]):
         if gains[row] != 0.0:
             slope = gains[row] * (acceleration[row, sample + 1] - acceleration[row, sample]) * per_dt
@@ -54,29 +54,29 @@ def read(ground, sample, tau, f):
 
 
 @kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, SHAPE, _t.int64, _t.float64), inline=True)
-def first_to_fire(scratch, shape, degree, h):
+def first_guard_crossing(scratch, shape, degree, h):
     """Return the guard that fires first within a step, -1 for none, and when: the end of the step."""
     g = scratch.g
-    fired = -1
+    guard = -1
     for k in range(shape.guards):
         if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
             continue
-        at = first_below(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
-        if at != NEVER and (fired < 0 or at < h):
-            fired = k
-            h = at
-            if at == 0.0:
+        crossing = first_negative(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
+        if crossing != NO_CROSSING and (guard < 0 or crossing < h):
+            guard = k
+            h = crossing
+            if crossing == 0.0:
                 break
-    return fired, h
+    return guard, h
 
 
 @kernel(_t.boolean(SCRATCH, _t.int64, _t.float64, _t.float64, _t.int64, VECTOR, MATRIX), inline=True)
-def move(scratch, degree, h, now, n_tracked, y, extrema):
-    """Move the state on by a step that begins at `now`, and its extrema with it; return whether it stays finite."""
+def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
+    """Move the state on by a step that begins at `start_time`, and its extrema with it; return whether it stays finite."""
     c = scratch.c
     for i in range(n_tracked):
-        if may_turn(c, i, degree, h, extrema):
-            keep_turning_points(c, i, degree, h, now, extrema, scratch.rate, scratch.q, scratch.d)
+        if may_exceed_extrema(c, i, degree, h, extrema):
+            update_interior_extrema(c, i, degree, h, start_time, extrema, scratch.rate, scratch.q, scratch.d)
     size = 0.0
     for i in range(y.size):
         if c[i, 1] == OFF:
@@ -84,5 +84,5 @@ def move(scratch, degree, h, now, n_tracked, y, extrema):
         y[i] = evaluate_row(c, i, degree, h)
         size += abs(y[i])
     for i in range(n_tracked):
-        keep(extrema, i, y[i], now + h)
+        update_extrema(extrema, i, y[i], start_time + h)
     return size < OFF

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seisblock.dynamics.changes import Changes, Instant, joined_changes
-from seisblock.limits import check_curves
-from seisblock.typing import FloatArray, IntArray
+from seisblock.core.limits import check_curve_memory
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.dynamics.events import EventLog, Instant, concatenate_events
 
-OTHERS = 6
+EXTRA_CURVES = 6
 """Curves that are no states: time, mode, ground motion, and what else is drawn."""
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Path:
         Number of the first sample.
     states, modes : (n, n_states), (n,) arrays
         State and mode at each sample.
-    changes : Changes
+    events : Changes
         Since the sample before the first; and those after the last one where the trajectory ends there.
     """
 
@@ -39,14 +39,14 @@ class Path:
     first: int
     states: FloatArray
     modes: IntArray
-    changes: Changes
+    events: EventLog
 
-    def table(self, chosen: IntArray | None = None) -> tuple[FloatArray, FloatArray, IntArray]:
+    def table(self, samples: IntArray | None = None) -> tuple[FloatArray, FloatArray, IntArray]:
         """Return times, states and modes at the samples and at both limits of every event, in order.
 
         Parameters
         ----------
-        chosen : (k,) array of int or None
+        samples : (k,) array of int or None
             Which samples of the path are wanted, in rising order; all when left out.
 
         Returns
@@ -55,81 +55,81 @@ class Path:
         states : (m, n_states) array
         modes : (m,) array
         """
-        time, modes = self.course(chosen)
-        states = self.states if chosen is None else self.states[chosen]
-        if not self.changes:
+        time, modes = self.times_and_modes(samples)
+        states = self.states if samples is None else self.states[samples]
+        if not self.events:
             return time, states, modes
-        return time, _inserted(states, self._before(chosen), self.changes.limits.reshape(-1, states.shape[1])), modes
+        return time, _insert_rows(states, self._insert_positions(samples), self.events.limits.reshape(-1, states.shape[1])), modes
 
-    def course(self, chosen: IntArray | None = None) -> tuple[FloatArray, IntArray]:
+    def times_and_modes(self, samples: IntArray | None = None) -> tuple[FloatArray, IntArray]:
         """Return the times and modes of :meth:`table` alone, (m,) each."""
         time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
         modes = self.modes
-        if chosen is not None:
-            time, modes = time[chosen], modes[chosen]
-        if not self.changes:
+        if samples is not None:
+            time, modes = time[samples], modes[samples]
+        if not self.events:
             return time, modes
-        kinds, before = np.stack([self.changes.source, self.changes.target], axis=1).ravel(), self._before(chosen)
-        return np.insert(time, before, np.repeat(self.changes.time, 2)), np.insert(modes, before, kinds)
+        event_modes, positions = np.stack([self.events.source, self.events.target], axis=1).ravel(), self._insert_positions(samples)
+        return np.insert(time, positions, np.repeat(self.events.time, 2)), np.insert(modes, positions, event_modes)
 
-    def numbers(self, chosen: IntArray) -> IntArray:
+    def row_indices(self, samples: IntArray) -> IntArray:
         """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
-        if not self.changes:
-            return chosen
-        before = self._places
-        at_samples = chosen + np.searchsorted(before, chosen, side="right")
-        return np.insert(at_samples, self._before(chosen), before + np.arange(before.size))
+        if not self.events:
+            return samples
+        positions = self._event_positions
+        at_samples = samples + np.searchsorted(positions, samples, side="right")
+        return np.insert(at_samples, self._insert_positions(samples), positions + np.arange(positions.size))
 
     def values(self, state: int) -> FloatArray:
         """Return one state at the times of :meth:`table`, (m,)."""
         at_samples: FloatArray = self.states[:, state]
-        if not self.changes:
+        if not self.events:
             return at_samples
-        return np.insert(at_samples, self._before(), self.changes.limits[:, :, state].ravel())
+        return np.insert(at_samples, self._insert_positions(), self.events.limits[:, :, state].ravel())
 
-    def sampled(self, values: FloatArray, chosen: IntArray | None = None) -> FloatArray:
+    def interpolate(self, values: FloatArray, samples: IntArray | None = None) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
         part = values[self.first : self.first + self.modes.size]
-        if chosen is not None:
-            part = part[chosen]
-        if not self.changes:
+        if samples is not None:
+            part = part[samples]
+        if not self.events:
             return part
-        at, share = self.changes.sample, self.changes.tau / self.dt
-        there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return np.insert(part, self._before(chosen), np.repeat(there, 2))
+        indices, fraction = self.events.sample, self.events.tau / self.dt
+        at_events = values[indices] + fraction * (values[np.minimum(indices + 1, values.size - 1)] - values[indices])
+        return np.insert(part, self._insert_positions(samples), np.repeat(at_events, 2))
 
     @cached_property
-    def _places(self) -> IntArray:
+    def _event_positions(self) -> IntArray:
         """Return before which sample of the path each limit of each event stands."""
-        at = self.changes.sample + 1 - self.first
-        return np.clip(np.repeat(at, 2), 0, self.modes.size)
+        samples = self.events.sample + 1 - self.first
+        return np.clip(np.repeat(samples, 2), 0, self.modes.size)
 
-    def _before(self, chosen: IntArray | None = None) -> IntArray:
+    def _insert_positions(self, samples: IntArray | None = None) -> IntArray:
         """Return before which of the samples chosen each limit of each event stands."""
-        before = self._places
-        return before if chosen is None else np.searchsorted(chosen, before)
+        positions = self._event_positions
+        return positions if samples is None else np.searchsorted(samples, positions)
 
 
-def _inserted(rows: FloatArray, before: IntArray, others: FloatArray) -> FloatArray:
+def _insert_rows(rows: FloatArray, positions: IntArray, inserts: FloatArray) -> FloatArray:
     """Return rows with others in rising order among them; numpy's insert does so six times slower, a row at a time."""
-    found = np.empty((len(rows) + len(others), rows.shape[1]))
-    at = before + np.arange(len(others))
-    kept = np.ones(len(found), dtype=bool)
-    kept[at] = False
-    found[at] = others
-    for column, values in zip(found.T, rows.T, strict=True):
-        column[kept] = values
-    return found
+    result = np.empty((len(rows) + len(inserts), rows.shape[1]))
+    insert_rows = positions + np.arange(len(inserts))
+    is_original = np.ones(len(result), dtype=bool)
+    is_original[insert_rows] = False
+    result[insert_rows] = inserts
+    for column, values in zip(result.T, rows.T, strict=True):
+        column[is_original] = values
+    return result
 
 
-def joined(paths: Iterable[Path]) -> Path:
+def concatenate_paths(paths: Iterable[Path]) -> Path:
     """Return one path from some that follow each other."""
-    parts = list(paths)
-    if len(parts) == 1:
-        return parts[0]
-    states = np.concatenate([part.states for part in parts])
-    modes = np.concatenate([part.modes for part in parts])
-    return Path(parts[0].dt, parts[0].first, states, modes, joined_changes([part.changes for part in parts]))
+    pieces = list(paths)
+    if len(pieces) == 1:
+        return pieces[0]
+    states = np.concatenate([part.states for part in pieces])
+    modes = np.concatenate([part.modes for part in pieces])
+    return Path(pieces[0].dt, pieces[0].first, states, modes, concatenate_events([part.events for part in pieces]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,27 +139,27 @@ class Trajectory:
     Parameters
     ----------
     model, dt, status : Model, float, int
-    changes : Changes
-    n_changes : int
+    events : Changes
+    n_events : int
         How many there were, kept or not.
     extrema : (n_tracked, 4) array
         Highest value, its time, lowest value, its time; s after sample 0.
     end : Instant
     final, final_mode : (n_states,) array, int
-    walk : callable
+    iter_paths : callable
         Yields the path piece by piece: all of it where it was kept, else as it is followed again, to the same bits.
     """
 
     model: Model
     dt: float
     status: int
-    changes: Changes
-    n_changes: int
+    events: EventLog
+    n_events: int
     extrema: FloatArray
     end: Instant
     final: FloatArray
     final_mode: int
-    walk: Callable[[], Iterator[Path]]
+    iter_paths: Callable[[], Iterator[Path]]
 
     @cached_property
     def path(self) -> Path:
@@ -170,8 +170,8 @@ class Trajectory:
         ParameterError
             If it, and the curves made of it, would take more memory than they may.
         """
-        check_curves(self.end.sample, 2 * self.final.size + OTHERS)
-        return joined(self.walk())
+        check_curve_memory(self.end.sample, 2 * self.final.size + EXTRA_CURVES)
+        return concatenate_paths(self.iter_paths())
 
     @property
     def states(self) -> FloatArray:
@@ -192,6 +192,6 @@ class Trajectory:
         """Return times, states and modes of all of the path, see :meth:`Path.table`."""
         return self.path.table()
 
-    def sampled(self, values: FloatArray) -> FloatArray:
+    def interpolate(self, values: FloatArray) -> FloatArray:
         """Return a sampled input at the times of :meth:`table`, (m,)."""
-        return self.path.sampled(values)
+        return self.path.interpolate(values)

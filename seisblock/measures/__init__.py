@@ -1,14 +1,14 @@
 """One number per record: peaks, equivalent frequencies, durations, intensities, spectra."""
 
 from seisblock.measures.baseline import GroundHistory, ground_history
-from seisblock.measures.duration import Duration, block_threshold, duration_above, stretches_above
+from seisblock.measures.duration import Duration, block_threshold, duration_above, intervals_above
+from seisblock.measures.filter_sensitivity import USUAL_HIGHPASS_HZ, FilterRange, filter_range
 from seisblock.measures.frequency import EquivalentFrequency, Pulse, dominant_frequency, peak_pulse, pga_pgv_frequency
 from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
 from seisblock.measures.long_period import LongPeriodMotion, long_period_class, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import ResponseSpectrum, default_periods, fourier_amplitude, response_spectrum
 from seisblock.measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
-from seisblock.measures.usual_filters import USUAL_HIGHPASS_HZ, FilterRange, filter_range
 
 __all__ = [
     "ComponentMeasures",
@@ -44,5 +44,5 @@ __all__ = [
     "peak_velocity",
     "response_spectrum",
     "significant_duration",
-    "stretches_above",
+    "intervals_above",
 ]

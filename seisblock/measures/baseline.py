@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from seisblock.core.typing import FloatArray
 from seisblock.records.filters import highpass_samples
 from seisblock.records.integrals import displacements, integrate, integrate_twice
-from seisblock.typing import FloatArray
 
 HIGHPASS_HZ = 0.05
 """Default corner of the high-pass behind velocity and displacement, Hz: near-fault pulses of up to 10 s pass, drift does not."""
@@ -70,8 +70,8 @@ def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | 
     ParameterError
         If the corner is negative or beyond half the sampling rate.
     """
-    filtered = highpass_samples(acceleration, dt, highpass_hz) if highpass_hz else acceleration
-    return ground_history_of(filtered, dt)
+    filtered_acceleration = highpass_samples(acceleration, dt, highpass_hz) if highpass_hz else acceleration
+    return ground_history_of(filtered_acceleration, dt)
 
 
 def ground_history_of(acceleration: FloatArray, dt: float) -> GroundHistory:

@@ -7,10 +7,10 @@ from typing import Literal
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.typing import FloatArray
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import STANDARD_GRAVITY
 
 Side = Literal["both", "positive", "negative"]
 
@@ -59,7 +59,7 @@ def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GR
     return gravity * width / height
 
 
-def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> FloatArray:
+def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> FloatArray:
     """Return the stretches of time during which the acceleration exceeds a threshold, crossings interpolated.
 
     Exact for samples joined by straight lines, the motion that the solvers integrate too. [Sugimoto2017]_ figs. 12, 13 and section 4.2 find
@@ -91,9 +91,9 @@ def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     if signs is None:
         raise ParameterError("side must be both, positive or negative, found {side!r}", side=side)
     # the two sides cannot touch: a stretch of one sign ends before the other begins
-    found = np.concatenate([_one_side(sign * acceleration, dt, threshold) for sign in signs])
-    ordered: FloatArray = found[found[:, 0].argsort()]
-    return ordered
+    intervals = np.concatenate([_intervals_one_sided(sign * acceleration, dt, threshold) for sign in signs])
+    result: FloatArray = intervals[intervals[:, 0].argsort()]
+    return result
 
 
 def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> Duration:
@@ -102,7 +102,7 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
     Parameters
     ----------
     acceleration, dt, threshold, side
-        As in :func:`stretches_above`.
+        As in :func:`intervals_above`.
 
     Returns
     -------
@@ -118,22 +118,22 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
     >>> duration_above(np.array([0.0, 2.0, 0.0, -2.0, 0.0]), 0.1, 1.0)
     Duration(threshold_m_s2=1.0, total_s=0.2, longest_s=0.1, count=2)
     """
-    stretches = stretches_above(acceleration, dt, threshold, side=side)
-    lengths = np.round(stretches[:, 1] - stretches[:, 0], 15)
+    intervals = intervals_above(acceleration, dt, threshold, side=side)
+    lengths = np.round(intervals[:, 1] - intervals[:, 0], 15)
     return Duration(float(threshold), float(lengths.sum()), float(lengths.max(initial=0.0)), int(lengths.size))
 
 
-def _one_side(values: FloatArray, dt: float, threshold: float) -> FloatArray:
+def _intervals_one_sided(values: FloatArray, dt: float, threshold: float) -> FloatArray:
     """Return the stretches, (k, 2) in s, where the piecewise linear values are at or above the threshold; touches do not count."""
     excess = values - threshold
-    above = excess >= 0
-    rises = np.flatnonzero(~above[:-1] & above[1:])
-    falls = np.flatnonzero(above[:-1] & ~above[1:])
+    is_above = excess >= 0
+    rises = np.flatnonzero(~is_above[:-1] & is_above[1:])
+    falls = np.flatnonzero(is_above[:-1] & ~is_above[1:])
     starts = dt * (rises + excess[rises] / (excess[rises] - excess[rises + 1]))
     ends = dt * (falls + excess[falls] / (excess[falls] - excess[falls + 1]))
-    if above[0]:
+    if is_above[0]:
         starts = np.concatenate(([0.0], starts))
-    if above[-1]:
+    if is_above[-1]:
         ends = np.concatenate((ends, [dt * (values.size - 1)]))
-    stretches = np.column_stack((starts, ends))
-    return stretches[stretches[:, 1] > stretches[:, 0]]
+    intervals = np.column_stack((starts, ends))
+    return intervals[intervals[:, 1] > intervals[:, 0]]

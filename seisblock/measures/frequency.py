@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.errors import ParameterError
-from seisblock.limits import AT_A_TIME
+from seisblock.core.errors import ParameterError
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
 from seisblock.measures.peaks import peak_acceleration
 from seisblock.measures.spectra import SMOOTHING_HZ, fourier_amplitude
-from seisblock.typing import FloatArray
 
 FOURIER_BAND_HZ = (0.1, 25.0)
 """Default band in which the dominant Fourier frequency is looked for, Hz; cut at half the sampling rate."""
@@ -113,17 +113,17 @@ def dominant_frequency(
             nyquist=0.5 / dt,
         )
     frequency, amplitude = fourier_amplitude(acceleration, dt, smoothing_hz=smoothing_hz)
-    inside = np.flatnonzero((frequency >= low) & (frequency <= high))
-    if inside.size == 0:
+    in_band = np.flatnonzero((frequency >= low) & (frequency <= high))
+    if in_band.size == 0:
         return None
-    top = int(inside[amplitude[inside].argmax()])
+    top = int(in_band[amplitude[in_band].argmax()])
     if amplitude[top] == 0.0 or top in (0, frequency.size - 1):
         return None
-    before, here, after = amplitude[top - 1 : top + 2]
-    if before > here or after > here:
+    left_value, peak_value, right_value = amplitude[top - 1 : top + 2]
+    if left_value > peak_value or right_value > peak_value:
         return None  # still climbing across the edge of the band
-    curvature = before - 2.0 * here + after
-    shift = 0.5 * (before - after) / curvature if curvature < 0 else 0.0
+    curvature = left_value - 2.0 * peak_value + right_value
+    shift = 0.5 * (left_value - right_value) / curvature if curvature < 0 else 0.0
     return float(frequency[top] + shift * frequency[1])
 
 
@@ -148,17 +148,17 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
     peak, top = peak_acceleration(acceleration)
     if peak == 0.0:
         return None
-    before, after = _until_zero(acceleration[top::-1]), _until_zero(acceleration[top:])
-    start = 0.0 if before is None else top - before
-    end = float(acceleration.size - 1) if after is None else top + after
-    return Pulse(1.0 / (2.0 * dt * (end - start)), dt * start, dt * end, before is None or after is None)
+    samples_before, samples_after = _first_zero_crossing(acceleration[top::-1]), _first_zero_crossing(acceleration[top:])
+    start = 0.0 if samples_before is None else top - samples_before
+    end = float(acceleration.size - 1) if samples_after is None else top + samples_after
+    return Pulse(1.0 / (2.0 * dt * (end - start)), dt * start, dt * end, samples_before is None or samples_after is None)
 
 
-def _until_zero(row: FloatArray) -> float | None:
+def _first_zero_crossing(row: FloatArray) -> float | None:
     """Return where a row that begins with its peak first comes to zero, in samples and on straight lines between; None: nowhere."""
-    for begin in range(0, row.size, AT_A_TIME):
-        reached = np.flatnonzero(row[begin : begin + AT_A_TIME] * np.sign(row[0]) <= 0)
-        if reached.size:
-            i = begin + int(reached[0])
+    for begin in range(0, row.size, CHUNK_SIZE):
+        crossings = np.flatnonzero(row[begin : begin + CHUNK_SIZE] * np.sign(row[0]) <= 0)
+        if crossings.size:
+            i = begin + int(crossings[0])
             return i - float(row[i] / (row[i] - row[i - 1]))
     return None

@@ -6,32 +6,32 @@ import math
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.limits import AT_A_TIME, limit
-from seisblock.measures.circular import add_filtered_square, mib_of_transform, weights_of
+from seisblock.core import checks
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import CHUNK_SIZE, get_limit
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import GAL, STANDARD_GRAVITY
+from seisblock.measures.fft_filter import add_filtered_square, filter_weights, transform_mib
 from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
-from seisblock.typing import FloatArray
-from seisblock.units import GAL, STANDARD_GRAVITY
-from seisblock.words import noted, said
 
 JMA_EXCEEDANCE_S = 0.3
 """Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
 
-LEAST_INTENSITY = -3.0
+MIN_INTENSITY = -3.0
 """An intensity below this is none: 0.01 gal, at the resolution of the instruments that the scale is made for ([JMA1996]_)."""
 
-ASKEW = 1e-9
+SKEW_TOLERANCE = 1e-9
 """Cosine of the angle between two horizontals above which they are resolved before their vector is formed."""
 
-LEAST_SINE = 1e-6
+MIN_SINE = 1e-6
 """Sine below which they are parallel and tell no other direction."""
 
-TRANSFORM = "SEISBLOCK_TRANSFORM_MIB"
+TRANSFORM_LIMIT = "SEISBLOCK_TRANSFORM_MIB"
 """The limit on the memory of a filter that cannot work in parts."""
 
-_HALVES = ((5.0, noted("5-")), (5.5, noted("5+")), (6.0, noted("6-")), (6.5, noted("6+")))
-_CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALVES)
+_HALF_CLASSES = ((5.0, N_("5-")), (5.5, N_("5+")), (6.0, N_("6-")), (6.5, N_("6+")))
+_CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALF_CLASSES)
 """Upper bounds of the classes of [JMA1996]_, beyond the last of which it is 7."""
 
 _HIGH_CUT = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)
@@ -59,7 +59,7 @@ def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STA
     return math.pi / (2.0 * gravity) * float(_square_integrals(acceleration, dt).sum())
 
 
-def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[float, float] = (0.05, 0.95)) -> float:
+def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tuple[float, float] = (0.05, 0.95)) -> float:
     """Return the time between two shares of the Arias intensity ([TrifunacBrady1975]_), 5 and 95 % by default.
 
     The squared straight line integrates to a cubic in time, which is inverted in closed form: no dependence on samples.
@@ -70,7 +70,7 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
         Ground acceleration.
     dt : float, s
         Sampling interval.
-    between : two floats
+    fractions : two floats
         Shares between 0 and 1.
 
     Returns
@@ -84,16 +84,16 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
     total = float(cumulative[-1])
     if total == 0.0:
         return 0.0
-    start, end = (_time_of(acceleration, dt, cumulative, share * total) for share in between)
+    start, end = (_time_of_energy(acceleration, dt, cumulative, fraction * total) for fraction in fractions)
     return end - start
 
 
-def perpendicular(record: Record) -> list[FloatArray]:
+def orthogonal_components(record: Record) -> list[FloatArray]:
     """Return the components at right angles to each other: as they are, unless two known azimuths lie askew."""
-    known = [c.azimuth_deg for c in record.horizontals if c.azimuth_deg is not None]
-    if len(known) == 2:
-        angle = math.radians(known[1] - known[0])
-        if abs(math.sin(angle)) > LEAST_SINE and abs(math.cos(angle)) > ASKEW:
+    azimuths = [c.azimuth_deg for c in record.horizontals if c.azimuth_deg is not None]
+    if len(azimuths) == 2:
+        angle = math.radians(azimuths[1] - azimuths[0])
+        if abs(math.sin(angle)) > MIN_SINE and abs(math.cos(angle)) > SKEW_TOLERANCE:
             return list(motion_of(record, record.horizontals[0].code).acceleration)
     return [c.acceleration for c in record.components]
 
@@ -116,7 +116,7 @@ def jma_intensity(record: Record) -> float | None:
     float or None
         None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
         nothing (below -3, 0.01 gal: an offset alone would give -26), or its filter would take more memory than it may.
-        :func:`why_no_intensity` tells which.
+        :func:`missing_intensity_reason` tells which.
 
     Examples
     --------
@@ -125,39 +125,39 @@ def jma_intensity(record: Record) -> float | None:
     6.6
     """
     checks.instance(record, Record)
-    needed = _samples_needed(record)
-    if record.vertical is None or len(record.horizontals) != 2 or needed > record.samples:
+    n_exceeding = _samples_needed(record)
+    if record.vertical is None or len(record.horizontals) != 2 or n_exceeding > record.samples:
         return None
-    if mib_of_transform(record.samples) > limit(TRANSFORM):
+    if transform_mib(record.samples) > get_limit(TRANSFORM_LIMIT):
         return None
-    weights = weights_of(record.samples, record.dt, _jma_filter)
-    squared = np.zeros(record.samples)
-    for acceleration in perpendicular(record):
-        add_filtered_square(squared, acceleration, weights)
-    squared.partition(record.samples - needed)
-    a0_squared = float(squared[record.samples - needed]) / GAL**2
+    weights = filter_weights(record.samples, record.dt, _jma_filter)
+    vector_squared = np.zeros(record.samples)
+    for acceleration in orthogonal_components(record):
+        add_filtered_square(vector_squared, acceleration, weights)
+    vector_squared.partition(record.samples - n_exceeding)
+    a0_squared = float(vector_squared[record.samples - n_exceeding]) / GAL**2
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
-    return intensity if intensity >= LEAST_INTENSITY else None
+    return intensity if intensity >= MIN_INTENSITY else None
 
 
-def why_no_intensity(record: Record) -> str:
+def missing_intensity_reason(record: Record) -> str:
     """Return the reason for which :func:`jma_intensity` is None ([JMA1996]_), a sentence that can be told in any language."""
     if record.vertical is None or len(record.horizontals) != 2:
-        return said("it needs two horizontals and the vertical (UD); the record has {codes}", codes=record.codes)
+        return lazy_gettext("it needs two horizontals and the vertical (UD); the record has {codes}", codes=record.codes)
     if _samples_needed(record) > record.samples:
-        return said("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
-    if (found := mib_of_transform(record.samples)) > (most := limit(TRANSFORM)):
-        return said(
+        return lazy_gettext("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
+    if (required_mib := transform_mib(record.samples)) > (max_mib := get_limit(TRANSFORM_LIMIT)):
+        return lazy_gettext(
             "{samples} samples cannot be filtered in parts, and together would take {found} MiB of {most}: cut a sample or two off the "
             "record, or set {variable} to take more",
             samples=record.samples,
-            found=found,
-            most=most,
-            variable=TRANSFORM,
+            found=required_mib,
+            most=max_mib,
+            variable=TRANSFORM_LIMIT,
         )
     if not any(np.any(c.acceleration) for c in record.components):
-        return said("the record is zero throughout")
-    return said("the motion is too weak for the scale: filtered, it does not reach 0.01 gal for 0.3 s")
+        return lazy_gettext("the record is zero throughout")
+    return lazy_gettext("the motion is too weak for the scale: filtered, it does not reach 0.01 gal for 0.3 s")
 
 
 def _samples_needed(record: Record) -> int:
@@ -185,8 +185,8 @@ def jma_class(intensity: float) -> str:
     ['0', '4', '5-', '5+', '7']
     """
     checks.finite("the intensity", intensity)
-    published = math.floor(round(round(intensity, 2) * 10, 6)) / 10
-    return next((name for bound, name in _CLASSES if published < bound), "7")
+    reported_intensity = math.floor(round(round(intensity, 2) * 10, 6)) / 10
+    return next((name for bound, name in _CLASSES if reported_intensity < bound), "7")
 
 
 def _jma_filter(frequency: FloatArray) -> FloatArray:
@@ -201,23 +201,23 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
 
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
     """Return the integral of the squared straight line over each interval, (n - 1,), m^2/s^3."""
-    found = np.empty(acceleration.size - 1)
-    for begin in range(0, found.size, AT_A_TIME):
-        a, b = acceleration[begin : begin + AT_A_TIME], acceleration[begin + 1 : begin + 1 + AT_A_TIME]
+    integrals = np.empty(acceleration.size - 1)
+    for begin in range(0, integrals.size, CHUNK_SIZE):
+        a, b = acceleration[begin : begin + CHUNK_SIZE], acceleration[begin + 1 : begin + 1 + CHUNK_SIZE]
         a = a[: b.size]
-        found[begin : begin + AT_A_TIME] = dt / 3.0 * (a * a + a * b + b * b)
-    return found
+        integrals[begin : begin + CHUNK_SIZE] = dt / 3.0 * (a * a + a * b + b * b)
+    return integrals
 
 
-def _time_of(acceleration: FloatArray, dt: float, cumulative: FloatArray, energy: float) -> float:
+def _time_of_energy(acceleration: FloatArray, dt: float, cumulative: FloatArray, energy: float) -> float:
     """Return the time at which the cumulative integral of the square reaches a value, s."""
     interval = min(int(np.searchsorted(cumulative, energy, side="left")), acceleration.size - 1) - 1
     if interval < 0:
         return 0.0
     a, b = float(acceleration[interval]), float(acceleration[interval + 1])
-    rest, whole = energy - float(cumulative[interval]), float(cumulative[interval + 1] - cumulative[interval])
+    remaining, interval_energy = energy - float(cumulative[interval]), float(cumulative[interval + 1] - cumulative[interval])
     slope = (b - a) / dt
     # ((a + slope t)^3 - a^3) / (3 slope) = rest; where the line is nearly level the cubic root would cancel
     if abs(b - a) <= 1e-6 * max(abs(a), abs(b)):
-        return dt * (interval + rest / whole)
-    return dt * interval + (math.cbrt(a**3 + 3.0 * slope * rest) - a) / slope
+        return dt * (interval + remaining / interval_energy)
+    return dt * interval + (math.cbrt(a**3 + 3.0 * slope * remaining) - a) / slope

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock._jit import kernel
-from seisblock.limits import AT_A_TIME
-from seisblock.measures.intensity import perpendicular
+from seisblock.core import checks
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import KINE
+from seisblock.measures.intensity import orthogonal_components
 from seisblock.records.oscillator import exact_step
 from seisblock.records.record import Record
-from seisblock.typing import FloatArray
-from seisblock.units import KINE
 
 PERIODS = tuple(round(1.6 + 0.2 * k, 1) for k in range(32))
 """Of the oscillators, 1.6 to 7.8 s ([JMA2016]_ method)."""
@@ -22,13 +22,13 @@ PERIODS = tuple(round(1.6 + 0.2 * k, 1) for k in range(32))
 DAMPING = 0.05
 """Of the oscillators, a ratio to critical."""
 
-BOUNDS = (5 * KINE, 15 * KINE, 50 * KINE, 100 * KINE)
+CLASS_BOUNDS = (5 * KINE, 15 * KINE, 50 * KINE, 100 * KINE)
 """From each of these floor velocities on the class is one more, m/s."""
 
-_FIRST, _SECOND, _RATE = -1.995438545842, 0.995448925627, 100.0
+_A1, _A2, _RATE = -1.995438545842, 0.995448925627, 100.0
 """Coefficients of the memory of JMA's high-pass of 20 s, and the sampling rate that they are for, Hz ([JMA2016]_ p. 13)."""
 
-COARSEST = 0.1
+MAX_SAMPLING_INTERVAL = 0.1
 """Sampling interval beyond which an oscillator of 1.6 s is not told by its samples, s."""
 
 
@@ -80,14 +80,14 @@ def long_period_motion(record: Record) -> LongPeriodMotion | None:
     ('4', 4.341, 1.8)
     """
     checks.instance(record, Record)
-    if len(record.horizontals) != 2 or record.dt > COARSEST:
+    if len(record.horizontals) != 2 or record.dt > MAX_SAMPLING_INTERVAL:
         return None
-    one, other = (_highpassed(row, record.dt) for row in perpendicular(record)[:2])
+    first, second = (_highpass(row, record.dt) for row in orthogonal_components(record)[:2])
     steps = np.stack([exact_step(record.dt, 2.0 * math.pi / period, DAMPING)[:2] for period in PERIODS])
     states, largest = np.zeros((len(PERIODS), 6)), np.zeros(len(PERIODS))
-    for begin in range(0, one.size - 1, AT_A_TIME):
+    for begin in range(0, first.size - 1, CHUNK_SIZE):
         # a piece at a time: Ctrl-C is heard between two
-        _swing(steps, one[begin : begin + AT_A_TIME + 1], other[begin : begin + AT_A_TIME + 1], record.dt, states, largest)
+        _update_peaks(steps, first[begin : begin + CHUNK_SIZE + 1], second[begin : begin + CHUNK_SIZE + 1], record.dt, states, largest)
     velocity = np.sqrt(largest)
     worst = int(velocity.argmax())
     return LongPeriodMotion(long_period_class(float(velocity[worst])), float(velocity[worst]), PERIODS[worst])
@@ -101,46 +101,46 @@ def long_period_class(floor_velocity: float) -> str:
     >>> [long_period_class(v) for v in (0.049, 0.05, 0.2, 0.999, 1.0)]
     ['0', '1', '2', '3', '4']
     """
-    checks.not_negative("the floor velocity", floor_velocity, "m/s")
-    return str(sum(floor_velocity >= bound for bound in BOUNDS))
+    checks.non_negative("the floor velocity", floor_velocity, "m/s")
+    return str(sum(floor_velocity >= bound for bound in CLASS_BOUNDS))
 
 
-def _highpassed(row: FloatArray, dt: float) -> FloatArray:
+def _highpass(row: FloatArray, dt: float) -> FloatArray:
     """Return samples after JMA's high-pass, (n,), m/s^2."""
-    pace = _RATE * dt
-    decay, turn = -0.5 * math.log(_SECOND) * pace, math.acos(-_FIRST / (2.0 * math.sqrt(_SECOND))) * pace
-    first, second = -2.0 * math.exp(-decay) * math.cos(turn), math.exp(-2.0 * decay)
-    gain = 0.25 * (1.0 - first + second)  # one at half the sampling rate, as JMA's
+    rate_ratio = _RATE * dt
+    decay, angle = -0.5 * math.log(_A2) * rate_ratio, math.acos(-_A1 / (2.0 * math.sqrt(_A2))) * rate_ratio
+    a1, a2 = -2.0 * math.exp(-decay) * math.cos(angle), math.exp(-2.0 * decay)
+    gain = 0.25 * (1.0 - a1 + a2)  # one at half the sampling rate, as JMA's
     out = np.zeros(row.size)
     memory = np.array([row[0], row[0], 0.0, 0.0])
-    for begin in range(0, row.size, AT_A_TIME):
-        part = slice(begin, begin + AT_A_TIME)
-        _filter(row[part], first, second, gain, memory, out[part])
+    for begin in range(0, row.size, CHUNK_SIZE):
+        part = slice(begin, begin + CHUNK_SIZE)
+        _filter(row[part], a1, a2, gain, memory, out[part])
     return out
 
 
 @kernel("void(Array(float64, 1, 'C', readonly=True), float64, float64, float64, float64[::1], float64[::1])")
-def _filter(row, first, second, gain, memory, out):
+def _filter(row, a1, a2, gain, memory, out):
     """Run a filter with a double zero at frequency zero over some samples, from what it remembers of those before."""
     x_1, x_2, y_1, y_2 = memory[0], memory[1], memory[2], memory[3]
     for k in range(row.size):
         x = row[k]
-        y = x - 2.0 * x_1 + x_2 - first * y_1 - second * y_2
+        y = x - 2.0 * x_1 + x_2 - a1 * y_1 - a2 * y_2
         out[k] = gain * y
         x_2, x_1, y_2, y_1 = x_1, x, y_1, y
     memory[0], memory[1], memory[2], memory[3] = x_1, x_2, y_1, y_2
 
 
 @kernel("void(float64[:, :, ::1], float64[::1], float64[::1], float64, float64[:, ::1], float64[::1])")
-def _swing(steps, one, other, dt, states, largest):
+def _update_peaks(steps, first, second, dt, states, largest):
     """Follow oscillators under two components over some samples, and keep the largest square of their absolute velocities."""
     for m in range(steps.shape[0]):
         step = steps[m]
         u, v, ground = states[m, 0], states[m, 1], states[m, 2]
         u_2, v_2, ground_2 = states[m, 3], states[m, 4], states[m, 5]
         top = max(largest[m], (v + ground) ** 2 + (v_2 + ground_2) ** 2)
-        for k in range(one.size - 1):
-            a, b, c, d = one[k], one[k + 1], other[k], other[k + 1]
+        for k in range(first.size - 1):
+            a, b, c, d = first[k], first[k + 1], second[k], second[k + 1]
             u, v = (
                 step[0, 0] * u + step[0, 1] * v + (step[0, 2] * a + step[0, 3] * b),
                 step[1, 0] * u + step[1, 1] * v + (step[1, 2] * a + step[1, 3] * b),

@@ -8,11 +8,11 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.limits import AT_A_TIME
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
 from seisblock.records.oscillator import exact_step
-from seisblock.typing import FloatArray
 
-ACCELERATION, VELOCITY, DISPLACEMENT, AT_DISPLACEMENT, AT_VELOCITY = range(5)
+ACCELERATION, VELOCITY, DISPLACEMENT, FINAL_DISPLACEMENT, FINAL_VELOCITY = range(5)
 """What is kept of an oscillator: the largest of three, and the two in which it is now."""
 
 FOUR_OVER_27 = 4.0 / 27.0
@@ -41,38 +41,48 @@ def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float
     float, float, float : m/s^2, m/s, m
     """
     step = exact_step(dt, omega, damping)
-    kept = np.zeros(5)
-    for begin in range(0, max(ground.size - 1, 1), AT_A_TIME):
-        _follow(step, ground[begin : begin + AT_A_TIME + 1], dt, omega, damping, kept)
-    u, v = float(kept[AT_DISPLACEMENT]), float(kept[AT_VELOCITY])
+    peaks = np.zeros(5)
+    for begin in range(0, max(ground.size - 1, 1), CHUNK_SIZE):
+        _update_peaks(step, ground[begin : begin + CHUNK_SIZE + 1], dt, omega, damping, peaks)
+    u, v = float(peaks[FINAL_DISPLACEMENT]), float(peaks[FINAL_VELOCITY])
     # on still ground the absolute acceleration is the relative one
     a = -(2.0 * damping * omega * v + omega**2 * u)
-    after = (_free_peak(x, rate, omega, damping) for x, rate in ((a, -(2.0 * damping * omega * a + omega**2 * v)), (v, a), (u, v)))
-    acceleration, speed, distance = map(max, kept[:3].tolist(), after)
+    free_peaks = (_free_peak(x, rate, omega, damping) for x, rate in ((a, -(2.0 * damping * omega * a + omega**2 * v)), (v, a), (u, v)))
+    acceleration, speed, distance = map(max, peaks[:3].tolist(), free_peaks)
     return acceleration, speed, distance
 
 
 @kernel("void(float64[:, ::1], Array(float64, 1, 'C', readonly=True), float64, float64, float64, float64[::1])")
-def _follow(step, ground, dt, omega, damping, kept):
+def _update_peaks(step, ground, dt, omega, damping, peaks):
     """Follow an oscillator over some samples, and keep the largest that it reaches."""
-    twice, square = 2.0 * damping * omega, omega**2
-    u, v = kept[AT_DISPLACEMENT], kept[AT_VELOCITY]
-    absolute = -(twice * v + square * u)
+    damping_term, stiffness = 2.0 * damping * omega, omega**2
+    u, v = peaks[FINAL_DISPLACEMENT], peaks[FINAL_VELOCITY]
+    absolute = -(damping_term * v + stiffness * u)
     relative = absolute - ground[0]
-    jerk = -(twice * relative + square * v)
-    most, fastest, farthest = max(kept[ACCELERATION], abs(absolute)), max(kept[VELOCITY], abs(v)), max(kept[DISPLACEMENT], abs(u))
+    jerk = -(damping_term * relative + stiffness * v)
+    max_acceleration, max_velocity, max_displacement = (
+        max(peaks[ACCELERATION], abs(absolute)),
+        max(peaks[VELOCITY], abs(v)),
+        max(peaks[DISPLACEMENT], abs(u)),
+    )
     for k in range(ground.size - 1):
-        before, after = ground[k], ground[k + 1]
-        u_2 = step[0, 0] * u + step[0, 1] * v + (step[0, 2] * before + step[0, 3] * after)
-        v_2 = step[1, 0] * u + step[1, 1] * v + (step[1, 2] * before + step[1, 3] * after)
-        absolute_2 = -(twice * v_2 + square * u_2)
-        relative_2 = absolute_2 - after
-        jerk_2 = -(twice * relative_2 + square * v_2)
-        most = _peak_of_cubic(absolute, absolute_2, jerk, jerk_2, dt, most)
-        fastest = _peak_of_cubic(v, v_2, relative, relative_2, dt, fastest)
-        farthest = _peak_of_cubic(u, u_2, v, v_2, dt, farthest)
+        ground_1, ground_2 = ground[k], ground[k + 1]
+        u_2 = step[0, 0] * u + step[0, 1] * v + (step[0, 2] * ground_1 + step[0, 3] * ground_2)
+        v_2 = step[1, 0] * u + step[1, 1] * v + (step[1, 2] * ground_1 + step[1, 3] * ground_2)
+        absolute_2 = -(damping_term * v_2 + stiffness * u_2)
+        relative_2 = absolute_2 - ground_2
+        jerk_2 = -(damping_term * relative_2 + stiffness * v_2)
+        max_acceleration = _peak_of_cubic(absolute, absolute_2, jerk, jerk_2, dt, max_acceleration)
+        max_velocity = _peak_of_cubic(v, v_2, relative, relative_2, dt, max_velocity)
+        max_displacement = _peak_of_cubic(u, u_2, v, v_2, dt, max_displacement)
         u, v, absolute, relative, jerk = u_2, v_2, absolute_2, relative_2, jerk_2
-    kept[ACCELERATION], kept[VELOCITY], kept[DISPLACEMENT], kept[AT_DISPLACEMENT], kept[AT_VELOCITY] = most, fastest, farthest, u, v
+    peaks[ACCELERATION], peaks[VELOCITY], peaks[DISPLACEMENT], peaks[FINAL_DISPLACEMENT], peaks[FINAL_VELOCITY] = (
+        max_acceleration,
+        max_velocity,
+        max_displacement,
+        u,
+        v,
+    )
 
 
 @kernel("float64(float64, float64, float64, float64, float64, float64)", inline=True)
@@ -80,11 +90,11 @@ def _peak_of_cubic(first, last, slope, slope_2, dt, top):
     """Return the largest of `top` and the absolute value of the cubic through two values with two slopes, at its ends and between."""
     high = max(abs(first), abs(last))
     if slope * slope_2 < 0.0 and high + FOUR_OVER_27 * dt * abs(slope - slope_2) > top:
-        one, two, rise = dt * slope, dt * slope_2, last - first
-        square, cube = 3.0 * rise - 2.0 * one - two, one + two - 2.0 * rise
+        slope_dt, slope_2_dt, rise = dt * slope, dt * slope_2, last - first
+        square, cube = 3.0 * rise - 2.0 * slope_dt - slope_2_dt, slope_dt + slope_2_dt - 2.0 * rise
         # the root of the derivative at which the curve turns, in the form that does not cancel
-        place = one / (-square + math.copysign(math.sqrt(square**2 - 3.0 * cube * one), one))
-        high = max(high, abs(first + place * (one + place * (square + place * cube))))
+        place = slope_dt / (-square + math.copysign(math.sqrt(square**2 - 3.0 * cube * slope_dt), slope_dt))
+        high = max(high, abs(first + place * (slope_dt + place * (square + place * cube))))
     return max(top, high)
 
 
@@ -93,5 +103,5 @@ def _free_peak(value: float, rate: float, omega: float, damping: float) -> float
     decay, swing = damping * omega, omega * math.sqrt(1.0 - damping**2)
     # the swing is the real part of amplitude * exp(pole * t); it turns first where that of pole * amplitude * exp(pole * t) is zero
     amplitude, pole = complex(value, -(rate + decay * value) / swing), complex(-decay, swing)
-    until = (0.5 * math.pi - cmath.phase(pole * amplitude)) % math.pi / swing
-    return max(abs(value), abs((amplitude * cmath.exp(pole * until)).real))
+    turning_time = (0.5 * math.pi - cmath.phase(pole * amplitude)) % math.pi / swing
+    return max(abs(value), abs((amplitude * cmath.exp(pole * turning_time)).real))

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.errors import ComponentError
+from seisblock.core.errors import ComponentError
+from seisblock.core.typing import FloatArray
 from seisblock.measures.baseline import GroundHistory
 from seisblock.records.integrals import displacements, velocities
-from seisblock.records.process import towards
+from seisblock.records.process import component_at_azimuth
 from seisblock.records.record import Record
-from seisblock.typing import FloatArray
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
         First sample that has it.
     """
     highest, lowest = int(acceleration.argmax()), int(acceleration.argmin())
-    above, below = float(acceleration[highest]), -float(acceleration[lowest])
-    index = min(highest, lowest) if above == below else highest if above > below else lowest
+    maximum, minimum = float(acceleration[highest]), -float(acceleration[lowest])
+    index = min(highest, lowest) if maximum == minimum else highest if maximum > minimum else lowest
     return abs(float(acceleration[index])), index
 
 
@@ -76,8 +76,8 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
         a = history.acceleration[begin : begin + v.size]
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
-        between = v[crossing] + 0.5 * a[crossing] * until_zero
-        largest = max(largest, float(np.abs(v).max()), float(np.abs(between).max(initial=0.0)))
+        at_crossings = v[crossing] + 0.5 * a[crossing] * until_zero
+        largest = max(largest, float(np.abs(v).max()), float(np.abs(at_crossings).max(initial=0.0)))
     return largest
 
 
@@ -117,12 +117,12 @@ def peak_horizontal(record: Record) -> HorizontalPeak | None:
     if len(record.horizontals) < 2:
         return None
     try:
-        north, east = (towards(record, azimuth).acceleration for azimuth in (0.0, 90.0))
-        oriented = True
+        north, east = (component_at_azimuth(record, azimuth).acceleration for azimuth in (0.0, 90.0))
+        is_oriented = True
     except ComponentError:
         north, east = (c.acceleration for c in record.horizontals[:2])
-        oriented = False
+        is_oriented = False
     length = np.hypot(north, east)
     index = int(length.argmax())
-    azimuth = math.degrees(math.atan2(float(east[index]), float(north[index]))) % 360.0 if oriented else None
+    azimuth = math.degrees(math.atan2(float(east[index]), float(north[index]))) % 360.0 if is_oriented else None
     return HorizontalPeak(float(length[index]), azimuth, record.offset_s + index * record.dt)

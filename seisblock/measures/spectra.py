@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import KindError, ParameterError
+from seisblock.core import checks
+from seisblock.core._display import PlotMixin
+from seisblock.core.errors import KindError, ParameterError
+from seisblock.core.typing import ArrayLike, FloatArray
 from seisblock.measures.oscillator import oscillator_peaks
 from seisblock.records import Motion, Record
-from seisblock.showing import Drawn
-from seisblock.typing import ArrayLike, FloatArray
 
 DAMPING = 0.05
 """Default damping ratio of response spectra."""
@@ -23,7 +23,7 @@ SMOOTHING_HZ = 0.2
 _POINTS_PER_PERIOD = 20
 """Least points per period of the oscillator; a maximum of the cubics through values and slopes is then right to 1e-4."""
 
-LONG = 2**20
+LONG_TRANSFORM = 2**20
 """Samples (three hours at 100 Hz) beyond which a Fourier amplitude is made piece by piece."""
 
 _PARZEN_LAG = 280.0 / 151.0
@@ -31,7 +31,7 @@ _PARZEN_LAG = 280.0 / 151.0
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseSpectrum(Drawn):
+class ResponseSpectrum(PlotMixin):
     """Largest responses of damped oscillators to one component.
 
     Parameters
@@ -94,25 +94,25 @@ def response_spectrum(
     array([6.495])
     """
     if isinstance(acceleration, (Motion, Record)):
-        found = type(acceleration).__name__
-        raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=found)
-    acceleration = checks.row("the accelerations", acceleration)
+        kind = type(acceleration).__name__
+        raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=kind)
+    acceleration = checks.float_vector("the accelerations", acceleration)
     if acceleration.size < 2:
         raise ParameterError("a motion needs at least 2 samples, found {count}", count=acceleration.size)
     checks.positive("the sampling interval", dt, "s")
-    wanted = default_periods() if periods is None else np.atleast_1d(checks.numbers("the periods", periods))
-    if not (np.isfinite(wanted).all() and (wanted > 0).all()):
+    period_s = default_periods() if periods is None else np.atleast_1d(checks.float_array("the periods", periods))
+    if not (np.isfinite(period_s).all() and (period_s > 0).all()):
         raise ParameterError("the periods of a response spectrum must be positive")
-    checks.within("the damping ratio", damping, "[0, 1)")
-    refined: dict[int, FloatArray] = {1: np.ascontiguousarray(acceleration)}
-    peaks = np.empty((3, wanted.size))
-    for column, period in enumerate(wanted):
-        parts = max(1, math.ceil(_POINTS_PER_PERIOD * dt / period))
-        if parts not in refined:
+    checks.in_interval("the damping ratio", damping, "[0, 1)")
+    resampled: dict[int, FloatArray] = {1: np.ascontiguousarray(acceleration)}
+    peaks = np.empty((3, period_s.size))
+    for column, period in enumerate(period_s):
+        subdivisions = max(1, math.ceil(_POINTS_PER_PERIOD * dt / period))
+        if subdivisions not in resampled:
             n = acceleration.size
-            refined[parts] = np.interp(np.arange((n - 1) * parts + 1) / parts, np.arange(n), acceleration)
-        peaks[:, column] = oscillator_peaks(refined[parts], dt / parts, 2.0 * math.pi / period, damping)
-    return ResponseSpectrum(wanted, peaks[0], peaks[1], peaks[2], damping)
+            resampled[subdivisions] = np.interp(np.arange((n - 1) * subdivisions + 1) / subdivisions, np.arange(n), acceleration)
+        peaks[:, column] = oscillator_peaks(resampled[subdivisions], dt / subdivisions, 2.0 * math.pi / period, damping)
+    return ResponseSpectrum(period_s, peaks[0], peaks[1], peaks[2], damping)
 
 
 def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: float = SMOOTHING_HZ) -> tuple[FloatArray, FloatArray]:
@@ -144,32 +144,32 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size
     longest_lag = _PARZEN_LAG / smoothing_hz
-    size = 1 << math.ceil(math.log2(max(2 * min(n, LONG), 8.0 * longest_lag / dt)))
-    if n <= LONG:
+    size = 1 << math.ceil(math.log2(max(2 * min(n, LONG_TRANSFORM), 8.0 * longest_lag / dt)))
+    if n <= LONG_TRANSFORM:
         energy = np.abs(np.fft.rfft(acceleration - acceleration.mean(), size)) ** 2 * dt**2
         autocorrelation = np.fft.irfft(energy, size)
     else:
         autocorrelation = _autocorrelation(acceleration, size, math.ceil(longest_lag / dt)) * dt**2
     lag = np.minimum(np.arange(size), size - np.arange(size)) * dt / longest_lag
     window = np.where(lag < 0.5, 1.0 - 6.0 * lag**2 * (1.0 - lag), 2.0 * np.clip(1.0 - lag, 0.0, None) ** 3)
-    smoothed = np.fft.rfft(autocorrelation * window).real
+    smoothed_energy = np.fft.rfft(autocorrelation * window).real
     frequency = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
-    return frequency, np.sqrt(np.clip(smoothed, 0.0, None))
+    return frequency, np.sqrt(np.clip(smoothed_energy, 0.0, None))
 
 
-def _autocorrelation(acceleration: FloatArray, size: int, most: int) -> FloatArray:
+def _autocorrelation(acceleration: FloatArray, size: int, max_lag: int) -> FloatArray:
     """Return the autocorrelation of a long row less its mean, circular, (size,), up to a lag of so many samples and zero beyond.
 
     The lag window ends there, so that pieces of the row with as much of what follows give all of it, in the memory of a piece.
     """
     mean = float(acceleration.mean())
-    piece = size - most
-    lags = np.zeros(most + 1)
+    piece = size - max_lag
+    lags = np.zeros(max_lag + 1)
     for begin in range(0, acceleration.size, piece):
-        longer = np.fft.rfft(acceleration[begin : begin + size] - mean, size)
-        shorter = np.fft.rfft(acceleration[begin : begin + piece] - mean, size)
-        lags += np.fft.irfft(longer * shorter.conj(), size)[: most + 1]
+        extended = np.fft.rfft(acceleration[begin : begin + size] - mean, size)
+        block = np.fft.rfft(acceleration[begin : begin + piece] - mean, size)
+        lags += np.fft.irfft(extended * block.conj(), size)[: max_lag + 1]
     circular = np.zeros(size)
-    circular[: most + 1] = lags
-    circular[size - most :] = lags[:0:-1]
+    circular[: max_lag + 1] = lags
+    circular[size - max_lag :] = lags[:0:-1]
     return circular

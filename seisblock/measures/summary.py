@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from seisblock import checks
+from seisblock.core import checks
+from seisblock.core._display import HtmlReprMixin
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.measures.baseline import HIGHPASS_HZ, ground_history
 from seisblock.measures.duration import Duration, Side, duration_above
+from seisblock.measures.filter_sensitivity import FilterRange, filter_range
 from seisblock.measures.frequency import (
     FOURIER_BAND_HZ,
     EquivalentFrequency,
@@ -15,17 +19,13 @@ from seisblock.measures.frequency import (
     peak_pulse,
     pga_pgv_frequency,
 )
-from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration, why_no_intensity
+from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, missing_intensity_reason, significant_duration
 from seisblock.measures.long_period import LongPeriodMotion, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import SMOOTHING_HZ
-from seisblock.measures.usual_filters import FilterRange, filter_range
-from seisblock.records.process import pick
+from seisblock.records.process import select_component
 from seisblock.records.record import Component, Record
 from seisblock.references import papers
-from seisblock.showing import Shown
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import said
 
 DEFAULT_THRESHOLD = 0.1 * STANDARD_GRAVITY
 """Threshold of durations when none is given, m/s^2: a tenth of g, below which nothing stouter than H/B = 10 rocks, and about
@@ -119,7 +119,7 @@ class Conventions:
 
 
 @dataclass(frozen=True)
-class RecordMeasures(Shown):
+class RecordMeasures(HtmlReprMixin):
     """What a record is, in numbers.
 
     Parameters
@@ -191,11 +191,11 @@ def measure(
     """
     checks.instance(record, Record)
     rules = conventions or Conventions()
-    chosen = [pick(record, name) for name in (record.codes if components is None else components)]
+    selected = [select_component(record, name) for name in (record.codes if components is None else components)]
     intensity = jma_intensity(record)
-    measured = tuple(_measure_component(c, record, threshold, rules, intensity) for c in chosen)
+    results = tuple(_measure_component(c, record, threshold, rules, intensity) for c in selected)
     return RecordMeasures(
-        components=measured,
+        components=results,
         jma_intensity=intensity,
         jma_class=None if intensity is None else jma_class(intensity),
         long_period=long_period_motion(record),
@@ -204,7 +204,7 @@ def measure(
         warnings=(
             *_intensity_warnings(record, intensity),
             *_baseline_warnings(record, rules),
-            *(text for m in measured for text in _component_warnings(m)),
+            *(text for m in results for text in _component_warnings(m)),
         ),
     )
 
@@ -269,7 +269,7 @@ def component_peaks(component: Component, dt: float, rules: Conventions, start_s
 
 def _intensity_warnings(record: Record, intensity: float | None) -> list[str]:
     """Say why there is no JMA intensity, when there is none."""
-    return [] if intensity is not None else [said("no JMA intensity: {reason}", reason=why_no_intensity(record))]
+    return [] if intensity is not None else [lazy_gettext("no JMA intensity: {reason}", reason=missing_intensity_reason(record))]
 
 
 def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
@@ -278,7 +278,7 @@ def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
     if not corner or record.duration_s * corner >= 1.0:
         return []
     return [
-        said(
+        lazy_gettext(
             "the record ({duration:g} s) is shorter than the corner period of the high-pass behind PGV ({period:g} s): "
             "an offset cannot be told from slow motion; where the level is known to be right, choose no high-pass",
             duration=record.duration_s,
@@ -289,8 +289,8 @@ def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
 
 def _component_warnings(m: ComponentMeasures) -> list[str]:
     """Say what is doubtful about one component."""
-    found: list[str] = []
+    warnings: list[str] = []
     if m.pulse_width_ambiguous:
         text = "{component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound"
-        found.append(said(text, component=m.component))
-    return found
+        warnings.append(lazy_gettext(text, component=m.component))
+    return warnings

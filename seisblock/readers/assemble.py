@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from seisblock.errors import ComponentError, RecordError
-from seisblock.readers.source import LONGEST_SHOWN
+from seisblock.core.errors import ComponentError, RecordError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.readers.source import MAX_QUOTED_LENGTH
 from seisblock.records import Component, Record
-from seisblock.records.site import is_of_station
-from seisblock.words import said
+from seisblock.records.site import matches_station
 
 LEVELS = ("surface", "borehole")
-_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
-START_TOGETHER = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
+_COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
+SYNCHRONOUS_FORMATS = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
 """Formats whose components start together and end at will."""
 
-CUT_TOLERANCE = 0.05
+TRIM_TOLERANCE = 0.05
 """How much longer than the shortest, relatively, such a component may be."""
 
 
@@ -41,62 +41,62 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     RecordError
         If the parts are not one recording.
     """
-    chosen, told = _at_level(name, _of_station(name, parts, station), level)
-    starts = sorted({str(p.start or p.metadata.get("event", "")) for p in chosen})
+    selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
+    starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
         raise RecordError("{name}: not one recording, the starts differ ({starts}): read these files one by one", name=name, starts=starts)
-    intervals = sorted({p.dt for p in chosen})
+    intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
-        found = [f"{dt:g} s" for dt in intervals]
-        raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=found)
-    components = [c for part in chosen for c in part.components]
-    history = dict.fromkeys(line for part in chosen for line in part.history)
-    if chosen[0].format in START_TOGETHER:
-        components, cut = _cut_to_shortest(components)
-        history.update(dict.fromkeys(cut))
-    components.sort(key=lambda c: _ORDER.get(c.code, 2))
-    first = chosen[0]
+        interval_texts = [f"{dt:g} s" for dt in intervals]
+        raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=interval_texts)
+    components = [c for part in selected_parts for c in part.components]
+    history = dict.fromkeys(line for part in selected_parts for line in part.history)
+    if selected_parts[0].format in SYNCHRONOUS_FORMATS:
+        components, trim_notes = _trim_to_shortest(components)
+        history.update(dict.fromkeys(trim_notes))
+    components.sort(key=lambda c: _COMPONENT_ORDER.get(c.code, 2))
+    first = selected_parts[0]
     return replace(
         first,
         components=tuple(components),
-        station=first.station[:LONGEST_SHOWN],
+        station=first.station[:MAX_QUOTED_LENGTH],
         source=name,
-        history=(*told, *history),
-        metadata=_merged_metadata(chosen),
-        doubts=tuple(dict.fromkeys(doubt for part in chosen for doubt in part.doubts)),
+        history=(*level_notes, *history),
+        metadata=_merge_metadata(selected_parts),
+        doubts=tuple(dict.fromkeys(flag for part in selected_parts for flag in part.doubts)),
     )
 
 
-def continues(parts: Sequence[Record], others: Sequence[Record]) -> bool:
+def belongs_to_recording(parts: Sequence[Record], group_parts: Sequence[Record]) -> bool:
     """Return whether the one component of a file belongs to the recording that other files began: same station and start (or event)."""
     if len(parts) != 1 or len(parts[0].components) != 1:
         return False
-    part, first = parts[0], others[0]
-    named = bool(part.station) and (part.start is not None or bool(part.metadata.get("event")))
-    same = (part.station, part.start, part.metadata.get("event"), part.dt, part.format)
-    if not named or same != (first.station, first.start, first.metadata.get("event"), first.dt, first.format):
+    part, first = parts[0], group_parts[0]
+    is_identified = bool(part.station) and (part.start is not None or bool(part.metadata.get("event")))
+    identity = (part.station, part.start, part.metadata.get("event"), part.dt, part.format)
+    if not is_identified or identity != (first.station, first.start, first.metadata.get("event"), first.dt, first.format):
         return False
-    held = {(other.metadata.get("level"), code) for other in others for code in other.codes}
-    return (part.metadata.get("level"), part.codes[0]) not in held
+    component_keys = {(part_in_group.metadata.get("level"), code) for part_in_group in group_parts for code in part_in_group.codes}
+    return (part.metadata.get("level"), part.codes[0]) not in component_keys
 
 
-def _of_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
+def _select_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
     """Return the parts of one station."""
     stations = list(dict.fromkeys(p.station for p in parts))
-    listed = [s or said("(unnamed)") for s in stations]
+    station_names = [s or lazy_gettext("(unnamed)") for s in stations]
     if station is not None:
-        chosen = [p for p in parts if is_of_station(p, station)]
-        if not chosen:
-            raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=listed)
-        return chosen
+        matching_parts = [p for p in parts if matches_station(p, station)]
+        if not matching_parts:
+            raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=station_names)
+        return matching_parts
     if len(stations) > 1:
         raise ComponentError(
-            "{name} holds {count} stations: choose one with `station`: {listed}", name=name, count=len(stations), listed=listed
+            "{name} holds {count} stations: choose one with `station`: {listed}", name=name, count=len(stations), listed=station_names
         )
     return parts
 
 
-def _at_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Sequence[Record], tuple[str, ...]]:
+def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Sequence[Record], tuple[str, ...]]:
     """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
     levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
     if level is not None and level not in LEVELS:
@@ -105,38 +105,42 @@ def _at_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Se
         if level == "borehole":
             raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave `level` out", name=name)
         return parts, ()
-    taken = level or ("surface" if "surface" in levels else "borehole")
-    chosen = [p for p in parts if p.metadata.get("level") == taken]
-    if not chosen:
-        raise ComponentError("{name} holds no {taken} components, only {levels}", name=name, taken=taken, levels=sorted(levels))
-    why = said("as asked") if level else said("the default") if len(levels) > 1 else said("the only one given")
+    selected_level = level or ("surface" if "surface" in levels else "borehole")
+    matching_parts = [p for p in parts if p.metadata.get("level") == selected_level]
+    if not matching_parts:
+        raise ComponentError("{name} holds no {taken} components, only {levels}", name=name, taken=selected_level, levels=sorted(levels))
+    reason = lazy_gettext("as asked") if level else lazy_gettext("the default") if len(levels) > 1 else lazy_gettext("the only one given")
     text = (
         "took the surface sensor of the KiK-net station ({why})"
-        if taken == "surface"
+        if selected_level == "surface"
         else "took the borehole sensor of the KiK-net station ({why})"
     )
-    return chosen, (said(text, why=why),)
+    return matching_parts, (lazy_gettext(text, why=reason),)
 
 
-def _cut_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
+def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
     """Return components of one length when they differ a little at the end, and what was cut."""
     lengths = [c.acceleration.size for c in components]
-    shortest = min(lengths)
-    if max(lengths) == shortest or max(lengths) > (1.0 + CUT_TOLERANCE) * shortest:
+    min_length = min(lengths)
+    if max(lengths) == min_length or max(lengths) > (1.0 + TRIM_TOLERANCE) * min_length:
         return list(components), []
-    told = [f"{c.code} {n}" for c, n in zip(components, lengths, strict=True)]
-    cut = [replace(c, acceleration=c.acceleration[:shortest]) for c in components]
-    return cut, [said("cut all components to the shortest, {shortest} samples (the files hold {lengths})", shortest=shortest, lengths=told)]
+    length_texts = [f"{c.code} {n}" for c, n in zip(components, lengths, strict=True)]
+    trimmed_components = [replace(c, acceleration=c.acceleration[:min_length]) for c in components]
+    return trimmed_components, [
+        lazy_gettext(
+            "cut all components to the shortest, {shortest} samples (the files hold {lengths})", shortest=min_length, lengths=length_texts
+        )
+    ]
 
 
-def _merged_metadata(parts: Sequence[Record]) -> dict[str, object]:
+def _merge_metadata(parts: Sequence[Record]) -> dict[str, object]:
     """Return what the headers say together; what each component has of its own is gathered."""
-    merged: dict[str, object] = {}
+    metadata: dict[str, object] = {}
     for part in parts:
         for key, value in part.metadata.items():
             if isinstance(value, dict):
-                held = merged.get(key)
-                merged[key] = {**(held if isinstance(held, dict) else {}), **value}
+                previous_value = metadata.get(key)
+                metadata[key] = {**(previous_value if isinstance(previous_value, dict) else {}), **value}
             else:
-                merged.setdefault(key, value)
-    return merged
+                metadata.setdefault(key, value)
+    return metadata

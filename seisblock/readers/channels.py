@@ -7,18 +7,18 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
 from seisblock.readers.directions import Direction
 from seisblock.records import Component, Record
-from seisblock.typing import FloatArray
-from seisblock.words import said
 
-MOST = 3
+MAX_CHANNELS = 3
 """Channels of one place on the ground: two horizontals and the vertical."""
 
 _LABEL = re.compile(r"^(?:location)?[\s:,;-]*", re.IGNORECASE)
 
 
-def turned(direction: Direction, values: FloatArray, name: str) -> tuple[Component, tuple[str, ...]]:
+def make_component(direction: Direction, values: FloatArray, name: str) -> tuple[Component, tuple[str, ...]]:
     """Return a component, a vertical one positive up, and what the history says of it.
 
     Parameters
@@ -30,11 +30,11 @@ def turned(direction: Direction, values: FloatArray, name: str) -> tuple[Compone
     """
     if direction.sign > 0:
         return Component(direction.code, values, direction.azimuth_deg), ()
-    history = (said("turned the sign of {name!r}, which is positive down, to UD, positive up", name=name.strip()),)
+    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=name.strip()),)
     return Component(direction.code, -values, direction.azimuth_deg), history
 
 
-def at_places(parts: Sequence[Record], *, structure: bool = False) -> list[Record]:
+def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> list[Record]:
     """Return the channels of a file, each a record of one component; where they are a structure's, named after their places.
 
     Up to three channels of different directions are one station. More, or one direction twice, stand at several places: each place is then
@@ -48,29 +48,29 @@ def at_places(parts: Sequence[Record], *, structure: bool = False) -> list[Recor
         Whether they are known to be a structure's, of which this file may hold a part.
     """
     codes = [part.codes[0] for part in parts]
-    few = len(parts) <= MOST and len(set(codes)) == len(parts)
-    if few and not (structure and all(part.metadata.get("place") for part in parts)):
+    is_one_station = len(parts) <= MAX_CHANNELS and len(set(codes)) == len(parts)
+    if is_one_station and not (structure and all(part.metadata.get("place") for part in parts)):
         return list(parts)
     places = [str(part.metadata.get("place", "")) for part in parts]
-    held = Counter(zip(places, codes, strict=True))
-    named = []
+    counts = Counter(zip(places, codes, strict=True))
+    result = []
     for part, place, code in zip(parts, places, codes, strict=True):
-        alone = not place or held[place, code] > 1
+        needs_number = not place or counts[place, code] > 1
         channels = part.metadata.get("channels")
         number = channels.get(code, "") if isinstance(channels, dict) else ""
-        where = f"{place} channel {number}".strip() if alone else place
+        location = f"{place} channel {number}".strip() if needs_number else place
         site = str(part.metadata.get("station_name", ""))
-        metadata = {**part.metadata, "station_name": f"{site}, {where}" if site else where}
-        named.append(replace(part, station=f"{part.station} {where}".strip(), metadata=metadata))
-    return named
+        metadata = {**part.metadata, "station_name": f"{site}, {location}" if site else location}
+        result.append(replace(part, station=f"{part.station} {location}".strip(), metadata=metadata))
+    return result
 
 
-def place_in(text: str) -> str:
+def parse_location(text: str) -> str:
     """Return where a channel is, from what follows its direction in a header.
 
     Examples
     --------
-    >>> place_in("  Location: Roof, SE corner     "), place_in("   (Rcrdr Chan  1) Location: Ground floor"), place_in("")
+    >>> parse_location("  Location: Roof, SE corner     "), parse_location("   (Rcrdr Chan  1) Location: Ground floor"), parse_location("")
     ('Roof, SE corner', 'Ground floor', '')
     """
     return _LABEL.sub("", re.sub(r"\([^)]*\)", " ", text).strip()).strip()

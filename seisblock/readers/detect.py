@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import codecs
 
-from seisblock.errors import RecordFormatError
-from seisblock.readers import bundle
-from seisblock.readers.formats import at2, cosmos, csmip, cwa, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc, table_layout
-from seisblock.readers.lines import lines_of
-from seisblock.readers.source import Blob
+from seisblock.core.errors import RecordFormatError
+from seisblock.readers import archive
+from seisblock.readers.formats import at2, cosmos, csmip, cwa, esm, geonet, jma_csv, knet, knet_csv, obspy, plain_csv, smc
+from seisblock.readers.lines import read_lines
+from seisblock.readers.source import RawFile
+from seisblock.readers.table import layout
 
-BUNDLE = "BUNDLE"
+ARCHIVE = "BUNDLE"
 OBSPY = "OBSPY"
 
-_CLAIMS = (
+_DETECTORS = (
     (jma_csv.is_jma_csv, jma_csv.FORMAT),
     (knet.is_knet, knet.FORMAT),
     (knet_csv.is_knet_csv, knet_csv.FORMAT),
@@ -28,20 +29,20 @@ _CLAIMS = (
 """What tells a format by its first bytes, the most particular first."""
 
 
-def format_of(blob: Blob) -> str:
+def detect_format(blob: RawFile) -> str:
     """Return ``BUNDLE``, a format of ours, or ``OBSPY`` for whatever else there is."""
-    head = blob.held[:4096]
-    if bundle.is_bundle(head):
-        return BUNDLE
+    head = blob.content[:4096]
+    if archive.is_archive(head):
+        return ARCHIVE
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         head = head[:4094].decode("utf-16", "replace").encode()
-    for claims, name in _CLAIMS:
-        if claims(head):
+    for is_format, name in _DETECTORS:
+        if is_format(head):
             return name
-    if generic.is_gse(head):
+    if obspy.is_gse(head):
         return OBSPY
     try:
-        lines = lines_of(blob)
+        lines = read_lines(blob)
     except RecordFormatError:
         return OBSPY
-    return plain_csv.FORMAT if table_layout.looks_like_csv(lines) else OBSPY
+    return plain_csv.FORMAT if layout.looks_like_csv(lines) else OBSPY

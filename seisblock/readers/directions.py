@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from seisblock.records.bearings import azimuth_of_bearing
+from seisblock.records.azimuth import bearing_to_azimuth
 
-_POINTS = {
+_COMPASS_WORDS = {
     0.0: ("ns", "n", "north", "northsouth", "northward", "南北"),
     90.0: ("ew", "e", "east", "eastwest", "eastward", "東西"),
     180.0: ("s", "south", "southward"),
@@ -15,7 +15,7 @@ _POINTS = {
 }
 _UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "鉛直", "垂直")
 _DOWN = ("d", "dwn", "down", "dn", "downward")
-_AXES = {
+_AXIS_WORDS = {
     "X": ("x",),
     "Y": ("y",),
     "L": ("l", "long", "longitudinal"),
@@ -24,9 +24,9 @@ _AXES = {
     "H1": ("h1",),
     "H2": ("h2",),
 }
-_POINT = {word: azimuth for azimuth, words in _POINTS.items() for word in words}
-_AXIS = {word: code for code, words in _AXES.items() for word in words}
-_AROUND = re.compile(
+_COMPASS_AZIMUTHS = {word: azimuth for azimuth, words in _COMPASS_WORDS.items() for word in words}
+_AXIS_CODES = {word: code for code, words in _AXIS_WORDS.items() for word in words}
+_FILLER_WORDS = re.compile(
     r"^(?:acc(?:el(?:eration)?)?|a|(?:component|comp|cmp|direction|dir)(?=[ ,_.:-]+\D))[ ,_.:-]+(?=.)"
     r"|^(?:acc|a)(?=[xyz]$)|^acc(?=(?:ns|ew|ud)$)|(?<=^ns|^ew|^ud)acc$"
     r"|(?<=.)[ ,_.-]+(?:acc(?:el(?:eration)?)?|component|comp|cmp|direction|dir)\.?$"
@@ -53,7 +53,7 @@ class Direction:
         Of the positive direction, clockwise from north; None when vertical or not known.
     sign : float
         -1 where the name is positive down: the samples are turned to ``UD``.
-    bare : bool
+    is_bare_number : bool
         A number without the word degrees: an azimuth only in company.
     velocity : bool
         A SEED code of an instrument that measures velocity.
@@ -62,31 +62,31 @@ class Direction:
     code: str
     azimuth_deg: float | None = None
     sign: float = 1.0
-    bare: bool = False
+    is_bare_number: bool = False
     velocity: bool = False
 
 
-def towards(azimuth_deg: float, *, bare: bool = False) -> Direction:
+def direction_from_azimuth(azimuth_deg: float, *, is_bare_number: bool = False) -> Direction:
     """Return the direction of an azimuth: 0 and 360 are called ``NS``, 90 ``EW``, any other by its degrees."""
     azimuth = azimuth_deg % 360.0
-    return Direction({0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, bare=bare)
+    return Direction({0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, is_bare_number=is_bare_number)
 
 
-def without_company(text: str) -> str:
+def strip_component_words(text: str) -> str:
     """Return a name without the words component, direction and acceleration around what it says; such a word alone stays.
 
     Examples
     --------
-    >>> [without_company(name) for name in ("UD成分", "南北方向", "上下動", "加速度NS", "NS component", "acc_x", "HNE_acc", "加速度")]
+    >>> [strip_component_words(name) for name in ("UD成分", "南北方向", "上下動", "加速度NS", "NS component", "acc_x", "HNE_acc", "加速度")]
     ['UD', '南北', '上下', 'NS', 'NS', 'x', 'HNE', '加速度']
     """
-    bare, found = text.strip(), _AROUND.sub("", text.strip())
-    while found and found != bare:
-        bare, found = found.strip(), _AROUND.sub("", found.strip())
-    return bare
+    previous_text, stripped_text = text.strip(), _FILLER_WORDS.sub("", text.strip())
+    while stripped_text and stripped_text != previous_text:
+        previous_text, stripped_text = stripped_text.strip(), _FILLER_WORDS.sub("", stripped_text.strip())
+    return previous_text
 
 
-def direction_of(text: str) -> Direction | None:
+def parse_direction(text: str) -> Direction | None:
     """Return the direction that a word means, or None.
 
     Parameters
@@ -98,28 +98,28 @@ def direction_of(text: str) -> Direction | None:
 
     Examples
     --------
-    >>> [direction_of(word).code for word in ("N-S", "E/W", "UP", "N80W", "280°", "HNZ", "HN1", "Y")]
+    >>> [parse_direction(word).code for word in ("N-S", "E/W", "UP", "N80W", "280°", "HNZ", "HN1", "Y")]
     ['NS', 'EW', 'UD', '280', '280', 'UD', 'HN1', 'Y']
-    >>> direction_of("pressure") is None
+    >>> parse_direction("pressure") is None
     True
     """
-    text = without_company(text)
+    text = strip_component_words(text)
     word = re.sub(r"[\s_\-./]", "", text)
     key = word.lower()
-    if key in _POINT:
-        return towards(_POINT[key])
+    if key in _COMPASS_AZIMUTHS:
+        return direction_from_azimuth(_COMPASS_AZIMUTHS[key])
     if key in _UP:
         return Direction("UD")
     if key in _DOWN:
         return Direction("UD", sign=-1.0)
-    if key in _AXIS:
-        return Direction(_AXIS[key])
+    if key in _AXIS_CODES:
+        return Direction(_AXIS_CODES[key])
     quadrant = _QUADRANT.fullmatch(re.sub(r"[°度]", "", re.sub(r"[\s_-]", "", text)))
     if quadrant and float(quadrant[2]) <= 90.0:
-        return towards(azimuth_of_bearing(quadrant[1], float(quadrant[2]), quadrant[3]))
+        return direction_from_azimuth(bearing_to_azimuth(quadrant[1], float(quadrant[2]), quadrant[3]))
     degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
     if degrees and float(degrees[1]) <= 360.0:
-        return towards(float(degrees[1]), bare=degrees[0] == degrees[1])
+        return direction_from_azimuth(float(degrees[1]), is_bare_number=degrees[0] == degrees[1])
     seed = _SEED.fullmatch(text.strip())
     if seed:
         letter, instrument = seed[2].upper(), seed[1].upper()

@@ -9,17 +9,17 @@ from typing import overload
 
 import numpy as np
 
-from seisblock.errors import RecordFormatError
+from seisblock.core.errors import RecordFormatError
+from seisblock.core.typing import IntArray
 from seisblock.readers import source
-from seisblock.readers.source import Blob, FileBytes, decode, is_binary
-from seisblock.typing import IntArray
+from seisblock.readers.source import FileBytes, RawFile, decode_text, is_binary
 
-PIECE = 2**16
+CHUNK_LINES = 2**16
 """Lines that are held at a time."""
 
 
 @dataclass(frozen=True, eq=False)
-class Lines(Sequence[str]):
+class LazyLines(Sequence[str]):
     """Lines of a large text, made when they are looked at.
 
     Parameters
@@ -27,20 +27,20 @@ class Lines(Sequence[str]):
     data : bytes or FileBytes
         Of the whole file.
     encoding : str
-    marks : (m,) array of int
+    offsets : (m,) array of int
         Where every ``PIECE``-th line begins, and where the data end.
     begin, stop : int
         The lines that these are.
-    change : tuple of callable
+    transforms : tuple of callable
         What is done to each, in this order.
     """
 
     data: bytes | FileBytes
     encoding: str
-    marks: IntArray
+    offsets: IntArray
     begin: int
     stop: int
-    change: tuple[Callable[[str], str], ...] = ()
+    transforms: tuple[Callable[[str], str], ...] = ()
 
     def __len__(self) -> int:
         return max(self.stop - self.begin, 0)
@@ -54,80 +54,82 @@ class Lines(Sequence[str]):
             begin, stop, _ = index.indices(len(self))
             return replace(self, begin=self.begin + begin, stop=self.begin + stop)
         place = range(self.begin, self.stop)[index]
-        return self._changed(self._piece(place // PIECE)[place % PIECE])
+        return self._transform(self._chunk(place // CHUNK_LINES)[place % CHUNK_LINES])
 
     def __iter__(self) -> Iterator[str]:
-        for piece in self.pieces():
+        for piece in self.chunks():
             yield from piece
 
-    def pieces(self) -> Iterator[list[str]]:
+    def chunks(self) -> Iterator[list[str]]:
         """Yield the lines, many at a time."""
-        for number in range(self.begin // PIECE, -(-self.stop // PIECE)):
-            first = number * PIECE
-            lines = self._piece(number)[max(self.begin - first, 0) : self.stop - first]
-            yield [self._changed(line) for line in lines] if self.change else lines
+        for number in range(self.begin // CHUNK_LINES, -(-self.stop // CHUNK_LINES)):
+            first = number * CHUNK_LINES
+            lines = self._chunk(number)[max(self.begin - first, 0) : self.stop - first]
+            yield [self._transform(line) for line in lines] if self.transforms else lines
 
-    def _piece(self, number: int) -> list[str]:
+    def _chunk(self, number: int) -> list[str]:
         """Return some lines as they stand in the file."""
-        text = self.data[self.marks[number] : self.marks[number + 1]].decode(self.encoding).replace("\r\n", "\n")
+        text = self.data[self.offsets[number] : self.offsets[number + 1]].decode(self.encoding).replace("\r\n", "\n")
         lines = text.split("\n")
-        return lines if number + 2 == self.marks.size else lines[:PIECE]
+        return lines if number + 2 == self.offsets.size else lines[:CHUNK_LINES]
 
-    def _changed(self, line: str) -> str:
+    def _transform(self, line: str) -> str:
         """Return a line after all that is done to it."""
-        for change in self.change:
-            line = change(line)
+        for transform in self.transforms:
+            line = transform(line)
         return line
 
 
-def lines_of(blob: Blob) -> Sequence[str]:
-    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode`.
+def read_lines(blob: RawFile) -> Sequence[str]:
+    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode_text`.
 
     Raises
     ------
     RecordFormatError
         If the bytes are not text.
     """
-    data = blob.held
-    if len(data) < source.LARGE or not _is_plain(blob):
-        return decode(blob).split("\n")
-    marks, count = _marks(blob)
-    for encoding in ("utf-8", *source.japanese(data[: source.HEAD])):
-        found = Lines(data, encoding, marks, 0, count)
+    data = blob.content
+    if len(data) < source.LARGE_FILE_BYTES or not _has_simple_line_ends(blob):
+        return decode_text(blob).split("\n")
+    offsets, count = _chunk_offsets(blob)
+    for encoding in ("utf-8", *source.japanese_encodings(data[: source.HEAD_BYTES])):
+        lines = LazyLines(data, encoding, offsets, 0, count)
         try:
-            for _ in found.pieces():
+            for _ in lines.chunks():
                 pass
         except UnicodeDecodeError:
             continue
-        return found
+        return lines
     raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
 
 
-def mapped(lines: Sequence[str], change: Callable[[str], str]) -> Sequence[str]:
+def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:
     """Return lines with something done to each."""
-    return replace(lines, change=(*lines.change, change)) if isinstance(lines, Lines) else [change(line) for line in lines]
+    return (
+        replace(lines, transforms=(*lines.transforms, transform)) if isinstance(lines, LazyLines) else [transform(line) for line in lines]
+    )
 
 
-def pieces_of(lines: Sequence[str]) -> Iterator[Sequence[str]]:
+def iter_chunks(lines: Sequence[str]) -> Iterator[Sequence[str]]:
     """Yield lines, many at a time."""
-    yield from lines.pieces() if isinstance(lines, Lines) else (lines,)
+    yield from lines.chunks() if isinstance(lines, LazyLines) else (lines,)
 
 
-def _is_plain(blob: Blob) -> bool:
+def _has_simple_line_ends(blob: RawFile) -> bool:
     """Return whether bytes are those of a text whose lines end in LF or CR LF, in an encoding that leaves these single bytes."""
-    head = blob.held[: source.HEAD]
+    head = blob.content[: source.HEAD_BYTES]
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_binary(head):
         return False
-    return all(piece.count(b"\r", 0, source.LARGE) == piece.count(b"\r\n") for piece in blob.pieces())
+    return all(piece.count(b"\r", 0, source.LARGE_FILE_BYTES) == piece.count(b"\r\n") for piece in blob.chunks())
 
 
-def _marks(blob: Blob) -> tuple[IntArray, int]:
+def _chunk_offsets(blob: RawFile) -> tuple[IntArray, int]:
     """Return where every ``PIECE``-th line begins and where the data end, and how many lines there are."""
-    found, count = [len(codecs.BOM_UTF8) if blob.held[:3] == codecs.BOM_UTF8 else 0], 0
-    for begin, piece in zip(range(0, len(blob.held), source.LARGE), blob.pieces(), strict=True):
-        ends = np.flatnonzero(np.frombuffer(piece, dtype=np.uint8)[: source.LARGE] == ord("\n"))
+    offsets, count = [len(codecs.BOM_UTF8) if blob.content[:3] == codecs.BOM_UTF8 else 0], 0
+    for begin, piece in zip(range(0, len(blob.content), source.LARGE_FILE_BYTES), blob.chunks(), strict=True):
+        ends = np.flatnonzero(np.frombuffer(piece, dtype=np.uint8)[: source.LARGE_FILE_BYTES] == ord("\n"))
         # line number k begins after k ends of lines
-        first = -(count + 1) % PIECE
-        found += (begin + 1 + ends[first::PIECE]).tolist()
+        first = -(count + 1) % CHUNK_LINES
+        offsets += (begin + 1 + ends[first::CHUNK_LINES]).tolist()
         count += int(ends.size)
-    return np.array([*found, len(blob.held)], dtype=np.int64), count + 1
+    return np.array([*offsets, len(blob.content)], dtype=np.int64), count + 1

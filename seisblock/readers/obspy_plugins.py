@@ -29,15 +29,15 @@ from seisblock.readers.formats.knet_csv import is_knet_csv as _claims_knet_csv
 from seisblock.readers.formats.knet_csv import read_knet_csv as _parse_knet_csv
 from seisblock.readers.formats.smc import is_smc as _claims_smc
 from seisblock.readers.formats.smc import read_smc as _parse_smc
-from seisblock.readers.source import Blob
+from seisblock.readers.source import RawFile
 from seisblock.records import Record
 
-_HEAD = 4096
+_HEAD_BYTES = 4096
 
 
 def is_jma_csv(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is a JMA CSV: ``SITE CODE``, and then the sampling rate, stand at its beginning."""
-    head = _head(filename)
+    head = _read_head(filename)
     return _claims_jma_csv(head) and b"SAMPLING" in head.upper()
 
 
@@ -49,12 +49,12 @@ def read_jma_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format.
     """
-    return _stream([_parse_jma_csv(_blob(filename))], "jmacsv")
+    return _to_stream([_parse_jma_csv(_read_raw(filename))], "jmacsv")
 
 
 def is_knet_csv(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is NIED's CSV: ``#K-NET CSV`` or ``#KiK-net CSV`` stands at its beginning."""
-    return _claims_knet_csv(_head(filename))
+    return _claims_knet_csv(_read_head(filename))
 
 
 def read_knet_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -65,12 +65,12 @@ def read_knet_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format.
     """
-    return _stream(_parse_knet_csv(_blob(filename)), "knetcsv")
+    return _to_stream(_parse_knet_csv(_read_raw(filename)), "knetcsv")
 
 
 def is_at2(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is a PEER AT2: NPTS and DT stand in its first lines."""
-    return _claims_at2(_head(filename))
+    return _claims_at2(_read_head(filename))
 
 
 def read_at2(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -81,12 +81,12 @@ def read_at2(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format.
     """
-    return _stream([_parse_at2(_blob(filename))], "at2")
+    return _to_stream([_parse_at2(_read_raw(filename))], "at2")
 
 
 def is_csmip(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is a CSMIP file: its title stands in the first line."""
-    return _claims_csmip(_head(filename))
+    return _claims_csmip(_read_head(filename))
 
 
 def read_csmip(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -97,12 +97,12 @@ def read_csmip(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format, or holds no even accelerations.
     """
-    return _stream(_parse_csmip(_blob(filename)), "csmip")
+    return _to_stream(_parse_csmip(_read_raw(filename)), "csmip")
 
 
 def is_cosmos(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is a COSMOS file: its first line tells the format and how many lines of text follow."""
-    return _claims_cosmos(_head(filename))
+    return _claims_cosmos(_read_head(filename))
 
 
 def read_cosmos(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -113,12 +113,12 @@ def read_cosmos(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format, or holds no even accelerations.
     """
-    return _stream(_parse_cosmos(_blob(filename)), "cosmos")
+    return _to_stream(_parse_cosmos(_read_raw(filename)), "cosmos")
 
 
 def is_smc(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is an SMC file of the U.S. Geological Survey."""
-    return _claims_smc(_head(filename))
+    return _claims_smc(_read_head(filename))
 
 
 def read_smc(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -129,12 +129,12 @@ def read_smc(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format, or holds no even accelerations.
     """
-    return _stream([_parse_smc(_blob(filename))], "smc")
+    return _to_stream([_parse_smc(_read_raw(filename))], "smc")
 
 
 def is_esm(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is an ASCII file of ESM: the event's name and identifier stand in its first lines."""
-    return _claims_esm(_head(filename))
+    return _claims_esm(_read_head(filename))
 
 
 def read_esm(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -145,12 +145,12 @@ def read_esm(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format, or holds no even accelerations.
     """
-    return _stream([_parse_esm(_blob(filename))], "esm")
+    return _to_stream([_parse_esm(_read_raw(filename))], "esm")
 
 
 def is_geonet(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is an accelerogram of GeoNet: its first line says so."""
-    return _claims_geonet(_head(filename))
+    return _claims_geonet(_read_head(filename))
 
 
 def read_geonet(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -161,12 +161,12 @@ def read_geonet(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format, or holds no even accelerations.
     """
-    return _stream(_parse_geonet(_blob(filename)), "geonet")
+    return _to_stream(_parse_geonet(_read_raw(filename)), "geonet")
 
 
 def is_cwa(filename: str | Path | BinaryIO) -> bool:
     """Return whether a file is a strong-motion text file of Taiwan's CWA: its header tells the sequence of the columns."""
-    return _claims_cwa(_head(filename))
+    return _claims_cwa(_read_head(filename))
 
 
 def read_cwa(filename: str | Path | BinaryIO, **_: Any) -> Any:
@@ -177,43 +177,43 @@ def read_cwa(filename: str | Path | BinaryIO, **_: Any) -> Any:
     RecordFormatError
         If the file breaks its format.
     """
-    return _stream([_parse_cwa(_blob(filename))], "cwa")
+    return _to_stream([_parse_cwa(_read_raw(filename))], "cwa")
 
 
-def _head(filename: str | Path | BinaryIO) -> bytes:
+def _read_head(filename: str | Path | BinaryIO) -> bytes:
     """Return the first bytes of a file; a stream is put back to where it was."""
     if isinstance(filename, (str, Path)):
         try:
             with Path(filename).open("rb") as file:
-                return file.read(_HEAD)
+                return file.read(_HEAD_BYTES)
         except OSError:
             return b""
     position = filename.tell()
     try:
-        return filename.read(_HEAD)
+        return filename.read(_HEAD_BYTES)
     finally:
         filename.seek(position)
 
 
-def _blob(filename: str | Path | BinaryIO) -> Blob:
+def _read_raw(filename: str | Path | BinaryIO) -> RawFile:
     """Return the bytes of a file or of an open stream."""
     if isinstance(filename, (str, Path)):
-        return Blob(str(filename), Path(filename).read_bytes())
-    return Blob(str(getattr(filename, "name", "stream")), filename.read())
+        return RawFile(str(filename), Path(filename).read_bytes())
+    return RawFile(str(getattr(filename, "name", "stream")), filename.read())
 
 
-def _stream(records: Sequence[Record], key: str) -> Any:
+def _to_stream(records: Sequence[Record], key: str) -> Any:
     """Return records as one obspy Stream."""
     from obspy import Stream, Trace, UTCDateTime
 
     traces = []
     for record in records:
         sensor = {"borehole": "1", "surface": "2"}.get(str(record.metadata.get("level", "")), "")
-        told = {k: UTCDateTime(v) if k == "origin_time" else v for k, v in record.metadata.items() if k != "unit"}
+        header_fields = {k: UTCDateTime(v) if k == "origin_time" else v for k, v in record.metadata.items() if k != "unit"}
         for component in record.components:
             direction = {} if component.azimuth_deg is None else {"azimuth_deg": component.azimuth_deg}
             header: dict[str, Any] = {"station": record.station, "channel": component.code + sensor, "delta": record.dt}
-            header[key] = {**told, **direction, "unit": "m/s2"}
+            header[key] = {**header_fields, **direction, "unit": "m/s2"}
             if record.start is not None:
                 header["starttime"] = UTCDateTime(record.start)
             traces.append(Trace(component.acceleration.copy(), header=header))

@@ -8,20 +8,20 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
-from seisblock import checks
-from seisblock.errors import ComponentError, KindError, ParameterError
-from seisblock.readers.assemble import assemble, continues
-from seisblock.readers.dispatch import Options, parts_of
-from seisblock.readers.heap import give_back
-from seisblock.readers.siblings import with_siblings
-from seisblock.readers.source import STDIN, Blob, Location, digest, fetch
+from seisblock.core import checks
+from seisblock.core.errors import ComponentError, KindError, ParameterError
+from seisblock.readers._memory import trim_heap
+from seisblock.readers.assemble import assemble, belongs_to_recording
+from seisblock.readers.components import load_component_files
+from seisblock.readers.dispatch import ReadOptions, read_parts
+from seisblock.readers.source import STDIN, Location, RawFile, open_source, sha256_digest
 from seisblock.records import Record
-from seisblock.records.signs import examined
+from seisblock.records.qc import run_qc
 
-ALL = "all"
+ALL_STATIONS = "all"
 """The station that stands for every station of a bundle."""
 
-_MANY = 2**20
+_TRIM_SAMPLES = 2**20
 """Samples from which on it is worth while to let go of what reading them left behind."""
 
 
@@ -82,11 +82,11 @@ def read(
     >>> record.codes, record.dt, record.samples
     (('NS', 'EW', 'UD'), 0.01, 6000)
     """
-    options = Options(format, units, dt, station, level)
-    sources = _listed(source)
+    options = ReadOptions(format, units, dt, station, level)
+    sources = _as_list(source)
     if not sources:
         raise ParameterError("no file was named: give at least one record")
-    return _record_of([_open(s, options) for s in sources], options)
+    return _assemble_record([_open_and_parse(s, options) for s in sources], options)
 
 
 def read_all(
@@ -117,22 +117,24 @@ def read_all(
     >>> [record.codes for record in read_all(["synthetic_jma.csv", "elcentro_1940_ns.csv"])]
     [('NS', 'EW', 'UD'), ('NS',)]
     """
-    options = Options(format, units, dt, station, level)
-    groups: list[list[Opened]] = []
-    names = [str(s) for s in _listed(sources)]
-    _refuse_repeats(names)
+    options = ReadOptions(format, units, dt, station, level)
+    groups: list[list[OpenedSource]] = []
+    names = [str(s) for s in _as_list(sources)]
+    _check_duplicates(names)
     for name in names:
-        opened = _open(name, options)
-        home = next((g for g in groups if continues(opened.parts, [part for other in g for part in other.parts])), None)
-        if home is None:
-            groups.append([opened])
+        opened_source = _open_and_parse(name, options)
+        matching_group = next(
+            (g for g in groups if belongs_to_recording(opened_source.parts, [part for member in g for part in member.parts])), None
+        )
+        if matching_group is None:
+            groups.append([opened_source])
         else:
-            home.append(opened)
-    named = frozenset(opened.blob.path for g in groups for opened in g)
-    return [record for g in groups for record in _records_of(g, options, named)]
+            matching_group.append(opened_source)
+    named_paths = frozenset(opened_source.blob.path for g in groups for opened_source in g)
+    return [record for g in groups for record in _assemble_records(g, options, named_paths)]
 
 
-def record_of_blobs(name: str, blobs: Sequence[Blob], options: Options) -> Record:
+def record_from_files(name: str, blobs: Sequence[RawFile], options: ReadOptions) -> Record:
     """Return the record that some bytes make, called `name` in messages; no sibling is looked for.
 
     Raises
@@ -140,91 +142,98 @@ def record_of_blobs(name: str, blobs: Sequence[Blob], options: Options) -> Recor
     InputError
         As `read` does.
     """
-    parts = [part for blob in blobs for part in parts_of(blob, options)]
-    return examined(replace(assemble(name, parts, level=_level(parts, options.level)), sha256=digest(blobs)))
+    parts = [part for blob in blobs for part in read_parts(blob, options)]
+    return run_qc(replace(assemble(name, parts, level=_applicable_level(parts, options.level)), sha256=sha256_digest(blobs)))
 
 
-def _listed(given: Location | Iterable[Location]) -> list[Location]:
+def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
     """Return what was named as a list: one path, or several."""
-    if isinstance(given, (str, PathLike)):
-        return [given]
-    if not isinstance(given, Iterable):
-        raise KindError("a path is needed, or a list of paths, found {found}", found=checks.kind_of(given))
-    return list(given)
+    if isinstance(locations, (str, PathLike)):
+        return [locations]
+    if not isinstance(locations, Iterable):
+        raise KindError("a path is needed, or a list of paths, found {found}", found=checks.type_name(locations))
+    return list(locations)
 
 
-def _refuse_repeats(names: Sequence[str]) -> None:
+def _check_duplicates(names: Sequence[str]) -> None:
     """Refuse files that are named more than once: an answer would count them as several records, or the user meant another one."""
     counts = Counter(str(Path(name).absolute()) for name in names if name != STDIN)
-    repeated = [name for name in dict.fromkeys(names) if counts[str(Path(name).absolute())] > 1]
-    if repeated or names.count(STDIN) > 1:
+    repeated_names = [name for name in dict.fromkeys(names) if counts[str(Path(name).absolute())] > 1]
+    if repeated_names or names.count(STDIN) > 1:
         raise ParameterError(
             "{name} is named {count} times among the records: name each file once",
-            name=repeated[0] if repeated else STDIN,
-            count=counts[str(Path(repeated[0]).absolute())] if repeated else names.count(STDIN),
+            name=repeated_names[0] if repeated_names else STDIN,
+            count=counts[str(Path(repeated_names[0]).absolute())] if repeated_names else names.count(STDIN),
         )
 
 
 @dataclass(frozen=True)
-class Opened:
+class OpenedSource:
     """One source as named, its bytes and the parts in them."""
 
     name: str
-    blob: Blob
+    blob: RawFile
     parts: list[Record]
 
 
-def _open(source: Location, options: Options) -> Opened:
+def _open_and_parse(source: Location, options: ReadOptions) -> OpenedSource:
     """Return a source with its bytes and the parts in them."""
-    blob = fetch(source, options.budget)
-    return Opened(blob.name, blob, parts_of(blob, options))
+    blob = open_source(source, options.budget)
+    return OpenedSource(blob.name, blob, read_parts(blob, options))
 
 
-def _records_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> list[Record]:
+def _assemble_records(group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None]) -> list[Record]:
     """Return the one record that some sources make, or those of every station when all are asked for."""
-    if options.station != ALL:
-        return [_record_of(group, options, named)]
-    name, parts, blobs = _family(group, options, named)
+    if options.station != ALL_STATIONS:
+        return [_assemble_record(group, options, named_paths)]
+    name, parts, blobs = _load_components(group, options, named_paths)
     recordings: dict[tuple[object, ...], list[Record]] = {}
     for part in parts:
         recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
-    sha256 = digest(blobs)
-    return [_examined(replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256)) for each in recordings.values()]
+    sha256 = sha256_digest(blobs)
+    return [
+        _finish_record(replace(assemble(name, group_parts, level=_applicable_level(group_parts, options.level)), sha256=sha256))
+        for group_parts in recordings.values()
+    ]
 
 
-def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None] = frozenset()) -> Record:
-    """Return the one record that some sources make; `named` are files that speak for themselves."""
-    name, parts, blobs = _family(group, options, named)
-    if options.station == ALL:
-        stations = list(dict.fromkeys(part.station for part in parts))
-        if len(stations) > 1:
-            raise ComponentError("{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(stations))
-    record = assemble(name, parts, station=None if options.station == ALL else options.station, level=options.level)
-    return _examined(replace(record, sha256=digest(blobs)))
+def _assemble_record(group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None] = frozenset()) -> Record:
+    """Return the one record that some sources make; `named_paths` are files that speak for themselves."""
+    name, parts, blobs = _load_components(group, options, named_paths)
+    if options.station == ALL_STATIONS:
+        station_codes = list(dict.fromkeys(part.station for part in parts))
+        if len(station_codes) > 1:
+            raise ComponentError(
+                "{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(station_codes)
+            )
+    record = assemble(name, parts, station=None if options.station == ALL_STATIONS else options.station, level=options.level)
+    return _finish_record(replace(record, sha256=sha256_digest(blobs)))
 
 
-def _examined(record: Record) -> Record:
+def _finish_record(record: Record) -> Record:
     """Return a record with what its samples tell; what reading and looking took is the system's again."""
-    told = examined(record)
-    if len(record.components) * record.components[0].acceleration.size > _MANY:
-        give_back()
-    return told
+    checked = run_qc(record)
+    if len(record.components) * record.components[0].acceleration.size > _TRIM_SAMPLES:
+        trim_heap()
+    return checked
 
 
-def _family(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> tuple[str, list[Record], list[Blob]]:
+def _load_components(
+    group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None]
+) -> tuple[str, list[Record], list[RawFile]]:
     """Return the name, the parts and the bytes of some sources, a lone file with its siblings."""
-    name = ", ".join(opened.name for opened in group)
-    blobs = [opened.blob for opened in group]
-    parts = [part for opened in group for part in opened.parts]
+    name = ", ".join(opened_source.name for opened_source in group)
+    blobs = [opened_source.blob for opened_source in group]
+    parts = [part for opened_source in group for part in opened_source.parts]
     if len(group) == 1:
-        siblings = with_siblings(blobs[0], options.budget, options.level)
-        family = [b for b in siblings if b is blobs[0] or b.path not in named]
+        siblings = load_component_files(blobs[0], options.budget, options.level)
+        family = [b for b in siblings if b is blobs[0] or b.path not in named_paths]
         if family != blobs:
-            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else parts_of(blob, options))]
+            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else read_parts(blob, options))]
             blobs = family
     return name, parts, blobs
 
 
-def _level(parts: Sequence[Record], level: str | None) -> str | None:
+def _applicable_level(parts: Sequence[Record], level: str | None) -> str | None:
     """Return the level asked for where there is one: a bundle mixes stations with and without a borehole."""
     return level if any("level" in part.metadata for part in parts) else None

@@ -15,9 +15,9 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
-from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError, reason
-from seisblock.ledger import reading
-from seisblock.readers.budget import Budget
+from seisblock.core.errors import RecordError, RecordFormatError, RecordNotFoundError, os_error_text
+from seisblock.core.io.overwrite import mark_read
+from seisblock.readers.limits import ReadBudget
 from seisblock.samples import find_sample, list_samples
 
 if TYPE_CHECKING:
@@ -28,18 +28,18 @@ Location: TypeAlias = "str | PathLike[str]"
 STDIN = "-"
 """The name that stands for the standard input."""
 
-LONGEST_SHOWN = 200
+MAX_QUOTED_LENGTH = 200
 """How much of a text from outside a message shows at most."""
 
 
-HEAD = 2**16
+HEAD_BYTES = 2**16
 """Bytes by which an encoding is told."""
 
-_HALF_WIDTH = re.compile("[｡-ﾟ\uf8f0-\uf8f3]")
-_OF_TABLES = re.compile("[時刻間秒南北東西上下方向成分速度動]")
+_HALF_WIDTH_KANA = re.compile("[｡-ﾟ\uf8f0-\uf8f3]")
+_TABLE_KANJI = re.compile("[時刻間秒南北東西上下方向成分速度動]")
 """Letters that bytes of EUC-JP give when they are read as Shift-JIS, and some that the headings of tables hold."""
 
-LARGE = 2**25
+LARGE_FILE_BYTES = 2**25
 """Bytes beyond which a file, or a text, is taken piece by piece."""
 
 
@@ -63,25 +63,25 @@ class FileBytes:
     def __len__(self) -> int:
         return self.stamp[0]
 
-    def __getitem__(self, part: slice) -> bytes:
-        begin, stop, _ = part.indices(len(self))
+    def __getitem__(self, index: slice) -> bytes:
+        begin, stop, _ = index.indices(len(self))
         try:
             with self.path.open("rb") as stream:
                 stream.seek(begin)
-                found = stream.read(max(stop - begin, 0))
-                unchanged = stamp_of(os.fstat(stream.fileno())) == self.stamp
+                data = stream.read(max(stop - begin, 0))
+                is_unchanged = file_stamp(os.fstat(stream.fileno())) == self.stamp
         except OSError as error:
-            raise RecordError("{name} cannot be read: {reason}", name=self.name, reason=reason(error)) from error
-        if not unchanged:
+            raise RecordError("{name} cannot be read: {reason}", name=self.name, reason=os_error_text(error)) from error
+        if not is_unchanged:
             raise RecordError("{name} changed while it was read: read it again when it is complete", name=self.name)
-        return found
+        return data
 
 
-class Held(io.RawIOBase):
+class BytesReader(io.RawIOBase):
     """Bytes, held in memory or in their file, as a stream."""
 
-    def __init__(self, held: bytes | FileBytes) -> None:
-        self._held, self._place = held, 0
+    def __init__(self, content: bytes | FileBytes) -> None:
+        self._content, self._position = content, 0
 
     def readable(self) -> bool:
         """Return True."""
@@ -93,40 +93,40 @@ class Held(io.RawIOBase):
 
     def seek(self, offset: int, whence: int = io.SEEK_SET, /) -> int:
         """Go to a place, told from the beginning, from here or from the end; return where that is."""
-        self._place = max(offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._place, io.SEEK_END: len(self._held)}[whence], 0)
-        return self._place
+        self._position = max(offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._position, io.SEEK_END: len(self._content)}[whence], 0)
+        return self._position
 
     def readinto(self, buffer: WriteableBuffer, /) -> int:
         """Fill a buffer as far as there are bytes; return how many."""
         view = memoryview(buffer).cast("B")
-        found = self._held[self._place : self._place + len(view)]
-        view[: len(found)] = found
-        self._place += len(found)
-        return len(found)
+        data = self._content[self._position : self._position + len(view)]
+        view[: len(data)] = data
+        self._position += len(data)
+        return len(data)
 
 
-def stamp_of(info: os.stat_result) -> tuple[int, ...]:
+def file_stamp(info: os.stat_result) -> tuple[int, ...]:
     """Return what tells a file from another, or from what it was before: its size first."""
     return info.st_size, info.st_mtime_ns, info.st_dev, info.st_ino
 
 
 @dataclass(frozen=True)
-class Blob:
+class RawFile:
     """The bytes of one file, or of one member of a bundle, and the name they go by in messages."""
 
     name: str
-    held: bytes | FileBytes
+    content: bytes | FileBytes
     path: Path | None = None
 
     @property
     def data(self) -> bytes:
         """All of the bytes."""
-        return self.held if isinstance(self.held, bytes) else self.held[:]
+        return self.content if isinstance(self.content, bytes) else self.content[:]
 
-    def pieces(self) -> Iterator[bytes]:
+    def chunks(self) -> Iterator[bytes]:
         """Yield the bytes, many at a time, each with the one that follows it."""
-        for begin in range(0, len(self.held), LARGE):
-            yield self.held[begin : begin + LARGE + 1]
+        for begin in range(0, len(self.content), LARGE_FILE_BYTES):
+            yield self.content[begin : begin + LARGE_FILE_BYTES + 1]
 
     @property
     def basename(self) -> str:
@@ -134,7 +134,7 @@ class Blob:
         return self.name.replace("\\", "/").rsplit("/", 1)[-1]
 
 
-def fetch(source: Location, budget: Budget) -> Blob:
+def open_source(source: Location, budget: ReadBudget) -> RawFile:
     """Return the bytes of a file, of the bundled sample of that name, or of the standard input.
 
     Parameters
@@ -153,16 +153,16 @@ def fetch(source: Location, budget: Budget) -> Blob:
     """
     name = str(source)
     if name == STDIN:
-        blob = Blob("standard input", budget.read("standard input", sys.stdin.buffer))
+        blob = RawFile("standard input", budget.read("standard input", sys.stdin.buffer))
     else:
-        path = locate(source)
-        blob = Blob(name, read_bytes(path, name, budget), path)
-    if not any(not piece.isspace() for piece in blob.pieces()):
+        path = resolve_path(source)
+        blob = RawFile(name, read_bytes(path, name, budget), path)
+    if not any(not piece.isspace() for piece in blob.chunks()):
         raise RecordError("{name} is empty: expected a strong-motion record", name=blob.name)
     return blob
 
 
-def read_bytes(path: Path, name: str, budget: Budget) -> bytes | FileBytes:
+def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
     """Return the bytes of a file, or of a pipe, as far as the budget goes; those of a large file stay there.
 
     Parameters
@@ -183,18 +183,18 @@ def read_bytes(path: Path, name: str, budget: Budget) -> bytes | FileBytes:
             raise RecordError("{name} is a directory: name a record file in it", name=name)
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
             raise RecordError("{name} is a device, not a record: name a file, or - for the standard input", name=name)
-        budget.announce_bytes(name, info.st_size)
-        reading(path)
-        if stat.S_ISREG(info.st_mode) and info.st_size > LARGE:
-            budget.bytes_spent += info.st_size
-            return FileBytes(path, name, stamp_of(info))
+        budget.check_declared_size(name, info.st_size)
+        mark_read(path)
+        if stat.S_ISREG(info.st_mode) and info.st_size > LARGE_FILE_BYTES:
+            budget.bytes_read += info.st_size
+            return FileBytes(path, name, file_stamp(info))
         with path.open("rb") as stream:
             return budget.read(name, stream)
     except OSError as error:
-        raise RecordError("{name} cannot be read: {reason}", name=name, reason=reason(error)) from error
+        raise RecordError("{name} cannot be read: {reason}", name=name, reason=os_error_text(error)) from error
 
 
-def locate(source: Location) -> Path:
+def resolve_path(source: Location) -> Path:
     """Return the path of a file, or of the bundled sample of that name."""
     name = str(source)
     path = Path(name)
@@ -204,29 +204,33 @@ def locate(source: Location) -> Path:
         if name.startswith("~") and path.expanduser().exists():
             return path.expanduser()
     except (OSError, RuntimeError, ValueError) as error:  # too long, no such home, a NUL in it
-        raise RecordNotFoundError("{name!r} is no name of a file: {reason}", name=name[:LONGEST_SHOWN], reason=_reason(error)) from error
+        raise RecordNotFoundError(
+            "{name!r} is no name of a file: {reason}", name=name[:MAX_QUOTED_LENGTH], reason=_error_reason(error)
+        ) from error
     sample = find_sample(name) if path.name == name else None
     if sample is None:
-        known = [s.name for s in list_samples() if s.kind == "record"]
-        raise RecordNotFoundError("{name}: no such file, and no bundled sample of that name (there are {known})", name=name, known=known)
+        sample_names = [s.name for s in list_samples() if s.kind == "record"]
+        raise RecordNotFoundError(
+            "{name}: no such file, and no bundled sample of that name (there are {known})", name=name, known=sample_names
+        )
     return sample
 
 
-def _reason(error: Exception) -> str:
+def _error_reason(error: Exception) -> str:
     """Return why a name was refused, without the name."""
-    return reason(error) if isinstance(error, OSError) and error.strerror else str(error)[:LONGEST_SHOWN]
+    return os_error_text(error) if isinstance(error, OSError) and error.strerror else str(error)[:MAX_QUOTED_LENGTH]
 
 
-def digest(blobs: Iterable[Blob]) -> str:
+def sha256_digest(blobs: Iterable[RawFile]) -> str:
     """Return the SHA-256 of the bytes, one after the other."""
     total = hashlib.sha256()
     for blob in blobs:
-        for piece in blob.pieces():
-            total.update(memoryview(piece)[:LARGE])
+        for piece in blob.chunks():
+            total.update(memoryview(piece)[:LARGE_FILE_BYTES])
     return total.hexdigest()
 
 
-def decode(blob: Blob) -> str:
+def decode_text(blob: RawFile) -> str:
     """Return the text of a file in UTF-8 (with or without BOM), UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, lines ending in LF.
 
     Raises
@@ -240,7 +244,7 @@ def decode(blob: Blob) -> str:
     elif is_binary(data):
         encodings = []
     else:
-        encodings = ["utf-8-sig", *japanese(data)]
+        encodings = ["utf-8-sig", *japanese_encodings(data)]
     for encoding in encodings:
         try:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
@@ -249,24 +253,24 @@ def decode(blob: Blob) -> str:
     raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
 
 
-def japanese(data: bytes) -> tuple[str, str]:
+def japanese_encodings(data: bytes) -> tuple[str, str]:
     """Return the two encodings of Japanese, the likelier first: what EUC-JP means looks like half-width kana in Shift-JIS.
 
     Examples
     --------
-    >>> japanese("UD方向(gal)".encode("euc_jp"))[0], japanese("UD方向(gal)".encode("cp932"))[0]
+    >>> japanese_encodings("UD方向(gal)".encode("euc_jp"))[0], japanese_encodings("UD方向(gal)".encode("cp932"))[0]
     ('euc_jp', 'cp932')
     """
-    head = data[:HEAD]
+    head = data[:HEAD_BYTES]
     try:
-        as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD else "strict")
+        as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD_BYTES else "strict")
     except UnicodeDecodeError:
         return "cp932", "euc_jp"
-    kana = _HALF_WIDTH.search(head.decode("cp932", errors="ignore"))
-    return ("euc_jp", "cp932") if kana and _OF_TABLES.search(as_euc) else ("cp932", "euc_jp")
+    kana = _HALF_WIDTH_KANA.search(head.decode("cp932", errors="ignore"))
+    return ("euc_jp", "cp932") if kana and _TABLE_KANJI.search(as_euc) else ("cp932", "euc_jp")
 
 
 def is_binary(data: bytes) -> bool:
     """Return whether bytes hold control characters that no text has."""
-    head = data[:HEAD]
+    head = data[:HEAD_BYTES]
     return any(byte in head for byte in (b"\x00", b"\x01", b"\x02", b"\x03", b"\x04", b"\x05", b"\x06", b"\x7f"))

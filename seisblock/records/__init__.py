@@ -1,9 +1,9 @@
 """What was measured: records, motions, and the processing between them."""
 
-from seisblock.records.doubts import Doubt
+from seisblock.records.floor_motion import Storey
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.preparation import Preparation
+from seisblock.records.qc_flags import QCFlag
 from seisblock.records.record import Component, Record
-from seisblock.records.storey import Storey
 
-__all__ = ["Component", "Doubt", "Motion", "Preparation", "Record", "Storey", "motion_of"]
+__all__ = ["Component", "QCFlag", "Motion", "Preparation", "Record", "Storey", "motion_of"]

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.limits import AT_A_TIME
-from seisblock.typing import FloatArray
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
 
-SECTIONS = 2
+N_SECTIONS = 2
 """Of the second order each."""
 
 
@@ -27,16 +27,16 @@ def highpass_sections(dt: float, hz: float) -> FloatArray:
     hz : float, Hz
         Corner frequency, below half the sampling rate.
     """
-    bent = math.tan(math.pi * hz * dt)
-    damping = np.cos(np.pi * (np.arange(SECTIONS) + 0.5) / (2 * SECTIONS))
-    scale = 1.0 + 2.0 * damping * bent + bent**2
-    first, second = 2.0 * (bent**2 - 1.0) / scale, (1.0 - 2.0 * damping * bent + bent**2) / scale
-    gain = np.ones(SECTIONS)
+    prewarped = math.tan(math.pi * hz * dt)
+    damping = np.cos(np.pi * (np.arange(N_SECTIONS) + 0.5) / (2 * N_SECTIONS))
+    scale = 1.0 + 2.0 * damping * prewarped + prewarped**2
+    a1, a2 = 2.0 * (prewarped**2 - 1.0) / scale, (1.0 - 2.0 * damping * prewarped + prewarped**2) / scale
+    gain = np.ones(N_SECTIONS)
     gain[0] = 1.0 / scale.prod()
-    return np.column_stack((gain, first, second))
+    return np.column_stack((gain, a1, a2))
 
 
-def run_sections(sections: FloatArray, row: FloatArray, *, settled: bool, backwards: bool = False) -> None:
+def run_sections(sections: FloatArray, row: FloatArray, *, steady_state: bool, backwards: bool = False) -> None:
     """Filter a row of samples in its place.
 
     Parameters
@@ -45,19 +45,19 @@ def run_sections(sections: FloatArray, row: FloatArray, *, settled: bool, backwa
         Of :func:`highpass_sections`.
     row : (n,) array, m/s^2
         Changed.
-    settled : bool
+    steady_state : bool
         Whether what is met first has lasted for ever: nothing is left of it; else there was rest before.
     backwards : bool
         From the last sample to the first.
     """
-    memory = np.zeros((SECTIONS, 2))
-    if settled and row.size:
-        rest = sections[0, 0] * row[-1 if backwards else 0]
-        memory[0] = -rest, rest
-    places = range(0, row.size, AT_A_TIME)
-    for begin in reversed(places) if backwards else places:
+    memory = np.zeros((N_SECTIONS, 2))
+    if steady_state and row.size:
+        initial = sections[0, 0] * row[-1 if backwards else 0]
+        memory[0] = -initial, initial
+    starts = range(0, row.size, CHUNK_SIZE)
+    for begin in reversed(starts) if backwards else starts:
         # a piece at a time: Ctrl-C is heard between two
-        _run(sections, row[begin : begin + AT_A_TIME], memory, backwards)
+        _run(sections, row[begin : begin + CHUNK_SIZE], memory, backwards)
 
 
 @kernel("void(float64[:, ::1], float64[::1], float64[:, ::1], boolean)")

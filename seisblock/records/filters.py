@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from seisblock.errors import ParameterError
-from seisblock.limits import AT_A_TIME
-from seisblock.records.butterworth import SECTIONS, highpass_sections, run_sections
-from seisblock.typing import FloatArray
+from seisblock.core.errors import ParameterError
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
+from seisblock.records.butterworth import N_SECTIONS, highpass_sections, run_sections
 
-HIGHPASS_ORDER = 2 * SECTIONS
+HIGHPASS_ORDER = 2 * N_SECTIONS
 """Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
 
 PADDING_PERIODS = 5.0
 """Length of the padding at each end, in corner periods: the filter's slowest transient has died to 1e-5 by then."""
 
-MOST_PADDING = 2**22
+MAX_PADDING = 2**22
 """Longest padding at either end, samples: a corner that needs more is refused."""
 
 BASELINE_PERIODS = 0.5
@@ -49,9 +49,9 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
         If the corner lies outside that range, or is so low that the padding would exceed ``MOST_PADDING`` samples.
     """
     sections, pad = _design(dt, hz)
-    row = _padded(acceleration, dt, hz, pad, pad)
+    row = _pad(acceleration, dt, hz, pad, pad)
     for backwards in (False, True):
-        run_sections(sections, row, settled=True, backwards=backwards)
+        run_sections(sections, row, steady_state=True, backwards=backwards)
     return row[pad : pad + acceleration.size]
 
 
@@ -76,8 +76,8 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
         As :func:`highpass_samples`.
     """
     sections, pad = _design(dt, hz)
-    row = _padded(acceleration, dt, hz, pad, 0)
-    run_sections(sections, row, settled=False)
+    row = _pad(acceleration, dt, hz, pad, 0)
+    run_sections(sections, row, steady_state=False)
     return row[pad:]
 
 
@@ -101,7 +101,7 @@ def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
     (n,) array, m/s^2
     """
     level, slope = _level_and_slope(acceleration, dt, hz)
-    return slope * _places(acceleration.size, 0, acceleration.size) + level
+    return slope * _normalized_positions(acceleration.size, 0, acceleration.size) + level
 
 
 def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[float, float]:
@@ -110,27 +110,27 @@ def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[fl
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
     # the weights are symmetric: about the middle, level and slope are independent
-    ends = ((_places(n, 0, length), acceleration[:length]), (_places(n, n - length, n), acceleration[-length:]))
+    ends = ((_normalized_positions(n, 0, length), acceleration[:length]), (_normalized_positions(n, n - length, n), acceleration[-length:]))
     level = sum(taper @ a for _, a in ends) / (2.0 * taper.sum())
     slope = sum((taper * x) @ a for x, a in ends) / sum(taper @ x**2 for x, _ in ends)
     return float(level), float(slope)
 
 
-def _places(samples: int, begin: int, end: int) -> FloatArray:
+def _normalized_positions(samples: int, begin: int, end: int) -> FloatArray:
     """Return where some of the samples lie between the first of all, -1, and the last, 1."""
-    place = np.arange(begin, end, dtype=np.float64)
-    return place * (2.0 / max(samples - 1, 1)) - 1.0
+    position = np.arange(begin, end, dtype=np.float64)
+    return position * (2.0 / max(samples - 1, 1)) - 1.0
 
 
-def _padded(acceleration: FloatArray, dt: float, hz: float, before: int, after: int) -> FloatArray:
+def _pad(acceleration: FloatArray, dt: float, hz: float, pad_before: int, pad_after: int) -> FloatArray:
     """Return samples less their baseline with their mirror images, made in the memory of what is returned."""
     n = acceleration.size
     level, slope = _level_and_slope(acceleration, dt, hz)
-    row = np.empty(before + n + after)
-    for begin in range(0, n, AT_A_TIME):
-        end = min(begin + AT_A_TIME, n)
-        row[before + begin : before + end] = acceleration[begin:end] - (slope * _places(n, begin, end) + level)
-    _mirror(row, before, n)
+    row = np.empty(pad_before + n + pad_after)
+    for begin in range(0, n, CHUNK_SIZE):
+        end = min(begin + CHUNK_SIZE, n)
+        row[pad_before + begin : pad_before + end] = acceleration[begin:end] - (slope * _normalized_positions(n, begin, end) + level)
+    _fill_mirror_image(row, pad_before, n)
     return row
 
 
@@ -142,25 +142,28 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
             "the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz", nyquist=nyquist, hz=hz
         )
     pad = np.ceil(PADDING_PERIODS / (hz * dt))
-    if pad > MOST_PADDING:
-        least = PADDING_PERIODS / (MOST_PADDING * dt)
+    if pad > MAX_PADDING:
+        min_corner = PADDING_PERIODS / (MAX_PADDING * dt)
         raise ParameterError(
             "a high-pass corner of {hz:g} Hz needs {pad:.3g} samples of padding at either end of the record, more than "
             "{most}: choose a corner of {least:.2g} Hz or more",
             hz=hz,
             pad=pad,
-            most=MOST_PADDING,
-            least=least,
+            most=MAX_PADDING,
+            least=min_corner,
         )
     return highpass_sections(dt, hz), int(pad)
 
 
-def _mirror(row: FloatArray, before: int, samples: int) -> None:
+def _fill_mirror_image(row: FloatArray, pad_before: int, samples: int) -> None:
     """Fill a row, at either end of the samples in it, with their mirror image, sign reversed, mirrored as often as needed."""
-    held = row[before : before + samples]
-    for end, place in ((row[:before], np.arange(-before, 0)), (row[before + samples :], np.arange(samples, row.size - before))):
+    interior = row[pad_before : pad_before + samples]
+    for end, position in (
+        (row[:pad_before], np.arange(-pad_before, 0)),
+        (row[pad_before + samples :], np.arange(samples, row.size - pad_before)),
+    ):
         # position in a period of twice the record, of which the second half runs backwards with the sign reversed
-        place %= 2 * samples
-        mirrored = place >= samples
-        end[:] = held[np.where(mirrored, 2 * samples - 1 - place, place)]
-        end[mirrored] *= -1.0
+        position %= 2 * samples
+        is_mirrored = position >= samples
+        end[:] = interior[np.where(is_mirrored, 2 * samples - 1 - position, position)]
+        end[is_mirrored] *= -1.0

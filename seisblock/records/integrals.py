@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from seisblock.limits import AT_A_TIME
-from seisblock.typing import FloatArray
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
 
 
 def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
@@ -41,12 +41,12 @@ def velocities(acceleration: FloatArray, dt: float, initial_velocity: float = 0.
     initial_velocity : float, m/s
         Added to each of them.
     """
-    reached = 0.0
+    carry = 0.0
     for begin, end in _blocks(acceleration.size):
-        from_rest = _velocity(acceleration[begin : end + 1], dt, reached)
-        reached = float(from_rest[-1])
-        from_rest += initial_velocity
-        yield begin, from_rest
+        velocity = _velocity_block(acceleration[begin : end + 1], dt, carry)
+        carry = float(velocity[-1])
+        velocity += initial_velocity
+        yield begin, velocity
 
 
 def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> FloatArray:
@@ -80,17 +80,17 @@ def displacements(acceleration: FloatArray, dt: float, initial_velocity: float =
     acceleration, dt, initial_velocity
         As in :func:`integrate_twice`.
     """
-    reached = 0.0
+    carry = 0.0
     for begin, velocity in velocities(acceleration, dt, initial_velocity):
         a = acceleration[begin : begin + velocity.size]
         steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
-        steps[0] += reached
+        steps[0] += carry
         np.cumsum(steps, out=steps)
-        reached = float(steps[-1])
+        carry = float(steps[-1])
         yield begin + 1, steps
 
 
-def _velocity(acceleration: FloatArray, dt: float, initial: float) -> FloatArray:
+def _velocity_block(acceleration: FloatArray, dt: float, initial: float) -> FloatArray:
     """Return the velocity at some samples that follow each other, from that at the first."""
     velocity = np.empty(acceleration.size)
     velocity[0] = initial
@@ -102,5 +102,5 @@ def _velocity(acceleration: FloatArray, dt: float, initial: float) -> FloatArray
 
 def _blocks(samples: int) -> Iterator[tuple[int, int]]:
     """Yield first and last sample of pieces that share their ends: sums go on from piece to piece, in the memory of one."""
-    for begin in range(0, samples - 1, AT_A_TIME):
-        yield begin, min(begin + AT_A_TIME, samples - 1)
+    for begin in range(0, samples - 1, CHUNK_SIZE):
+        yield begin, min(begin + CHUNK_SIZE, samples - 1)

@@ -8,15 +8,15 @@ from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ComponentError, ParameterError
-from seisblock.records.record import Component, Record, frozen, sealed
-from seisblock.records.signs import IMPLAUSIBLE_PGA
-from seisblock.records.turning import mixed_towards, oriented_pair, resolved
-from seisblock.remarks import is_asked_from_outside, remark
-from seisblock.showing import Drawn
-from seisblock.typing import ArrayLike, FloatArray
-from seisblock.words import said
+from seisblock.core import checks
+from seisblock.core._display import PlotMixin
+from seisblock.core._warnings import called_externally, warn_external
+from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import ArrayLike, FloatArray
+from seisblock.records.qc import IMPLAUSIBLE_PGA
+from seisblock.records.record import Component, Record, as_readonly, readonly
+from seisblock.records.rotation import acceleration_at_azimuth, azimuth_projection, oriented_pair
 
 ALONG: Final = 0
 ACROSS: Final = 1
@@ -25,30 +25,30 @@ UP: Final = 2
 ALL_AZIMUTHS = "all-azimuths"
 """What asks for every direction in the place of a component."""
 
-LARGEST_INTERVAL = 0.1
+MAX_SAMPLING_INTERVAL = 0.1
 """A sampling interval beyond this, s, is none of ground motion: a rate, or another unit."""
 
-LONG = 2**20
+LONG_MOTION_SAMPLES = 2**20
 """Samples (three hours at 100 Hz) beyond which nothing holds a motion or a trajectory whole that need not."""
 
-STRETCH = 2**18
+SEGMENT_SAMPLES = 2**18
 """Samples of a long motion that are looked at at a time."""
 
 
-Rows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[slice], FloatArray], FloatArray]
+MotionRows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[slice], FloatArray], FloatArray]
 """Along, across and up, in one array or each in its own; the one across may be what makes a part of it."""
 
 
-class Stretch(NamedTuple):
+class MotionSegment(NamedTuple):
     """Samples of a motion that follow each other: which one is the first, their rows, (3, k), m/s^2, and how many follow after them."""
 
     first: int
     acceleration: FloatArray
-    beyond: int
+    samples_after: int
 
 
 @dataclass(frozen=True, eq=False)
-class Motion(Drawn):
+class Motion(PlotMixin):
     """Ground acceleration that a body feels, piecewise linear between samples.
 
     Parameters
@@ -66,23 +66,27 @@ class Motion(Drawn):
         Where it comes from.
     """
 
-    rows: Rows
+    rows: MotionRows
     dt: float
     name: str = ""
     start_s: float = 0.0
     record: Record | None = None
 
     def __post_init__(self) -> None:
-        kept = tuple(row if callable(row) else frozen(row) for row in self.rows) if isinstance(self.rows, tuple) else frozen(self.rows)
-        object.__setattr__(self, "rows", kept)
-        known = [row for row in kept if not callable(row)]
-        shape = kept.shape if isinstance(kept, np.ndarray) else (len(kept), *known[0].shape)
-        if len(shape) != 2 or shape[0] != 3 or any(row.shape != shape[1:] for row in known):
+        rows = (
+            tuple(row if callable(row) else as_readonly(row) for row in self.rows)
+            if isinstance(self.rows, tuple)
+            else as_readonly(self.rows)
+        )
+        object.__setattr__(self, "rows", rows)
+        arrays = [row for row in rows if not callable(row)]
+        shape = rows.shape if isinstance(rows, np.ndarray) else (len(rows), *arrays[0].shape)
+        if len(shape) != 2 or shape[0] != 3 or any(row.shape != shape[1:] for row in arrays):
             raise ParameterError("a motion has three rows (along, across, up), found shape {shape}", shape=str(shape))
         if shape[1] < 2:
             raise ParameterError("a motion needs at least 2 samples, found {count}", count=shape[1])
         checks.positive("the sampling interval", self.dt, "s")
-        if not all(np.isfinite(row).all() for row in known):
+        if not all(np.isfinite(row).all() for row in arrays):
             raise ParameterError("a motion must hold finite numbers only")
 
     @classmethod
@@ -108,17 +112,17 @@ class Motion(Drawn):
         UserWarning
             If it reaches more than 5 g, or the interval is more than 0.1 s: the unit is probably another.
         """
-        along = checks.row("the horizontal acceleration", horizontal)
+        along = checks.float_vector("the horizontal acceleration", horizontal)
         rows = np.zeros((3, along.size))
         rows[ALONG] = along
         if vertical is not None:
-            up = checks.row("the vertical acceleration", vertical)
+            up = checks.float_vector("the vertical acceleration", vertical)
             if up.shape != along.shape:
                 raise ParameterError("horizontal and vertical differ in length: {along} and {up} samples", along=along.size, up=up.size)
             rows[UP] = up
         motion = cls(rows, dt, name=name, start_s=start_s)
-        if is_asked_from_outside(1):
-            _remark_on(motion, 2)
+        if called_externally(1):
+            _warn_units(motion, 2)
         return motion
 
     @property
@@ -130,7 +134,7 @@ class Motion(Drawn):
     @property
     def transverse(self) -> FloatArray:
         """Ground acceleration across +x, (n,), m/s^2; a long motion makes it anew each time."""
-        return _part(self.rows[ACROSS], slice(None))
+        return _slice_row(self.rows[ACROSS], slice(None))
 
     @property
     def vertical(self) -> FloatArray:
@@ -141,7 +145,7 @@ class Motion(Drawn):
     @property
     def acceleration(self) -> FloatArray:
         """The three rows as one read-only array, (3, n), m/s^2; a long motion makes it anew each time."""
-        return self.rows if isinstance(self.rows, np.ndarray) else sealed(np.stack([self.horizontal, self.transverse, self.vertical]))
+        return self.rows if isinstance(self.rows, np.ndarray) else readonly(np.stack([self.horizontal, self.transverse, self.vertical]))
 
     @property
     def azimuth_deg(self) -> float | None:
@@ -149,8 +153,8 @@ class Motion(Drawn):
         try:
             return float(self.name)
         except ValueError:
-            known = () if self.record is None else self.record.components
-            return next((component.azimuth_deg for component in known if component.code == self.name), None)
+            components = () if self.record is None else self.record.components
+            return next((component.azimuth_deg for component in components if component.code == self.name), None)
 
     @property
     def samples(self) -> int:
@@ -160,9 +164,9 @@ class Motion(Drawn):
     @property
     def is_long(self) -> bool:
         """Whether it has so many samples that nothing should hold a copy of it, or a trajectory through it, that need not."""
-        return self.samples > LONG
+        return self.samples > LONG_MOTION_SAMPLES
 
-    def stretches(self, acting: Sequence[bool], first: int = 0) -> Iterator[Stretch]:
+    def segments(self, active: Sequence[bool], first_sample: int = 0) -> Iterator[MotionSegment]:
         """Yield the samples in the order of time: all at once, or stretch by stretch where they are many.
 
         Parameters
@@ -173,16 +177,16 @@ class Motion(Drawn):
             Sample to begin with, at the latest.
         """
         if not self.is_long:
-            yield Stretch(0, self.acceleration, 0)
+            yield MotionSegment(0, self.acceleration, 0)
             return
         last = self.samples - 1
-        for begin in range(min(first, last - 1), last, STRETCH):
-            end = min(begin + STRETCH, last)
+        for begin in range(min(first_sample, last - 1), last, SEGMENT_SAMPLES):
+            end = min(begin + SEGMENT_SAMPLES, last)
             piece = np.zeros((3, end + 1 - begin))
             for index, row in enumerate(self.rows):
-                if acting[index]:
-                    piece[index] = _part(row, slice(begin, end + 1))
-            yield Stretch(begin, sealed(piece), last - end)
+                if active[index]:
+                    piece[index] = _slice_row(row, slice(begin, end + 1))
+            yield MotionSegment(begin, readonly(piece), last - end)
 
     @property
     def time(self) -> FloatArray:
@@ -190,7 +194,7 @@ class Motion(Drawn):
         return self.start_s + self.dt * np.arange(self.samples, dtype=np.float64)
 
 
-def _part(row: FloatArray | Callable[[slice], FloatArray], part: slice) -> FloatArray:
+def _slice_row(row: FloatArray | Callable[[slice], FloatArray], part: slice) -> FloatArray:
     """Return some samples of a row, or of one that is made part by part."""
     return row(part) if callable(row) else row[part]
 
@@ -224,60 +228,62 @@ def motion_of(record: Record, component: str) -> Motion:
     """
     checks.instance(record, Record)
     component = str(component)
-    along, across = _along_and_across(record, component)
-    nothing = np.zeros(record.samples)
-    up = nothing if record.vertical is None else record.vertical.acceleration
-    if record.samples > LONG:
-        rows: Rows = (along, across or nothing, up)
+    along, across = _horizontal_rows(record, component)
+    zeros = np.zeros(record.samples)
+    up = zeros if record.vertical is None else record.vertical.acceleration
+    if record.samples > LONG_MOTION_SAMPLES:
+        rows: MotionRows = (along, across or zeros, up)
     else:
-        rows = sealed(np.stack([along, nothing if across is None else across(slice(None)), up]))
+        rows = readonly(np.stack([along, zeros if across is None else across(slice(None)), up]))
     motion = Motion(rows, record.dt, name=component, start_s=record.offset_s, record=record)
-    if is_asked_from_outside(1):
-        _remark_on(motion, 2)
+    if called_externally(1):
+        _warn_units(motion, 2)
     return motion
 
 
-def _remark_on(motion: Motion, depth: int) -> None:
+def _warn_units(motion: Motion, depth: int) -> None:
     """Warn of a motion that a program gives in another unit, by its size or its interval."""
-    doubted = motion.record is not None and any(doubt.kind == "size" for doubt in motion.record.doubts)
+    is_flagged = motion.record is not None and any(flag.kind == "size" for flag in motion.record.doubts)
     peak = max(max(float(row.max()), -float(row.min())) for row in (motion.horizontal, motion.vertical))
-    if peak > IMPLAUSIBLE_PGA and not doubted:
-        remark(said("a motion reaches {peak:.4g} m/s^2, more than 5 g: is it in m/s^2? 1 gal is 0.01 m/s^2", peak=peak), depth)
-    if motion.dt > LARGEST_INTERVAL:
+    if peak > IMPLAUSIBLE_PGA and not is_flagged:
+        warn_external(
+            lazy_gettext("a motion reaches {peak:.4g} m/s^2, more than 5 g: is it in m/s^2? 1 gal is 0.01 m/s^2", peak=peak), depth
+        )
+    if motion.dt > MAX_SAMPLING_INTERVAL:
         text = "the sampling interval is {dt:g} s: is it in s, and no rate in Hz? ground motion is sampled every 0.1 s or more often"
-        remark(said(text, dt=motion.dt), depth)
+        warn_external(lazy_gettext(text, dt=motion.dt), depth)
 
 
-def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
+def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
     """Return the acceleration along a direction and, when known, what makes parts of that 90 degrees counter-clockwise of it."""
-    azimuth = _as_azimuth(component)
+    azimuth = _parse_azimuth(component)
     if azimuth is not None and not any(c.code == component for c in record.horizontals):
         checks.azimuth(azimuth, error=ComponentError)
-    recorded = None if azimuth is None else _recorded(record, component, azimuth)
-    if azimuth is None or recorded is not None:
-        chosen = record.component(component) if recorded is None else recorded
-        if chosen.is_vertical:
+    component_match = None if azimuth is None else _recorded_component(record, component, azimuth)
+    if azimuth is None or component_match is not None:
+        selected = record.component(component) if component_match is None else component_match
+        if selected.is_vertical:
             raise ComponentError(
                 "{component} is vertical; choose a horizontal direction: {codes}",
                 component=component,
                 codes=[c.code for c in record.horizontals],
             )
-        azimuth = chosen.azimuth_deg
-        others = [c for c in record.horizontals if c is not chosen]
-        if azimuth is None or not others or any(c.azimuth_deg is None for c in others):
-            return chosen.acceleration, None
+        azimuth = selected.azimuth_deg
+        remaining = [c for c in record.horizontals if c is not selected]
+        if azimuth is None or not remaining or any(c.azimuth_deg is None for c in remaining):
+            return selected.acceleration, None
         pair = oriented_pair(record)
-        along = chosen.acceleration
+        along = selected.acceleration
     else:
-        opposite = _recorded(record, "", azimuth + 180.0)
+        opposite = _recorded_component(record, "", azimuth + 180.0)
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
-            return sealed(-opposite.acceleration), None
+            return readonly(-opposite.acceleration), None
         pair = oriented_pair(record)
-        along = resolved(pair, azimuth)
-    return along, mixed_towards(pair, azimuth - 90.0)
+        along = acceleration_at_azimuth(pair, azimuth)
+    return along, azimuth_projection(pair, azimuth - 90.0)
 
 
-def _as_azimuth(component: str) -> float | None:
+def _parse_azimuth(component: str) -> float | None:
     """Return an azimuth in degrees when the text is a number."""
     try:
         azimuth = float(component)
@@ -288,10 +294,10 @@ def _as_azimuth(component: str) -> float | None:
     return azimuth
 
 
-def _recorded(record: Record, component: str, azimuth: float) -> Component | None:
+def _recorded_component(record: Record, component: str, azimuth: float) -> Component | None:
     """Return the horizontal that was recorded towards an azimuth, or has that number for its name and no known direction."""
     for candidate in record.horizontals:
-        named = candidate.azimuth_deg is None and candidate.code == component
-        if named or candidate.azimuth_deg == azimuth % 360.0:
+        code_matches = candidate.azimuth_deg is None and candidate.code == component
+        if code_matches or candidate.azimuth_deg == azimuth % 360.0:
             return candidate
     return None

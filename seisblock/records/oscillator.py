@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.limits import AT_A_TIME
-from seisblock.typing import FloatArray
+from seisblock.core.limits import CHUNK_SIZE
+from seisblock.core.typing import FloatArray
 
 
 def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
@@ -29,7 +29,7 @@ def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
     system = np.zeros((4, 4))
     system[0, 1] = system[2, 3] = 1.0
     system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
-    step = _exponential(system * dt)
+    step = _matrix_exponential(system * dt)
     step[:2, 3] /= dt
     step[:2, 2] -= step[:2, 3]  # what the samples at its two ends do to a step
     return step
@@ -49,23 +49,25 @@ def oscillator_path(ground: FloatArray, dt: float, omega: float, damping: float)
     """
     step = exact_step(dt, omega, damping)
     path = np.zeros((2, ground.size))
-    for begin in range(0, max(ground.size - 1, 1), AT_A_TIME):
+    for begin in range(0, max(ground.size - 1, 1), CHUNK_SIZE):
         # a piece at a time: Ctrl-C is heard between two
-        _walk(step, ground[begin : begin + AT_A_TIME + 1], path[0, begin : begin + AT_A_TIME + 1], path[1, begin : begin + AT_A_TIME + 1])
+        _integrate(
+            step, ground[begin : begin + CHUNK_SIZE + 1], path[0, begin : begin + CHUNK_SIZE + 1], path[1, begin : begin + CHUNK_SIZE + 1]
+        )
     return path[0], path[1]
 
 
 @kernel("void(float64[:, ::1], Array(float64, 1, 'C', readonly=True), float64[::1], float64[::1])")
-def _walk(step, ground, u, v):
+def _integrate(step, ground, u, v):
     """Follow an oscillator over some samples, from the state that stands at the first."""
     for k in range(ground.size - 1):
-        pushed = step[0, 2] * ground[k] + step[0, 3] * ground[k + 1]
-        u[k + 1] = step[0, 0] * u[k] + step[0, 1] * v[k] + pushed
-        pushed = step[1, 2] * ground[k] + step[1, 3] * ground[k + 1]
-        v[k + 1] = step[1, 0] * u[k] + step[1, 1] * v[k] + pushed
+        forcing = step[0, 2] * ground[k] + step[0, 3] * ground[k + 1]
+        u[k + 1] = step[0, 0] * u[k] + step[0, 1] * v[k] + forcing
+        forcing = step[1, 2] * ground[k] + step[1, 3] * ground[k + 1]
+        v[k + 1] = step[1, 0] * u[k] + step[1, 1] * v[k] + forcing
 
 
-def _exponential(matrix: FloatArray) -> FloatArray:
+def _matrix_exponential(matrix: FloatArray) -> FloatArray:
     """Return the exponential of a small matrix, by its series and by squaring; scipy's asks a threaded library, a hundred times slower."""
     halvings = max(math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1.0))), 0)
     small = matrix / 2.0**halvings

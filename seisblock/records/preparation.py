@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from seisblock import checks
+from seisblock.core import checks
+from seisblock.core.typing import TimeWindow
 from seisblock.records import process
+from seisblock.records.floor_motion import Storey, floor_motion
 from seisblock.records.record import Record
-from seisblock.records.storey import Storey, on_storey
-from seisblock.typing import Stretch
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class Preparation:
     window : (float or None, float or None) or None, s
         First and last instant kept, counted from the record's first sample as read; None is the record's own end.
     floor : Storey or None
-        What stands on a storey of a building feels :func:`~seisblock.records.storey.on_storey` of that. The scale is that of the ground,
-        a target PGA too; the window is cut out of the storey's motion, which knows what came before it.
+        What stands on a storey of a building feels :func:`~seisblock.records.floor_motion.floor_motion` of that. The scale is that of
+        the ground, a target PGA too; the window is cut out of the storey's motion, which knows what came before it.
 
     Raises
     ------
@@ -52,7 +52,7 @@ class Preparation:
     scale: float = 1.0
     target_pga: float | None = None
     components: tuple[str, ...] = ()
-    window: Stretch | None = None
+    window: TimeWindow | None = None
     floor: Storey | None = None
 
     def __post_init__(self) -> None:
@@ -92,5 +92,5 @@ class Preparation:
         if self.target_pga is not None:
             record = process.scale_to_pga(record, self.target_pga, self.components or None)
         if self.floor is not None:
-            record = on_storey(record, self.floor)
+            record = floor_motion(record, self.floor)
         return record if self.window is None else process.crop(record, *self.window)

@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ComponentError, ParameterError, RecordError
-from seisblock.records.cuts import CUT
-from seisblock.records.doubts import settled
+from seisblock.core import checks
+from seisblock.core.errors import ComponentError, ParameterError, RecordError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import GAL
+from seisblock.records.crop_history import CROP_HISTORY
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
-from seisblock.records.record import Component, Record, sealed
-from seisblock.records.turning import oriented_pair, resolved
-from seisblock.typing import FloatArray
-from seisblock.units import GAL
-from seisblock.words import said
+from seisblock.records.qc_flags import drop_resolved
+from seisblock.records.record import Component, Record, readonly
+from seisblock.records.rotation import acceleration_at_azimuth, oriented_pair
 
 
 def demean(record: Record) -> Record:
@@ -38,8 +38,10 @@ def demean(record: Record) -> Record:
     """
     checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
-    did = said("mean of the whole record removed ({means} gal)", means=[f"{code} {mean / GAL:.4g}" for code, mean in means.items()])
-    return _apply(record, lambda c: sealed(c.acceleration - means[c.code]), did, doubts=settled(record.doubts))
+    entry = lazy_gettext(
+        "mean of the whole record removed ({means} gal)", means=[f"{code} {mean / GAL:.4g}" for code, mean in means.items()]
+    )
+    return _apply(record, lambda c: readonly(c.acceleration - means[c.code]), entry, doubts=drop_resolved(record.doubts))
 
 
 def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
@@ -66,27 +68,32 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     (1001, 20.0)
     """
     checks.instance(record, Record)
-    first, last = record.offset_s, record.offset_s + record.duration_s
-    start = first if start_s is None else checks.finite("the start of the window", start_s, "s", error=RecordError)
-    end = last if end_s is None else checks.finite("the end of the window", end_s, "s", error=RecordError)
-    window = said("window {start:g}:{end:g} s", start=start, end=end)
+    record_start, record_end = record.offset_s, record.offset_s + record.duration_s
+    start = record_start if start_s is None else checks.finite("the start of the window", start_s, "s", error=RecordError)
+    end = record_end if end_s is None else checks.finite("the end of the window", end_s, "s", error=RecordError)
+    window = lazy_gettext("window {start:g}:{end:g} s", start=start, end=end)
     if not start < end:
         raise RecordError("{window}: its start must come before its end, both in s from the first sample", window=window)
     slack = 1e-6 * record.dt
-    if start < first - slack or end > last + slack:
-        where = record.source or said("record")
+    if start < record_start - slack or end > record_end + slack:
+        source = record.source or lazy_gettext("record")
         raise RecordError(
             "{where}: the {window} lies outside the record, which runs from {first:g} to {last:g} s",
-            where=where,
+            where=source,
             window=window,
-            first=first,
-            last=last,
+            first=record_start,
+            last=record_end,
         )
-    begin = int(np.ceil((start - first) / record.dt - 1e-6))
-    stop = int(np.floor((end - first) / record.dt + 1e-6)) + 1
+    begin = int(np.ceil((start - record_start) / record.dt - 1e-6))
+    stop = int(np.floor((end - record_start) / record.dt + 1e-6)) + 1
     if stop - begin < 2:
         raise RecordError("{window} holds fewer than 2 samples at {dt:g} s: make it longer", window=window, dt=record.dt)
-    return _apply(record, lambda c: c.acceleration[begin:stop], said(CUT, window=window), offset_s=record.offset_s + begin * record.dt)
+    return _apply(
+        record,
+        lambda c: c.acceleration[begin:stop],
+        lazy_gettext(CROP_HISTORY, window=window),
+        offset_s=record.offset_s + begin * record.dt,
+    )
 
 
 def scale(record: Record, factor: float) -> Record:
@@ -111,8 +118,8 @@ def scale(record: Record, factor: float) -> Record:
     """
     checks.instance(record, Record)
     checks.finite("the scale factor", factor)
-    did = said("scaled by {factor:.10g}", factor=factor)
-    return record if factor == 1.0 else _apply(record, lambda c: sealed(c.acceleration * factor), did)
+    entry = lazy_gettext("scaled by {factor:.10g}", factor=factor)
+    return record if factor == 1.0 else _apply(record, lambda c: readonly(c.acceleration * factor), entry)
 
 
 def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:
@@ -144,28 +151,31 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
     if component is None:
-        chosen, among = largest_horizontal(record), said("the largest horizontal")
+        selected, candidates = largest_horizontal(record), lazy_gettext("the largest horizontal")
     else:
         names = (component,) if isinstance(component, str) else tuple(component)
-        chosen, among = max((pick(record, name) for name in names), key=_peak), said("the largest of {names}", names=names)
-    peak = _peak(chosen)
+        selected, candidates = (
+            max((select_component(record, name) for name in names), key=_peak),
+            lazy_gettext("the largest of {names}", names=names),
+        )
+    peak = _peak(selected)
     if peak == 0.0:
         raise ParameterError(
-            "component {code} is zero throughout: no factor gives it a peak of {target:g} m/s^2", code=chosen.code, target=target
+            "component {code} is zero throughout: no factor gives it a peak of {target:g} m/s^2", code=selected.code, target=target
         )
     factor = target / peak
-    did = said(
+    entry = lazy_gettext(
         "scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.5g} -> {target:.5g} gal",
         factor=factor,
-        code=chosen.code,
-        among=among,
+        code=selected.code,
+        among=candidates,
         peak=peak / GAL,
         target=target / GAL,
     )
-    return _apply(record, lambda c: sealed(c.acceleration * factor), did)
+    return _apply(record, lambda c: readonly(c.acceleration * factor), entry)
 
 
-def pick(record: Record, name: str) -> Component:
+def select_component(record: Record, name: str) -> Component:
     """Return a component by its code, or the horizontal towards an azimuth.
 
     Parameters
@@ -186,7 +196,7 @@ def pick(record: Record, name: str) -> Component:
         azimuth = float(name)
     except ValueError:
         return record.component(name)  # raises, and lists the codes
-    return towards(record, checks.azimuth(azimuth, error=ComponentError))
+    return component_at_azimuth(record, checks.azimuth(azimuth, error=ComponentError))
 
 
 def largest_horizontal(record: Record) -> Component:
@@ -199,7 +209,7 @@ def largest_horizontal(record: Record) -> Component:
     """
     if not record.horizontals:
         raise ComponentError(
-            "{source}: no horizontal component; it has {codes}", source=record.source or said("record"), codes=record.codes
+            "{source}: no horizontal component; it has {codes}", source=record.source or lazy_gettext("record"), codes=record.codes
         )
     return max(record.horizontals, key=_peak)
 
@@ -231,11 +241,11 @@ def highpass(record: Record, hz: float) -> Record:
     """
     checks.instance(record, Record)
     text = "high-pass {hz:g} Hz (Butterworth order {order} forwards and backwards, line through the ends removed, mirrored ends)"
-    did = said(text, hz=hz, order=HIGHPASS_ORDER)
-    return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did, doubts=settled(record.doubts))
+    entry = lazy_gettext(text, hz=hz, order=HIGHPASS_ORDER)
+    return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), entry, doubts=drop_resolved(record.doubts))
 
 
-def towards(record: Record, azimuth_deg: float) -> Component:
+def component_at_azimuth(record: Record, azimuth_deg: float) -> Component:
     """Return the ground acceleration towards an azimuth as a component named after it.
 
     Parameters
@@ -253,13 +263,13 @@ def towards(record: Record, azimuth_deg: float) -> Component:
     Examples
     --------
     >>> from seisblock.readers import read
-    >>> towards(read("synthetic_jma.csv"), 45.0).azimuth_deg
+    >>> component_at_azimuth(read("synthetic_jma.csv"), 45.0).azimuth_deg
     45.0
     """
     checks.instance(record, Record)
     if isinstance(azimuth_deg, str) or not np.isfinite(azimuth_deg):
         raise ComponentError("the azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
-    return Component(f"{azimuth_deg:g}", resolved(oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
+    return Component(f"{azimuth_deg:g}", acceleration_at_azimuth(oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
 
 
 def rotate(record: Record, azimuth_deg: float) -> Record:
@@ -283,10 +293,10 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
     >>> rotate(read("synthetic_jma.csv"), 30.0).codes
     ('30', '120', 'UD')
     """
-    pair = [towards(record, azimuth_deg), towards(record, azimuth_deg + 90.0)]
+    pair = [component_at_azimuth(record, azimuth_deg), component_at_azimuth(record, azimuth_deg + 90.0)]
     vertical = [] if record.vertical is None else [record.vertical]
     return record.with_components(
-        [*pair, *vertical], said("horizontals turned to {one} and {other} degrees", one=pair[0].code, other=pair[1].code)
+        [*pair, *vertical], lazy_gettext("horizontals turned to {one} and {other} degrees", one=pair[0].code, other=pair[1].code)
     )
 
 
@@ -295,6 +305,6 @@ def _peak(component: Component) -> float:
     return float(np.abs(component.acceleration).max())
 
 
-def _apply(record: Record, samples: Callable[[Component], FloatArray], did: str, **changes: object) -> Record:
+def _apply(record: Record, transform: Callable[[Component], FloatArray], entry: str, **changes: object) -> Record:
     """Return the record with new samples for each component, and what was done in its history."""
-    return record.with_components([replace(c, acceleration=samples(c)) for c in record.components], did, **changes)
+    return record.with_components([replace(c, acceleration=transform(c)) for c in record.components], entry, **changes)

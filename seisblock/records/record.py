@@ -8,13 +8,13 @@ from datetime import datetime
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ComponentError, RecordError
-from seisblock.records.bearings import azimuth_meant
-from seisblock.records.doubts import Doubt
-from seisblock.showing import Drawn
-from seisblock.typing import ArrayLike, FloatArray
-from seisblock.words import said
+from seisblock.core import checks
+from seisblock.core._display import PlotMixin
+from seisblock.core.errors import ComponentError, RecordError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import ArrayLike, FloatArray
+from seisblock.records.azimuth import parse_bearing
+from seisblock.records.qc_flags import QCFlag
 
 HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
 """Azimuth, in degrees clockwise from north, of the positive direction of the two standard horizontals."""
@@ -22,11 +22,11 @@ HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
 VERTICAL = "UD"
 """Code of the vertical component, positive up."""
 
-IMPOSSIBLE = 1e9
+MAX_ACCELERATION = 1e9
 """No number beyond this, m/s^2, is an acceleration of the ground: squares of it would leave the range of numbers."""
 
 
-def frozen(values: ArrayLike) -> FloatArray:
+def as_readonly(values: ArrayLike) -> FloatArray:
     """Return `values` as a read-only, C-contiguous float64 array, copied only when it must be."""
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.flags.writeable:
@@ -35,8 +35,8 @@ def frozen(values: ArrayLike) -> FloatArray:
     return array
 
 
-def sealed(array: FloatArray) -> FloatArray:
-    """Return an array that nobody else holds, read-only from now on: :func:`frozen` does not copy it."""
+def readonly(array: FloatArray) -> FloatArray:
+    """Return an array that nobody else holds, read-only from now on: :func:`as_readonly` does not copy it."""
     array.flags.writeable = False
     return array
 
@@ -60,7 +60,7 @@ class Component:
     azimuth_deg: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "acceleration", frozen(self.acceleration))
+        object.__setattr__(self, "acceleration", as_readonly(self.acceleration))
         if self.acceleration.ndim != 1:
             raise RecordError(
                 "component {code}: expected one row of samples, found {count} dimensions", code=self.code, count=self.acceleration.ndim
@@ -75,7 +75,7 @@ class Component:
 
 
 @dataclass(frozen=True, eq=False)
-class Record(Drawn):
+class Record(PlotMixin):
     """A strong-motion record of one station.
 
     Parameters
@@ -110,38 +110,38 @@ class Record(Drawn):
     format: str = ""
     history: tuple[str, ...] = ()
     metadata: dict[str, object] = field(default_factory=dict)
-    doubts: tuple[Doubt, ...] = ()
+    doubts: tuple[QCFlag, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", tuple(self.components))
-        where = self.source or said("record")
+        source = self.source or lazy_gettext("record")
         if not self.components:
-            raise RecordError("{where}: there is no component in it", where=where)
-        checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or said("record"))
+            raise RecordError("{where}: there is no component in it", where=source)
+        checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or lazy_gettext("record"))
         lengths = {c.code: c.acceleration.size for c in self.components}
         if len(lengths) != len(self.components):
-            raise RecordError("{where}: component codes repeat: {codes}", where=where, codes=self.codes)
+            raise RecordError("{where}: component codes repeat: {codes}", where=source, codes=self.codes)
         if len(set(lengths.values())) != 1:
-            found = [f"{code} {n}" for code, n in lengths.items()]
+            counts = [f"{code} {n}" for code, n in lengths.items()]
             raise RecordError(
-                "{where}: components differ in length ({found} samples): give files of one recording", where=where, found=found
+                "{where}: components differ in length ({found} samples): give files of one recording", where=source, found=counts
             )
         if self.samples < 2:
-            raise RecordError("{where}: needs at least 2 samples, found {found}", where=where, found=self.samples)
+            raise RecordError("{where}: needs at least 2 samples, found {found}", where=source, found=self.samples)
         for component in self.components:
-            bad = np.flatnonzero(~np.isfinite(component.acceleration))
-            if bad.size:
+            invalid = np.flatnonzero(~np.isfinite(component.acceleration))
+            if invalid.size:
                 raise RecordError(
                     "{where}: component {code} holds {count} samples that are not numbers, the first at index {first}",
-                    where=where,
+                    where=source,
                     code=component.code,
-                    count=bad.size,
-                    first=bad[0],
+                    count=invalid.size,
+                    first=invalid[0],
                 )
             size = max(float(component.acceleration.max()), -float(component.acceleration.min()))
-            if size > IMPOSSIBLE:
+            if size > MAX_ACCELERATION:
                 text = "{where}: component {code} reaches {size:.3g} m/s^2, which is no acceleration of the ground"
-                raise RecordError(text, where=where, code=component.code, size=size)
+                raise RecordError(text, where=source, code=component.code, size=size)
 
     @property
     def carries_offset(self) -> bool:
@@ -189,12 +189,12 @@ class Record(Drawn):
         for candidate in self.components:
             if candidate.code.upper() == code.upper():
                 return candidate
-        where, azimuth = self.source or said("record"), azimuth_meant(code)
+        source, azimuth = self.source or lazy_gettext("record"), parse_bearing(code)
         if azimuth is not None:
             text = "{source}: no component {code!r}; it has {codes}; an azimuth is in degrees clockwise from north: write {azimuth:g}"
-            raise ComponentError(text, source=where, code=code, codes=self.codes, azimuth=azimuth)
-        raise ComponentError("{source}: no component {code!r}; it has {codes}", source=where, code=code, codes=self.codes)
+            raise ComponentError(text, source=source, code=code, codes=self.codes, azimuth=azimuth)
+        raise ComponentError("{source}: no component {code!r}; it has {codes}", source=source, code=code, codes=self.codes)
 
-    def with_components(self, components: Sequence[Component], did: str, **changes: object) -> Record:
-        """Return a record with other samples, and `did` added to its history."""
-        return replace(self, components=tuple(components), history=(*self.history, did), **changes)  # type: ignore[arg-type]
+    def with_components(self, components: Sequence[Component], entry: str, **changes: object) -> Record:
+        """Return a record with other samples, and `entry` added to its history."""
+        return replace(self, components=tuple(components), history=(*self.history, entry), **changes)  # type: ignore[arg-type]

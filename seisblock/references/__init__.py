@@ -23,7 +23,7 @@ SOFTWARE = Reference(
 )
 """The program itself."""
 
-RESTS_ON: dict[str, tuple[str, ...]] = {
+TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
     "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
     "response spectrum": ("NigamJennings1969",),
     "storey": ("NigamJennings1969", "Chopra2012"),
@@ -58,7 +58,7 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
 """What each question rests on: the only place where an answer finds its papers."""
 
 
-def papers(*questions: str) -> tuple[str, ...]:
+def papers(*topics: str) -> tuple[str, ...]:
     """Return the keys of the papers that the answers to some questions rely on, each once, in their order.
 
     Examples
@@ -66,15 +66,15 @@ def papers(*questions: str) -> tuple[str, ...]:
     >>> papers("jump", "landing with friction")
     ('Sugimoto2017', 'WangMason1992', 'Moreau1988')
     """
-    return tuple(dict.fromkeys(key for question in questions for key in RESTS_ON[question]))
+    return tuple(dict.fromkeys(key for topic in topics for key in TOPIC_PAPERS[topic]))
 
 
-def cited_in(texts: Iterable[str]) -> tuple[str, ...]:
+def find_citations(texts: Iterable[str]) -> tuple[str, ...]:
     """Return the keys that stand in brackets in some texts, each once, in their order."""
     return tuple(dict.fromkeys(key for text in texts for key in re.findall(r"\[(\w+)\]", text) if key in REFERENCES))
 
 
-CITED: dict[str, tuple[str, ...]] = {
+COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
     "measure": papers("measures", "response spectrum"),
     "slide": papers("sliding", "one-way sliding"),
     "rock": papers("rocking"),

@@ -9,25 +9,25 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.bodies.subjects import Subject
-from seisblock.criteria.card import Row, overturning_card
+from seisblock.core.results import Response
+from seisblock.core.typing import Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.slide.solve import solve_slide
+from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records import Motion, Record, motion_of
-from seisblock.references import cited_in
-from seisblock.results import Response
-from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.solvers.uplift.solve import solve_uplift
-from seisblock.studies.rocking.margin import Margin, find_margin, flagged
-from seisblock.studies.standing.governing import Governing, governing
-from seisblock.studies.standing.probability import RUNS
-from seisblock.typing import Progress
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.references import find_citations
+from seisblock.studies.report.models import BodyModels
+from seisblock.studies.respond.best_estimate import BestEstimate, best_estimate
+from seisblock.studies.respond.probability import RUNS
+from seisblock.studies.rocking.margin import Margin, find_margin, flag_near_flip
 
 
 @dataclass(frozen=True, eq=False)
-class Effect:
+class ModelResponse:
     """What one model says of one body under one component.
 
     Parameters
@@ -47,16 +47,16 @@ class Effect:
     response: Response[Any]
     onset: float | None
     margin: Margin | None = None
-    governing: Governing | None = None
+    governing: BestEstimate | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class BodyAssessment:
     """All effects on one body, and its criteria card for each component."""
 
-    subject: Subject
-    effects: tuple[Effect, ...]
-    cards: dict[str, tuple[Row, ...]]
+    subject: BodyModels
+    effects: tuple[ModelResponse, ...]
+    cards: dict[str, tuple[CriterionResult, ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,20 +71,23 @@ class Assessment:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Everything that was warned of, once."""
-        found = [*self.measures.warnings, *(text for body in self.bodies for effect in body.effects for text in effect.response.warnings)]
-        return tuple(dict.fromkeys(found))
+        messages = [
+            *self.measures.warnings,
+            *(text for body in self.bodies for effect in body.effects for text in effect.response.warnings),
+        ]
+        return tuple(dict.fromkeys(messages))
 
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the papers relied on."""
-        found = [*self.measures.citations, *(key for body in self.bodies for effect in body.effects for key in effect.response.citations)]
-        cards = cited_in(row.where for body in self.bodies for rows in body.cards.values() for row in rows)
-        return tuple(dict.fromkeys([*found, *cards]))
+        keys = [*self.measures.citations, *(key for body in self.bodies for effect in body.effects for key in effect.response.citations)]
+        cards = find_citations(row.where for body in self.bodies for rows in body.cards.values() for row in rows)
+        return tuple(dict.fromkeys([*keys, *cards]))
 
 
 def assess(
     record: Record,
-    subjects: Sequence[Subject],
+    subjects: Sequence[BodyModels],
     *,
     components: Sequence[str] | None = None,
     drop: float = 0.0,
@@ -106,41 +109,41 @@ def assess(
         Told the number of bodies and components done and the number in all.
     """
     names = tuple(components or (component.code for component in record.horizontals))
-    rules = Conventions(gravity_m_s2=gravity)
-    measured = measure(record, tuple(dict.fromkeys((*names, *record.codes))), conventions=rules)
-    by_name = {found.component: found for found in measured.components}
+    conventions = Conventions(gravity_m_s2=gravity)
+    record_measures = measure(record, tuple(dict.fromkeys((*names, *record.codes))), conventions=conventions)
+    by_name = {component_measures.component: component_measures for component_measures in record_measures.components}
     motions = [motion_of(record, name) for name in names]
-    bodies, done, total = [], 0, len(subjects) * len(motions)
-    for each in subjects:
-        effects: list[Effect] = []
+    bodies, done_count, total = [], 0, len(subjects) * len(motions)
+    for subject in subjects:
+        effects: list[ModelResponse] = []
         cards = {}
         for name, motion in zip(names, motions, strict=True):
-            effects += _effects(each, motion, drop, gravity)
-            cards[motion.name] = _card(each, by_name[name], gravity)
-            done += 1
+            effects += _model_responses(subject, motion, drop, gravity)
+            cards[motion.name] = _criteria_rows(subject, by_name[name], gravity)
+            done_count += 1
             if progress is not None:
-                progress(done, total)
-        bodies.append(BodyAssessment(each, tuple(effects), cards))
-    return Assessment(record, measured, tuple(bodies), gravity)
+                progress(done_count, total)
+        bodies.append(BodyAssessment(subject, tuple(effects), cards))
+    return Assessment(record, record_measures, tuple(bodies), gravity)
 
 
-def _effects(each: Subject, motion: Motion, drop: float, gravity: float) -> Iterator[Effect]:
+def _model_responses(subject: BodyModels, motion: Motion, drop: float, gravity: float) -> Iterator[ModelResponse]:
     """Yield what every model says of one body under one component."""
     peak = float(np.abs(motion.horizontal).max())
-    found = governing(each.block, motion, mu=each.mu, mu_kinetic=each.mu_kinetic, gravity=gravity, runs=RUNS)
-    yield Effect("respond", found.response, None, governing=found)
-    rock = flagged(solve_rock(each.block, motion, restitution=each.restitution, gravity=gravity))
-    margin = find_margin(each.block, motion, restitution=each.restitution, gravity=gravity)
-    yield Effect("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)
-    if each.mu is not None:
-        slid = solve_slide(SlidingBase(each.mu, each.mu_kinetic), motion, gravity=gravity)
-        yield Effect("slide", slid, _ratio(each.mu * gravity, peak))
-    if each.layers is not None and each.contact is not None:
-        jump = solve_jump(each.layers, motion, contact=each.contact, drop=drop, gravity=gravity)
-        yield Effect("jump", jump, _ratio(jump.outcome.rocking_threshold_m_s2, peak))
-    if each.springs is not None:
-        lift = solve_uplift(motion=motion, body=each.springs, gravity=gravity)
-        yield Effect("uplift", lift, lift.outcome.uplift_scale)
+    estimate = best_estimate(subject.block, motion, mu=subject.mu, mu_kinetic=subject.mu_kinetic, gravity=gravity, runs=RUNS)
+    yield ModelResponse("respond", estimate.response, None, governing=estimate)
+    rock = flag_near_flip(solve_rock(subject.block, motion, restitution=subject.restitution, gravity=gravity))
+    margin = find_margin(subject.block, motion, restitution=subject.restitution, gravity=gravity)
+    yield ModelResponse("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)
+    if subject.mu is not None:
+        slide = solve_slide(SlidingBase(subject.mu, subject.mu_kinetic), motion, gravity=gravity)
+        yield ModelResponse("slide", slide, _ratio(subject.mu * gravity, peak))
+    if subject.layers is not None and subject.contact is not None:
+        jump = solve_jump(subject.layers, motion, contact=subject.contact, drop=drop, gravity=gravity)
+        yield ModelResponse("jump", jump, _ratio(jump.outcome.rocking_threshold_m_s2, peak))
+    if subject.springs is not None:
+        lift = solve_uplift(motion=motion, body=subject.springs, gravity=gravity)
+        yield ModelResponse("uplift", lift, lift.outcome.uplift_scale)
 
 
 def _ratio(threshold: float, peak: float) -> float | None:
@@ -148,6 +151,6 @@ def _ratio(threshold: float, peak: float) -> float | None:
     return threshold / peak if peak > 0.0 else None
 
 
-def _card(each: Subject, found: ComponentMeasures, gravity: float) -> tuple[Row, ...]:
+def _criteria_rows(subject: BodyModels, measures: ComponentMeasures, gravity: float) -> tuple[CriterionResult, ...]:
     """Return the criteria of overturning for one body and one component."""
-    return overturning_card(each.block, found.pga_m_s2, found.pgv_m_s, asdict(found.equivalent_frequency_hz), gravity)
+    return overturning_card(subject.block, measures.pga_m_s2, measures.pgv_m_s, asdict(measures.equivalent_frequency_hz), gravity)

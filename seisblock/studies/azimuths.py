@@ -7,23 +7,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.limits import check_budget
+from seisblock.core import checks
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray
 from seisblock.records import Motion, Record, motion_of
-from seisblock.records.given import Factor, vertical_gain
-from seisblock.records.turning import oriented_pair
-from seisblock.typing import FloatArray
-from seisblock.words import noted
+from seisblock.records._validation import Gain, vertical_gain
+from seisblock.records.rotation import oriented_pair
 
 STEP_DEG = 5.0
 """Between directions, unless told otherwise."""
 
 
 @dataclass(frozen=True, eq=False)
-class Sweep:
+class AzimuthSweep:
     """The directions of a record, and a body in each.
 
     Parameters
@@ -44,23 +44,25 @@ class Sweep:
     gains: FloatArray
 
 
-def azimuths_of(body: object, step_deg: float = STEP_DEG) -> FloatArray:
+def sweep_azimuths(body: object, step_deg: float = STEP_DEG) -> FloatArray:
     """Return the directions in which a body is looked at, (m,), degrees: all of the circle where its two sides differ, else half of it.
 
     Examples
     --------
-    >>> azimuths_of(Block(0.24, 0.72), 45.0).tolist()
+    >>> sweep_azimuths(Block(0.24, 0.72), 45.0).tolist()
     [0.0, 45.0, 90.0, 135.0]
     """
     checks.positive("the step between directions", step_deg, "degrees")
-    lopsided = isinstance(body, Block) and body.centroid_offset != 0.0
-    one_sided = isinstance(body, SlidingBase) and (body.one_way or body.slope_deg != 0.0)
-    around = 360.0 if lopsided or one_sided else 180.0
-    check_budget(noted("directions"), math.ceil(around / step_deg), "SEISBLOCK_RUNS")
-    return np.arange(0.0, around, step_deg)
+    is_asymmetric = isinstance(body, Block) and body.centroid_offset != 0.0
+    is_one_way = isinstance(body, SlidingBase) and (body.one_way or body.slope_deg != 0.0)
+    full_range_deg = 360.0 if is_asymmetric or is_one_way else 180.0
+    check_limit(N_("directions"), math.ceil(full_range_deg / step_deg), "SEISBLOCK_RUNS")
+    return np.arange(0.0, full_range_deg, step_deg)
 
 
-def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_DEG, vertical: Factor | None = None) -> Sweep:
+def make_azimuth_sweep(
+    body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_DEG, vertical: Gain | None = None
+) -> AzimuthSweep:
     """Return the directions of a record, half the circle, or all of it where a block is turned whose two sides differ.
 
     A scan stands where it stands: towards the opposite azimuth it is the same block seen from behind.
@@ -85,15 +87,15 @@ def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_D
     Examples
     --------
     >>> from seisblock.readers import read
-    >>> sweep(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0).azimuths.tolist()
+    >>> make_azimuth_sweep(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0).azimuths.tolist()
     [0.0, 45.0, 90.0, 135.0]
     """
     checks.instance(body, ScannedBody if isinstance(body, ScannedBody) else Block)
     checks.instance(record, Record)
-    azimuths = azimuths_of(body, step_deg)
+    azimuths = sweep_azimuths(body, step_deg)
     oriented_pair(record)
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)
     gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
-    blocks = tuple(body.towards(azimuth) if isinstance(body, ScannedBody) else body for azimuth in azimuths.tolist())
-    return Sweep(azimuths, blocks, motion, gains)
+    blocks = tuple(body.block_toward(azimuth) if isinstance(body, ScannedBody) else body for azimuth in azimuths.tolist())
+    return AzimuthSweep(azimuths, blocks, motion, gains)

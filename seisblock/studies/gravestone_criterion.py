@@ -15,21 +15,21 @@ from pathlib import Path
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.top import rigid_top
+from seisblock.bodies.pile.top_block import rigid_top
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError, RecordFormatError
+from seisblock.core.io.checkpoint_lines import append_line, read_complete_lines
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.core.units import GAL, STANDARD_GRAVITY
 from seisblock.criteria.gravestones import GravestoneFit
-from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.measures import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
+from seisblock.models.rock.verdicts import rock_verdict
+from seisblock.models.stack.solve import RIGID, SPRINGS, solve_stack
 from seisblock.records.motion import Motion
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.solvers.stack.solve import RIGID, SPRINGS, solve_stack
-from seisblock.studies.kept_lines import keep_line, kept_lines
-from seisblock.studies.runs import in_threads
-from seisblock.typing import FloatArray, Progress
-from seisblock.units import GAL, STANDARD_GRAVITY
+from seisblock.studies.parallel import map_threads
 
 FREQUENCIES_HZ = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
 PGAS = tuple(100.0 * GAL * i for i in range(1, 14))
@@ -115,7 +115,7 @@ def criterion_study(
         Its last stone is the one whose height changes.
     frequencies, pgas, ratios : sequences of float, Hz, m/s^2, 1
     law, points, contact, gravity
-        As for :func:`~seisblock.solvers.stack.solve.solve_stack`.
+        As for :func:`~seisblock.models.stack.solve.solve_stack`.
     duration : float, s
     resume : path
         File with one line per finished sine; read if it is there, and added to.
@@ -142,43 +142,45 @@ def criterion_study(
         raise ParameterError("the criterion study needs at least one frequency, one amplitude and one height")
     contact = PileContact() if contact is None and law == SPRINGS else contact
     cells = [(float(f), float(a)) for f in frequencies for a in pgas]
-    ladder = sorted(float(ratio) for ratio in ratios)
-    settings = [asdict(body), ladder, points, RIGID if contact is None else asdict(contact), gravity, duration]
-    mark = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
-    known = _resumed(resume, mark)
-    missing = [cell for cell in cells if cell not in known]
+    sorted_ratios = sorted(float(ratio) for ratio in ratios)
+    settings = [asdict(body), sorted_ratios, points, RIGID if contact is None else asdict(contact), gravity, duration]
+    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
+    finished = _read_finished(resume, digest)
+    missing = [cell for cell in cells if cell not in finished]
 
     def work(cell: tuple[float, float]) -> Threshold:
-        return _least(body, sine_base(*cell, duration), cell, ladder, law=law, points=points, contact=contact, gravity=gravity)
+        return _find_threshold(
+            body, sine_base(*cell, duration), cell, sorted_ratios, law=law, points=points, contact=contact, gravity=gravity
+        )
 
-    for done, threshold in enumerate(in_threads(work, missing, workers=workers), start=1):
-        known[threshold.frequency_hz, threshold.pga_m_s2] = threshold
+    for count, threshold in enumerate(map_threads(work, missing, workers=workers), start=1):
+        finished[threshold.frequency_hz, threshold.pga_m_s2] = threshold
         if resume is not None:
-            keep_line(resume, json.dumps({"study": mark, **asdict(threshold)}))
+            append_line(resume, json.dumps({"study": digest, **asdict(threshold)}))
         if progress is not None:
-            progress(len(cells) - len(missing) + done, len(cells))
-    thresholds = tuple(known[cell] for cell in cells)
-    levels = fitted_levels(thresholds)
-    return CriterionStudy(thresholds, levels, fitted_criterion(levels))
+            progress(len(cells) - len(missing) + count, len(cells))
+    thresholds = tuple(finished[cell] for cell in cells)
+    levels = fit_levels(thresholds)
+    return CriterionStudy(thresholds, levels, fit_criterion(levels))
 
 
-def frequencies_of(study: CriterionStudy) -> list[float]:
+def study_frequencies(study: CriterionStudy) -> list[float]:
     """Return the frequencies in their order."""
     return list(dict.fromkeys(t.frequency_hz for t in study.thresholds))
 
 
-def fitted_levels(thresholds: Sequence[Threshold]) -> dict[float, float]:
+def fit_levels(thresholds: Sequence[Threshold]) -> dict[float, float]:
     """Return a(f), m/s^2, of H/B = a(f)/PGA by least squares at each frequency ([Furukawa2009]_ eq. (7))."""
     levels = {}
     for frequency in dict.fromkeys(t.frequency_hz for t in thresholds):
-        found = [(1.0 / t.pga_m_s2, t.ratio) for t in thresholds if t.frequency_hz == frequency and t.ratio is not None]
-        if found:
-            inverse, ratio = np.array(found).T
+        pairs = [(1.0 / t.pga_m_s2, t.ratio) for t in thresholds if t.frequency_hz == frequency and t.ratio is not None]
+        if pairs:
+            inverse, ratio = np.array(pairs).T
             levels[frequency] = float(inverse @ ratio / (inverse @ inverse))
     return levels
 
 
-def fitted_criterion(levels: dict[float, float]) -> GravestoneFit | None:
+def fit_criterion(levels: dict[float, float]) -> GravestoneFit | None:
     """Return p, q, r of a(f) = p sqrt(1 + (f/q)^r) by least squares, or None with fewer than three levels ([Furukawa2009]_ eq. (8))."""
     from scipy.optimize import least_squares
 
@@ -195,10 +197,10 @@ def fitted_criterion(levels: dict[float, float]) -> GravestoneFit | None:
     return GravestoneFit(p, q, r, "least squares")
 
 
-def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshold]:
+def _read_finished(path: Path | None, digest: str) -> dict[tuple[float, float], Threshold]:
     """Return the sines that an earlier run has finished."""
-    known: dict[tuple[float, float], Threshold] = {}
-    for number, line in enumerate([] if path is None else kept_lines(path, '{"study": "'), start=1):
+    finished: dict[tuple[float, float], Threshold] = {}
+    for number, line in enumerate([] if path is None else read_complete_lines(path, '{"study": "'), start=1):
         try:
             entry = json.loads(line)
             study, cell = entry.pop("study"), (float(entry["frequency_hz"]), float(entry["pga_m_s2"]))
@@ -207,10 +209,10 @@ def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshol
             raise RecordFormatError(
                 "{path}, line {number}: not a line of a criterion study; give another file", path=path, number=number
             ) from error
-        if study != mark:
+        if study != digest:
             raise ParameterError("{path} belongs to a study of another pile or other settings: give another file", path=path)
-        known[cell] = threshold
-    return known
+        finished[cell] = threshold
+    return finished
 
 
 def record_thresholds(
@@ -240,17 +242,19 @@ def record_thresholds(
         raise ParameterError("the motion has no acceleration along its component: nothing can be scaled")
 
     def work(pga: float) -> Threshold:
-        scaled = Motion.from_arrays(motion.horizontal * (pga / peak), motion.dt, name=motion.name)
-        return _least(body, scaled, (frequency, pga), sorted(ratios), law=law, points=points, contact=contact, gravity=gravity)
+        scaled_motion = Motion.from_arrays(motion.horizontal * (pga / peak), motion.dt, name=motion.name)
+        return _find_threshold(
+            body, scaled_motion, (frequency, pga), sorted(ratios), law=law, points=points, contact=contact, gravity=gravity
+        )
 
-    return tuple(in_threads(work, tuple(pgas), progress=progress))
+    return tuple(map_threads(work, tuple(pgas), progress=progress))
 
 
-def _least(
+def _find_threshold(
     body: Pile,
     motion: Motion,
     cell: tuple[float, float],
-    ladder: Sequence[float],
+    sorted_ratios: Sequence[float],
     *,
     law: str,
     points: int,
@@ -258,7 +262,7 @@ def _least(
     gravity: float,
 ) -> Threshold:
     """Return the most squat top stone that falls, trying them from below."""
-    for ratio in ladder:
+    for ratio in sorted_ratios:
         top = with_top(body, ratio)
         outcome = solve_stack(top, motion, law=law, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
         if outcome.overturned_any:
@@ -276,4 +280,4 @@ def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: flo
         falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=gravity).overturned)
         return Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None))
 
-    return fitted_levels(tuple(in_threads(work, study.thresholds)))
+    return fit_levels(tuple(map_threads(work, study.thresholds)))

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 
-from seisblock import checks
-from seisblock.errors import ParameterError
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
 
 CONFIDENCE = 0.95
 """Level of an interval unless another is asked for."""
@@ -38,7 +38,7 @@ def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     """
     from scipy.special import betaincinv
 
-    tail = (1.0 - _checked(count, runs, confidence)) / 2.0
+    tail = (1.0 - _check_counts(count, runs, confidence)) / 2.0
     low = float(betaincinv(count, runs - count + 1, tail)) if count else 0.0
     high = float(betaincinv(count + 1, runs - count, 1.0 - tail)) if count < runs else 1.0
     return low, high
@@ -55,15 +55,15 @@ def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     """
     from scipy.special import ndtri
 
-    z = float(ndtri(0.5 + _checked(count, runs, confidence) / 2))
+    z = float(ndtri(0.5 + _check_counts(count, runs, confidence) / 2))
     share = count / runs
     middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
     half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
     return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0
 
 
-def _checked(count: int, runs: int, confidence: float) -> float:
+def _check_counts(count: int, runs: int, confidence: float) -> float:
     """Return the level, or refuse counts and levels that make no sense."""
     if not (0 <= count <= runs and runs > 0):
         raise ParameterError("a share needs 0 <= count <= runs and at least one run, found {count} of {runs}", count=count, runs=runs)
-    return checks.within("the confidence", confidence, "(0, 1)")
+    return checks.in_interval("the confidence", confidence, "(0, 1)")

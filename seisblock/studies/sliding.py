@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
-from seisblock.dynamics import follow_many
-from seisblock.errors import ParameterError
-from seisblock.limits import check_budget
-from seisblock.records.given import Factor, check_motion
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.dynamics import integrate_many
+from seisblock.models.slide.final_slip import slip_at_rest
+from seisblock.models.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
+from seisblock.models.slide.solve import motion_gains, raise_lift_off
+from seisblock.records._validation import Gain, validate_motion
 from seisblock.records.motion import Motion
-from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
-from seisblock.solvers.slide.rest import slip_at_rest
-from seisblock.solvers.slide.solve import check, refuse_lift_off
-from seisblock.studies.runs import cores, in_threads
-from seisblock.typing import Progress
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.studies.parallel import cpu_count, map_threads
 
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
 
-SAMPLES_AT_ONCE = 4_000_000
+CHUNK_SIZE = 4_000_000
 """Samples times runs that one thread takes before it says how far it is."""
 
 
@@ -42,7 +42,7 @@ class SlidePoint:
         Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
     slips : bool
     slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
-        As in :class:`seisblock.solvers.slide.solve.SlideOutcome`.
+        As in :class:`seisblock.models.slide.solve.SlideOutcome`.
     beta : float or None, 1
         Largest slip over that of the horizontal motion alone; None without vertical motion, or when nothing slips without it.
     """
@@ -73,7 +73,7 @@ def slide_study(
     *,
     mu_kinetic: float | Sequence[float] | None = None,
     kappa: float | Sequence[float] | None = None,
-    vertical: Factor | Sequence[float] = False,
+    vertical: Gain | Sequence[float] = False,
     slope_deg: float | Sequence[float] = 0.0,
     slope_length: float | None = None,
     one_way: bool = False,
@@ -114,17 +114,17 @@ def slide_study(
     >>> [round(point.max_slip_m, 2) for point in slide_study([0.1, 0.2], pulse)]
     [0.82, 0.44]
     """
-    several = isinstance(motions, Iterable) and not isinstance(motions, (str, np.ndarray))
-    chosen: list[Motion] = list(motions) if several else [motions]  # type: ignore[arg-type, list-item]
-    for motion in chosen:
-        check_motion(motion)
+    is_iterable = isinstance(motions, Iterable) and not isinstance(motions, (str, np.ndarray))
+    motion_list: list[Motion] = list(motions) if is_iterable else [motions]  # type: ignore[arg-type, list-item]
+    for motion in motion_list:
+        validate_motion(motion)
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     scales = tuple(float(value) for value in _values(vertical))
-    choices = len(scales) * math.prod(len(_values(given)) for given in (mu, mu_kinetic, kappa, slope_deg))
-    check_budget(noted("combinations"), len(chosen) * choices, "SEISBLOCK_CELLS")
-    for motion, scale in itertools.product(chosen, scales):
-        check(motion, scale, gravity)
+    combination_count = len(scales) * math.prod(len(_values(values)) for values in (mu, mu_kinetic, kappa, slope_deg))
+    check_limit(N_("combinations"), len(motion_list) * combination_count, "SEISBLOCK_CELLS")
+    for motion, scale in itertools.product(motion_list, scales):
+        motion_gains(motion, scale, gravity)
     bases = [
         _base(m, d, k, slope, slope_length, one_way)
         for m, d, k, slope in itertools.product(_values(mu), _values(mu_kinetic), _values(kappa), _values(slope_deg))
@@ -142,11 +142,11 @@ def slide_study(
     # the horizontal motion alone is what beta compares with
     computed = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
     rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in computed]
-    found = _run(chosen, rows, gravity, progress, workers or cores())
+    computed_points = _run_all(motion_list, rows, gravity, progress, workers or cpu_count())
     points = []
-    for motion, base in itertools.product(chosen, bases):
+    for motion, base in itertools.product(motion_list, bases):
         if isinstance(base, SlidingBase):
-            by_scale = {scale: next(found) for scale in computed}
+            by_scale = {scale: next(computed_points) for scale in computed}
             points += [_with_beta(by_scale[scale], by_scale[0.0]) if any(scales) else by_scale[scale] for scale in scales]
         else:
             points += [SlidePoint(motion.name, **base, vertical=scale, holds_at_rest=False) for scale in scales]
@@ -163,11 +163,11 @@ def worst_directions(points: Sequence[SlidePoint]) -> list[SlidePoint]:
     return list(worst.values())
 
 
-def _values(given: float | Sequence[float] | None) -> tuple[Any, ...]:
+def _values(parameter: float | Sequence[float] | None) -> tuple[Any, ...]:
     """Return one or several values as a tuple without repetition; None is one value."""
-    if given is None or isinstance(given, (int, float)):
-        return (given,)
-    values = tuple(dict.fromkeys(float(value) for value in given))
+    if parameter is None or isinstance(parameter, (int, float)):
+        return (parameter,)
+    values = tuple(dict.fromkeys(float(value) for value in parameter))
     if not values:
         raise ParameterError("a parameter of a study needs at least one value")
     return values
@@ -184,18 +184,18 @@ def _base(
     return SlidingBase(mu, kinetic, slope_deg, slope_length if slope_deg else None, one_way)
 
 
-def _run(
+def _run_all(
     motions: Sequence[Motion], rows: Sequence[tuple[SlidingBase, float]], gravity: float, progress: Progress | None, workers: int
 ) -> Iterator[SlidePoint]:
     """Compute all rows for all motions on several threads; yield the points motion by motion, row by row."""
     jobs = []
     for motion in motions:
-        share = max(1, min(SAMPLES_AT_ONCE // motion.samples, math.ceil(len(rows) / workers)))
+        share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(rows) / workers)))
         jobs += [(motion, rows[first : first + share]) for first in range(0, len(rows), share)]
     total = len(motions) * len(rows)
     points: list[SlidePoint] = []
-    for found in in_threads(lambda job: _points(*job, gravity), jobs, workers=workers):
-        points += found
+    for batch in map_threads(lambda job: _points(*job, gravity), jobs, workers=workers):
+        points += batch
         if progress is not None:
             progress(len(points), total)
     return iter(points)
@@ -204,28 +204,28 @@ def _run(
 def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: float) -> list[SlidePoint]:
     """Compute some rows for one motion."""
     p = [parameters(base, gravity) for base, _ in rows]
-    gains = [check(motion, scale, gravity) for _, scale in rows]
-    many = follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
-    for row in np.flatnonzero(many.final_mode == UNDEFINED)[:1]:
-        refuse_lift_off(motion, float(many.end_time[row]))
-    entered = many.tally.sum(axis=1) - many.tally[:, FOOT]
+    gains = [motion_gains(motion, scale, gravity) for _, scale in rows]
+    runs = integrate_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
+    for row in np.flatnonzero(runs.final_mode == UNDEFINED)[:1]:
+        raise_lift_off(motion, float(runs.end_time[row]))
+    entered = runs.transition_counts.sum(axis=1) - runs.transition_counts[:, FOOT]
     numbers = zip(
         rows,
         p,
-        many.final.tolist(),
-        many.final_mode.tolist(),
-        many.extrema[:, 0].tolist(),
-        many.first_change.tolist(),
+        runs.final.tolist(),
+        runs.final_mode.tolist(),
+        runs.extrema[:, 0].tolist(),
+        runs.first_event_time.tolist(),
         entered[:, SLIDING_MODES].sum(axis=1).tolist(),
-        (many.tally[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
-        (many.tally[:, :, [FLIGHT, LEVEL + FLIGHT]].sum(axis=(1, 2)) > 0).tolist(),
+        (runs.transition_counts[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
+        (runs.transition_counts[:, :, [FLIGHT, LEVEL + FLIGHT]].sum(axis=(1, 2)) > 0).tolist(),
         strict=True,
     )
     points = []
     for (base, scale), row, final, mode, (highest, highest_time, lowest, lowest_time), first, slips, fell, flew in numbers:
-        slip, at = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
+        slip, peak_time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
         rest = slip_at_rest(final, mode, row)
-        moved = first == first  # not NaN
+        slipped = first == first  # not NaN
         points.append(
             SlidePoint(
                 motion.name,
@@ -235,10 +235,10 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
                 base.slope_deg,
                 scale,
                 holds_at_rest=True,
-                slips=moved,
-                slip_start_s=motion.start_s + first if moved else None,
+                slips=slipped,
+                slip_start_s=motion.start_s + first if slipped else None,
                 max_slip_m=slip,
-                max_slip_time_s=motion.start_s + at,
+                max_slip_time_s=motion.start_s + peak_time,
                 residual_slip_m=final[SLIP],
                 final_slip_m=rest if math.isfinite(rest) else None,
                 slip_count=slips,
@@ -250,8 +250,8 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
     return points
 
 
-def _with_beta(point: SlidePoint, without: SlidePoint) -> SlidePoint:
+def _with_beta(point: SlidePoint, horizontal_point: SlidePoint) -> SlidePoint:
     """Add the ratio of the largest slip to that of the horizontal motion alone."""
-    if not without.max_slip_m or point.max_slip_m is None:
+    if not horizontal_point.max_slip_m or point.max_slip_m is None:
         return point
-    return replace(point, beta=point.max_slip_m / without.max_slip_m)
+    return replace(point, beta=point.max_slip_m / horizontal_point.max_slip_m)

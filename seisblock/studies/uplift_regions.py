@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
-from seisblock.bodies.spring_choice import spring_block
-from seisblock.errors import BodyError
-from seisblock.limits import check_budget
-from seisblock.records.record import frozen
-from seisblock.solvers.uplift.harmonic import uplift_thresholds
-from seisblock.solvers.uplift.minima import UpliftMinimum, least_uplift, uplift_minima
-from seisblock.solvers.uplift.modes import Modes, natural_modes
-from seisblock.typing import ArrayLike, FloatArray, Progress
-from seisblock.words import noted
+from seisblock.bodies.spring_factory import spring_block
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import ArrayLike, FloatArray, Progress
+from seisblock.models.uplift.harmonic import uplift_thresholds
+from seisblock.models.uplift.minima import UpliftMinimum, lowest_uplift_threshold, uplift_minima
+from seisblock.models.uplift.modes import Modes, natural_modes
+from seisblock.records.record import as_readonly
 
 PAPER_RATIOS: dict[str, tuple[float, ...]] = {
     "alpha": (1.0,),
@@ -117,9 +117,9 @@ def uplift_region(
     -------
     UpliftRegion
     """
-    ratio = frozen(np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64)))
+    ratio = as_readonly(np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64)))
     thresholds = uplift_thresholds(body, ratio, phi_deg=phi_deg, rho_deg=rho_deg)
-    least = thresholds.min(axis=0) if corner is None else thresholds[corner - 1]
+    lowest = thresholds.min(axis=0) if corner is None else thresholds[corner - 1]
     return UpliftRegion(
         body,
         phi_deg,
@@ -127,9 +127,9 @@ def uplift_region(
         corner,
         natural_modes(body),
         ratio,
-        frozen(least),
-        least_uplift(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
-        uplift_minima(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
+        as_readonly(lowest),
+        lowest_uplift_threshold(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, frequency_range=between),
+        uplift_minima(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, frequency_range=between),
     )
 
 
@@ -163,13 +163,13 @@ def uplift_regions(
     >>> [round(region.minimum.acceleration_ratio, 3) for region in regions]
     [0.087, 0.047]
     """
-    chosen, ratio = list(blocks), np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
-    check_budget(noted("points of curves"), len(chosen) * ratio.size, "SEISBLOCK_CELLS")
+    block_list, ratio = list(blocks), np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
+    check_limit(N_("points of curves"), len(block_list) * ratio.size, "SEISBLOCK_CELLS")
     regions = []
-    for body, phi, rho in chosen:
+    for body, phi, rho in block_list:
         regions.append(uplift_region(body, ratio, phi_deg=phi, rho_deg=rho, corner=corner, between=between))
         if progress is not None:
-            progress(len(regions), len(chosen))
+            progress(len(regions), len(block_list))
     return regions
 
 
@@ -188,7 +188,7 @@ def harmonic_blocks(
     ratios : mapping
         Values of ``alpha``, ``gamma``, ``beta``, ``damping``, ``phi`` and ``rho``; what is missing or None is as in the paper.
     sizes : mapping
-        Arguments of :func:`seisblock.bodies.spring_choice.spring_block`, instead of alpha and gamma.
+        Arguments of :func:`seisblock.bodies.spring_factory.spring_block`, instead of alpha and gamma.
     figure : int or None
         Take the missing from this figure of [Okumura1987]_.
     frequency_vertical, mass : float, Hz, kg
@@ -201,24 +201,24 @@ def harmonic_blocks(
     ParameterError
         If there are more combinations than may be computed at once.
     """
-    given = {name: values for name, values in ratios.items() if values is not None}
-    every = {**PAPER_RATIOS, **(PAPER_FIGURES[figure] if figure is not None else {}), **given}
+    overrides = {name: values for name, values in ratios.items() if values is not None}
+    grid = {**PAPER_RATIOS, **(PAPER_FIGURES[figure] if figure is not None else {}), **overrides}
     if sizes:
-        if "alpha" in given or "gamma" in given:
+        if "alpha" in overrides or "gamma" in overrides:
             raise BodyError("alpha and gamma are ratios of the sizes: give sizes or ratios, not both")
-        every["alpha"] = every["gamma"] = (float("nan"),)
-    check_budget(noted("combinations"), math.prod(len(values) for values in every.values()), "SEISBLOCK_CELLS")
-    for values in itertools.product(*every.values()):
-        chosen = dict(zip(every, values, strict=True))
-        alpha, gamma, phi, rho = (chosen.pop(name) for name in ("alpha", "gamma", "phi", "rho"))
+        grid["alpha"] = grid["gamma"] = (float("nan"),)
+    check_limit(N_("combinations"), math.prod(len(values) for values in grid.values()), "SEISBLOCK_CELLS")
+    for values in itertools.product(*grid.values()):
+        combination = dict(zip(grid, values, strict=True))
+        alpha, gamma, phi, rho = (combination.pop(name) for name in ("alpha", "gamma", "phi", "rho"))
         if sizes:
-            beta = None if sizes.get("stiffness") is not None and "beta" not in given else chosen["beta"]
-            yield spring_block(**sizes, beta=beta, damping=chosen["damping"]), phi, rho
+            beta = None if sizes.get("stiffness") is not None and "beta" not in overrides else combination["beta"]
+            yield spring_block(**sizes, beta=beta, damping=combination["damping"]), phi, rho
         else:
-            yield SpringBlock.from_ratios(alpha, gamma=gamma, frequency_vertical=frequency_vertical, mass=mass, **chosen), phi, rho
+            yield SpringBlock.from_ratios(alpha, gamma=gamma, frequency_vertical=frequency_vertical, mass=mass, **combination), phi, rho
 
 
-def frequencies_against(name: str, values: ArrayLike, *, alpha: float, beta: float, gamma: float = 1.0) -> dict[str, FloatArray]:
+def modal_frequencies_against(name: str, values: ArrayLike, *, alpha: float, beta: float, gamma: float = 1.0) -> dict[str, FloatArray]:
     """Return omega_i / omega_V of each mode against `alpha` or `beta`, as [Okumura1987]_ figs. 3 and 4 show them.
 
     Parameters
@@ -239,4 +239,4 @@ def frequencies_against(name: str, values: ArrayLike, *, alpha: float, beta: flo
         modes = natural_modes(body)
         for mode, omega in zip(modes.names, modes.omega, strict=True):
             columns.setdefault(mode, []).append(float(omega) / body.omega[2])
-    return {mode: frozen(column) for mode, column in columns.items()}
+    return {mode: as_readonly(column) for mode, column in columns.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Sequence
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 
 PAPERS: tuple[str, ...] = (
@@ -40,13 +40,13 @@ def cases_of(papers: Sequence[str] = ()) -> list[Case]:
     ParameterError
         If no case cites such a paper.
     """
-    every = cases()
-    known = tuple(dict.fromkeys(case.paper for case in every))
+    all_cases = cases()
+    paper_keys = tuple(dict.fromkeys(case.paper for case in all_cases))
     for name in papers:
-        if not name or not any(paper.lower().startswith(name.lower()) for paper in known):
-            there_are = list(known)
-            raise ParameterError("no validation case cites {name!r}; there are cases of {there_are}", name=name, there_are=there_are)
-    return [case for case in every if not papers or any(case.paper.lower().startswith(name.lower()) for name in papers)]
+        if not name or not any(paper.lower().startswith(name.lower()) for paper in paper_keys):
+            available = list(paper_keys)
+            raise ParameterError("no validation case cites {name!r}; there are cases of {there_are}", name=name, there_are=available)
+    return [case for case in all_cases if not papers or any(case.paper.lower().startswith(name.lower()) for name in papers)]
 
 
 __all__ = ["CONVERGED", "EXACT", "PAPERS", "Case", "CaseResult", "cases", "cases_of"]

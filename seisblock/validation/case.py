@@ -9,9 +9,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from seisblock.errors import ParameterError, SeisblockError
-from seisblock.references import cited_in
-from seisblock.words import noted
+from seisblock.core.errors import ParameterError, SeisblockError
+from seisblock.core.i18n import N_
+from seisblock.references import find_citations
 
 EXACT = 1e-12
 """Relative tolerance where both sides are closed forms: round-off and nothing else."""
@@ -19,7 +19,7 @@ EXACT = 1e-12
 CONVERGED = 1e-8
 """Relative tolerance where one side is integrated: the error of the reference integration."""
 
-SAME = 1e-6
+REPRODUCIBLE = 1e-6
 """Relative tolerance of a difference that comes out alike on every machine."""
 
 Verdict = Literal["holds", "differs", "fails"]
@@ -27,27 +27,27 @@ Verdict = Literal["holds", "differs", "fails"]
 VERDICTS: tuple[Verdict, ...] = ("fails", "differs", "holds")
 """What matters most first."""
 
-Worth = Literal["computed", "print", "rebuilt", "derived"]
+EvidenceKind = Literal["computed", "print", "rebuilt", "derived"]
 
-WORTHS: dict[Worth, str] = {
-    "computed": noted("computed by the program, against what the paper states"),
-    "rebuilt": noted("computed from an input that was rebuilt, or stands in for the paper's own"),
-    "derived": noted("computed by the program, against what was derived here"),
-    "print": noted("the print checked against itself"),
+EVIDENCE_KINDS: dict[EvidenceKind, str] = {
+    "computed": N_("computed by the program, against what the paper states"),
+    "rebuilt": N_("computed from an input that was rebuilt, or stands in for the paper's own"),
+    "derived": N_("computed by the program, against what was derived here"),
+    "print": N_("the print checked against itself"),
 }
 """What a case is worth as evidence, the most first, in words."""
 
 
-def same(value: float, within: float = 0.0) -> tuple[float, float]:
-    """Return today's value of a difference, and how near it must stay: by default within :data:`SAME` of itself.
+def expected_difference(value: float, tolerance: float = 0.0) -> tuple[float, float]:
+    """Return today's value of a difference, and how near it must stay: by default within :data:`REPRODUCIBLE` of itself.
 
     Parameters
     ----------
     value : float
-    within : float
+    tolerance : float
         Absolute, in the case's unit.
     """
-    return value, within or SAME * abs(value)
+    return value, tolerance or REPRODUCIBLE * abs(value)
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Case:
         to be rebuilt or replaced; against a value that the paper does not state but that follows from it; or whether the print is only
         checked against itself.
     today : (float, float) or None
-        For "differs": the program's value when the difference was explained, and how near it must stay, see :func:`same`.
+        For "differs": the program's value when the difference was explained, and how near it must stay, see :func:`expected_difference`.
     quick : bool
         Whether it belongs to ``validate --quick``.
     """
@@ -93,7 +93,7 @@ class Case:
     compute: Callable[[], float]
     status: Literal["holds", "differs"] = "holds"
     note: str = ""
-    kind: Worth = "computed"
+    kind: EvidenceKind = "computed"
     today: tuple[float, float] | None = None
     quick: bool = True
 
@@ -104,7 +104,7 @@ class Case:
     @property
     def paper(self) -> str:
         """Key of the paper."""
-        return cited_in([self.where])[0]
+        return find_citations([self.where])[0]
 
     @property
     def place(self) -> str:
@@ -122,11 +122,11 @@ class Case:
         verdict: Verdict = "fails"
         if self.status == "holds" and inside:
             verdict = "holds"
-        elif self.status == "differs" and not inside and self._as_explained(computed):
+        elif self.status == "differs" and not inside and self._matches_explanation(computed):
             verdict = "differs"
         return CaseResult(self, expected, computed, verdict)
 
-    def _as_explained(self, computed: float) -> bool:
+    def _matches_explanation(self, computed: float) -> bool:
         """Whether a value that differs is the one that was explained."""
         return math.isfinite(computed) if self.today is None else abs(computed - self.today[0]) <= self.today[1]
 
@@ -146,17 +146,17 @@ class CaseResult:
         return self.computed - self.expected
 
 
-def ranked(results: Sequence[CaseResult]) -> list[CaseResult]:
+def sort_by_verdict(results: Sequence[CaseResult]) -> list[CaseResult]:
     """Return the results with what fails first, then what differs; otherwise in their order."""
     return sorted(results, key=lambda result: VERDICTS.index(result.verdict))
 
 
-def counts(results: Sequence[CaseResult]) -> dict[Verdict, int]:
+def count_verdicts(results: Sequence[CaseResult]) -> dict[Verdict, int]:
     """Return how many cases got each verdict."""
-    counted = Counter(result.verdict for result in results)
-    return {verdict: counted[verdict] for verdict in VERDICTS}
+    counter = Counter(result.verdict for result in results)
+    return {verdict: counter[verdict] for verdict in VERDICTS}
 
 
-def counts_by_kind(results: Sequence[CaseResult]) -> dict[Worth, dict[Verdict, int]]:
+def count_verdicts_by_kind(results: Sequence[CaseResult]) -> dict[EvidenceKind, dict[Verdict, int]]:
     """Return how many cases of each kind got each verdict."""
-    return {kind: counts([result for result in results if result.case.kind == kind]) for kind in WORTHS}
+    return {kind: count_verdicts([result for result in results if result.case.kind == kind]) for kind in EVIDENCE_KINDS}

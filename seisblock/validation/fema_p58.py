@@ -12,10 +12,10 @@ from functools import cache
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import LENGTH_UNITS
 from seisblock.records.synthetic.suite import synthetic_suite
 from seisblock.studies.fragility.run import run_fragility
-from seisblock.typing import FloatArray
-from seisblock.units import LENGTH_UNITS
 from seisblock.validation.case import Case
 
 INCH = LENGTH_UNITS["in"]
@@ -34,11 +34,11 @@ SHELVES = {
 """Bookcases of two to six shelves, vertical cabinets of two and four drawers, lateral ones of two and four: depth along the shaking and
 height, inches, and the median peak floor velocity at which they fall, m/s."""
 
-FEW_PER_CENT = 0.05
+SCATTER_TOLERANCE = 0.05
 """Of the ratio of the medians, its standard deviation over its mean: what one constant may scatter by."""
 
 RECORDS = 40
-LEVELS = np.geomspace(0.1, 5.0, 24)
+PGV_LEVELS = np.geomspace(0.1, 5.0, 24)
 """Peak velocities that each motion is scaled to, m/s."""
 
 
@@ -46,7 +46,7 @@ LEVELS = np.geomspace(0.1, 5.0, 24)
 def ratios() -> FloatArray:
     """Return the median of the rocking block over that of P-58 for each shelf, (9,), 1."""
     bodies = {name: Block(depth * INCH, height * INCH) for name, (depth, height, _) in SHELVES.items()}
-    study = run_fragility(synthetic_suite(7.0, 20.0, RECORDS), bodies, "rock", im="pgv", levels=LEVELS, bootstrap=2)
+    study = run_fragility(synthetic_suite(7.0, 20.0, RECORDS), bodies, "rock", im="pgv", levels=PGV_LEVELS, bootstrap=2)
     medians = {curve.body: curve.median or np.nan for curve in study.curves}
     return np.array([medians[name] / printed for name, (_, _, printed) in SHELVES.items()])
 
@@ -68,7 +68,7 @@ CASES = (
         "scatter of nine medians, the rocking block's over those printed, a share of their mean",
         "1",
         0.0,
-        FEW_PER_CENT,
+        SCATTER_TOLERANCE,
         scatter,
         kind="rebuilt",
         note="forty synthetic records of magnitude 7 at 20 km stand in for the motions behind P-58; 0 would be one constant, and the "

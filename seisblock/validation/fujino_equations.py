@@ -8,12 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase, sliding_base
-from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
+from seisblock.core.results import Response
+from seisblock.criteria.sliding import min_friction_to_hold, min_friction_to_stop, pulse_slip, slip_acceleration, slip_limits, steady_slip
+from seisblock.models.slide.solve import SlideOutcome, solve_slide
 from seisblock.records import Motion
-from seisblock.results import Response
-from seisblock.solvers.slide.solve import SlideOutcome, solve_slide
+from seisblock.validation.bisection import bisect_threshold
 from seisblock.validation.case import CONVERGED, EXACT, Case
-from seisblock.validation.edge import edge
 
 G = 9.8
 """Gravity in the paper, m/s^2."""
@@ -29,9 +29,9 @@ def ramp(sign: float = 1.0, up: float = 0.0) -> Motion:
     return Motion.from_arrays(a, 0.5, vertical=np.full(25, up))
 
 
-def constant(along: float, up: float = 0.0, duration: float = 1.0) -> Motion:
+def constant(horizontal: float, up: float = 0.0, duration: float = 1.0) -> Motion:
     """Return a constant ground acceleration."""
-    return Motion.from_arrays(np.full(5, along), duration / 4.0, vertical=np.full(5, up))
+    return Motion.from_arrays(np.full(5, horizontal), duration / 4.0, vertical=np.full(5, up))
 
 
 def sine(displacement_cm: float | None, acceleration_gal: float | None = None) -> Motion:
@@ -41,19 +41,19 @@ def sine(displacement_cm: float | None, acceleration_gal: float | None = None) -
     return Motion.from_arrays(0.01 * (amplitude or 0.0) * np.sin(2.0 * t), 1e-4)
 
 
-def _start(motion: Motion, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
+def _slip_start(motion: Motion, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
     """Return what computes the start of the slip."""
     base = SlidingBase(MU, slope_deg=slope_deg)
     return lambda: solve_slide(base, motion, vertical=vertical, gravity=G).outcome.slip_start_s or math.nan
 
 
-def _last(motion: Motion, channel: str, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
+def _last_value(motion: Motion, channel: str, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
     """Return what computes the last value of a channel."""
     base = SlidingBase(MU, KAPPA * MU, slope_deg)
     return lambda: float(solve_slide(base, motion, vertical=vertical, gravity=G)[channel][-1])
 
 
-def _final(motion: Motion) -> Callable[[], float]:
+def _final_slip(motion: Motion) -> Callable[[], float]:
     """Return what computes the slip once at rest of an object that slides one way."""
     return lambda: solve_slide(SlidingBase(MU, one_way=True), motion, gravity=G).outcome.final_slip_m or math.nan
 
@@ -63,29 +63,29 @@ def _sine_response() -> Response[SlideOutcome]:
     return solve_slide(SlidingBase(0.2, 0.175), sine(60.0), gravity=G)
 
 
-def _event(number: int) -> Callable[[], float]:
+def _event_time(number: int) -> Callable[[], float]:
     """Return what computes the time of an event of the sine example."""
     return lambda: _sine_response().events[number].time_s
 
 
-def _steepest_that_stops() -> float:
+def _stopping_friction() -> float:
     """Return by bisection the static friction at which a slide, once started, just stops."""
 
     def stops(mu: float) -> bool:
         return solve_slide(sliding_base(mu, kappa=KAPPA, slope_deg=TH), constant(-9.0), gravity=G).outcome.final_slip_m is not None
 
-    return edge(stops, math.tan(math.radians(TH)), 1.0)
+    return bisect_threshold(stops, math.tan(math.radians(TH)), 1.0)
 
 
-def _least_that_holds(along: float, up: float, slope: float) -> float:
+def _holding_friction(horizontal: float, up: float, slope: float) -> float:
     """Return by bisection the static friction at which a triangular pulse just sets nothing in motion."""
     pulse = np.array([0.0, 1.0, 0.0])
-    motion = Motion.from_arrays(along * G * pulse, 0.1, vertical=up * G * pulse)
+    motion = Motion.from_arrays(horizontal * G * pulse, 0.1, vertical=up * G * pulse)
 
     def slips(mu: float) -> bool:
         return solve_slide(sliding_base(mu, slope_deg=slope), motion, vertical=1.0, gravity=G).outcome.slips
 
-    return edge(slips, math.tan(math.radians(slope)), 5.0)
+    return bisect_threshold(slips, math.tan(math.radians(slope)), 5.0)
 
 
 def _equation_15(alpha: float, ratio: float, slope: float) -> float:
@@ -94,7 +94,7 @@ def _equation_15(alpha: float, ratio: float, slope: float) -> float:
     return (s + alpha * (ratio * s - c)) / (c + alpha * (ratio * c + s))
 
 
-def _steady() -> float:
+def _steady_swing() -> float:
     """Return the simulated swing of the slip after the transient of a harmonic base."""
     t = 2e-4 * np.arange(250001)
     u = solve_slide(sliding_base(0.1, kappa=0.9), Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), gravity=G)["displacement"]
@@ -111,70 +111,70 @@ HACHINOHE = (-169.75 / 980.0, 60.98 / 169.75)
 # relative acceleration of a slide that has started, from the corrected equations
 LEVEL_PULL = -4.0 + KAPPA * MU * (G + UP)
 SLOPE_PULL = G * SIN + 4.0 * COS - KAPPA * MU * (G * COS - 4.0 * SIN)
-WHERE = "[Fujino1978]_ "
+CITATION = "[Fujino1978]_ "
 
 EQUATIONS = (
-    Case("fujino-1", WHERE + "eq. (1)", "start of the slip on a ramp of 1 m/s^3: mu g", "s", float(slip_acceleration(MU, gravity=G)),
-         1e-12, _start(ramp()), note="equality sticks; the slip starts where the ramp exceeds mu g"),
-    Case("fujino-1-equal", WHERE + "eq. (1) against (5)", "slip under exactly mu g", "m", 0.0, 0.0,
+    Case("fujino-1", CITATION + "eq. (1)", "start of the slip on a ramp of 1 m/s^3: mu g", "s", float(slip_acceleration(MU, gravity=G)),
+         1e-12, _slip_start(ramp()), note="equality sticks; the slip starts where the ramp exceeds mu g"),
+    Case("fujino-1-equal", CITATION + "eq. (1) against (5)", "slip under exactly mu g", "m", 0.0, 0.0,
          lambda: solve_slide(sliding_base(MU, kappa=KAPPA), constant(MU * G), gravity=G).outcome.max_slip_m,
          note="(1) prints <=, (5) <: equality sticks here"),
-    Case("fujino-2", WHERE + "eq. (2)", "relative acceleration, level base, no vertical motion", "m/s^2", -4.0 + KAPPA * MU * G, EXACT,
-         _last(constant(4.0), "acceleration")),
-    Case("fujino-3", WHERE + "eq. (3)", "relative velocity after 1 s", "m/s", -4.0 + KAPPA * MU * G, EXACT,
-         _last(constant(4.0), "velocity")),
-    Case("fujino-4", WHERE + "eq. (4)", "relative displacement after 1 s", "m", 0.5 * (-4.0 + KAPPA * MU * G), EXACT,
-         _last(constant(4.0), "displacement"), note="the scan drops the dot of z' in (4)"),
-    Case("fujino-5", WHERE + "eq. (5)", "start of the slip on a ramp with vertical motion: mu (g + y'')", "s", MU * (G - UP), 1e-12,
-         _start(ramp(up=-UP), vertical=1.0)),
-    Case("fujino-6", WHERE + "eq. (6)", "relative acceleration with vertical motion", "m/s^2", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "acceleration", vertical=1.0)),
-    Case("fujino-7", WHERE + "eq. (7)", "relative velocity after 1 s with vertical motion", "m/s", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "velocity", vertical=1.0)),
-    Case("fujino-8", WHERE + "eq. (8)", "relative displacement after 1 s with vertical motion", "m", 0.5 * LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "displacement", vertical=1.0),
+    Case("fujino-2", CITATION + "eq. (2)", "relative acceleration, level base, no vertical motion", "m/s^2", -4.0 + KAPPA * MU * G, EXACT,
+         _last_value(constant(4.0), "acceleration")),
+    Case("fujino-3", CITATION + "eq. (3)", "relative velocity after 1 s", "m/s", -4.0 + KAPPA * MU * G, EXACT,
+         _last_value(constant(4.0), "velocity")),
+    Case("fujino-4", CITATION + "eq. (4)", "relative displacement after 1 s", "m", 0.5 * (-4.0 + KAPPA * MU * G), EXACT,
+         _last_value(constant(4.0), "displacement"), note="the scan drops the dot of z' in (4)"),
+    Case("fujino-5", CITATION + "eq. (5)", "start of the slip on a ramp with vertical motion: mu (g + y'')", "s", MU * (G - UP), 1e-12,
+         _slip_start(ramp(up=-UP), vertical=1.0)),
+    Case("fujino-6", CITATION + "eq. (6)", "relative acceleration with vertical motion", "m/s^2", LEVEL_PULL, EXACT,
+         _last_value(constant(4.0, UP), "acceleration", vertical=1.0)),
+    Case("fujino-7", CITATION + "eq. (7)", "relative velocity after 1 s with vertical motion", "m/s", LEVEL_PULL, EXACT,
+         _last_value(constant(4.0, UP), "velocity", vertical=1.0)),
+    Case("fujino-8", CITATION + "eq. (8)", "relative displacement after 1 s with vertical motion", "m", 0.5 * LEVEL_PULL, EXACT,
+         _last_value(constant(4.0, UP), "displacement", vertical=1.0),
          note="the last term of (8) must be -/+ rho_d y'_t0 (t - t0), as in (13)"),
-    Case("fujino-9", WHERE + "eq. (9)", "start of an uphill slip on a ramp: g tan(th + atan mu)", "s",
-         G * math.tan(math.radians(TH) + PHI), 1e-11, _start(ramp(), slope_deg=TH), note="both inputs resolved on the slope"),
-    Case("fujino-10", WHERE + "eq. (10)", "start of a downhill slip on a ramp: g tan(atan mu - th)", "s",
-         G * math.tan(PHI - math.radians(TH)), 1e-11, _start(ramp(-1.0), slope_deg=TH)),
-    Case("fujino-9-10", WHERE + "eqs. (9), (10)", "width of the band in which friction holds: 2 mu g cos th", "m/s^2",
+    Case("fujino-9", CITATION + "eq. (9)", "start of an uphill slip on a ramp: g tan(th + atan mu)", "s",
+         G * math.tan(math.radians(TH) + PHI), 1e-11, _slip_start(ramp(), slope_deg=TH), note="both inputs resolved on the slope"),
+    Case("fujino-10", CITATION + "eq. (10)", "start of a downhill slip on a ramp: g tan(atan mu - th)", "s",
+         G * math.tan(PHI - math.radians(TH)), 1e-11, _slip_start(ramp(-1.0), slope_deg=TH)),
+    Case("fujino-9-10", CITATION + "eqs. (9), (10)", "width of the band in which friction holds: 2 mu g cos th", "m/s^2",
          2.0 * MU * G * COS, EXACT, lambda: float(np.diff(slip_limits(TH, MU, gravity=G))[0])),
-    Case("fujino-11", WHERE + "eq. (11)", "relative acceleration downhill", "m/s^2", SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "acceleration", slope_deg=TH),
+    Case("fujino-11", CITATION + "eq. (11)", "relative acceleration downhill", "m/s^2", SLOPE_PULL, EXACT,
+         _last_value(constant(-4.0), "acceleration", slope_deg=TH),
          note="rho_s in (11)-(13) must be rho_d, and its sign follows which of (9), (10) was met"),
-    Case("fujino-12", WHERE + "eq. (12)", "relative velocity downhill after 1 s", "m/s", SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "velocity", slope_deg=TH), note="(12) lacks the initial velocity z'_t0"),
-    Case("fujino-13", WHERE + "eq. (13)", "relative displacement downhill after 1 s", "m", 0.5 * SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "displacement", slope_deg=TH)),
-    Case("fujino-14", WHERE + "eq. (14)", "static friction above which a slide stops: tan th / kappa", "1",
-         friction_that_stops(TH, KAPPA), 1e-12, _steepest_that_stops),
-    Case("fujino-15", WHERE + "eq. (15)", "eq. (15) as printed at 30 degrees with fig. 16's alpha and mu", "1",
-         _equation_15(*HACHINOHE, 30.0), EXACT, lambda: float(friction_that_holds(30.0, HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1])),
+    Case("fujino-12", CITATION + "eq. (12)", "relative velocity downhill after 1 s", "m/s", SLOPE_PULL, EXACT,
+         _last_value(constant(-4.0), "velocity", slope_deg=TH), note="(12) lacks the initial velocity z'_t0"),
+    Case("fujino-13", CITATION + "eq. (13)", "relative displacement downhill after 1 s", "m", 0.5 * SLOPE_PULL, EXACT,
+         _last_value(constant(-4.0), "displacement", slope_deg=TH)),
+    Case("fujino-14", CITATION + "eq. (14)", "static friction above which a slide stops: tan th / kappa", "1",
+         min_friction_to_stop(TH, KAPPA), 1e-12, _stopping_friction),
+    Case("fujino-15", CITATION + "eq. (15)", "eq. (15) as printed at 30 degrees with fig. 16's alpha and mu", "1",
+         _equation_15(*HACHINOHE, 30.0), EXACT, lambda: float(min_friction_to_hold(30.0, HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1])),
          note="computed as tan(th - atan(alpha/(1 + alpha mu)))"),
-    Case("fujino-15-simulated", WHERE + "eq. (15)", "least friction that holds in a pulse of fig. 16's alpha and mu, 30 degrees", "1",
-         _equation_15(*HACHINOHE, 30.0), 1e-12, lambda: _least_that_holds(HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1], 30.0)),
-    Case("fujino-sine-printed", WHERE + "sec. 2.2.2", "slip under 60 sin 2t as an acceleration in gal", "m", 0.0, 0.0,
+    Case("fujino-15-simulated", CITATION + "eq. (15)", "least friction that holds in a pulse of fig. 16's alpha and mu, 30 degrees", "1",
+         _equation_15(*HACHINOHE, 30.0), 1e-12, lambda: _holding_friction(HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1], 30.0)),
+    Case("fujino-sine-printed", CITATION + "sec. 2.2.2", "slip under 60 sin 2t as an acceleration in gal", "m", 0.0, 0.0,
          lambda: solve_slide(SlidingBase(0.2, 0.175), sine(None, 60.0), gravity=G).outcome.max_slip_m,
          note="as printed the example never slides: 60 gal against 0.2 g"),
-    Case("fujino-sine-printed-slides", WHERE + "fig. 4", "slip of the example as printed against that of its figure", "m", 0.2226306,
+    Case("fujino-sine-printed-slides", CITATION + "fig. 4", "slip of the example as printed against that of its figure", "m", 0.2226306,
          0.01, lambda: solve_slide(SlidingBase(0.2, 0.175), sine(None, 60.0), gravity=G).outcome.max_slip_m, status="differs", today=(0.0, 0.0),
          note="fig. 4 slides although 60 gal is less than 0.2 g; read as a ground displacement of 60 sin 2t cm (240 gal) it fits"),
     *(
-        Case(f"fujino-sine-{name}", WHERE + "fig. 4", f"sine example, {what}", "s", expected, 5e-6, _event(number),
+        Case(f"fujino-sine-{name}", CITATION + "fig. 4", f"sine example, {what}", "s", expected, 5e-6, _event_time(number),
              note="ground displacement 60 sin 2t cm; expected from the closed form", kind="derived")
         for number, (name, what, expected) in enumerate((
             ("start", "first slip starts", 0.47781), ("stop", "first slip stops", 1.58117),
             ("start-2", "second slip starts", 2.04860), ("stop-2", "second slip stops", 3.15197),
         ))
     ),
-    Case("fujino-sine-slip", WHERE + "fig. 4", "sine example, first slip", "m", 0.2226306, 5e-8,
+    Case("fujino-sine-slip", CITATION + "fig. 4", "sine example, first slip", "m", 0.2226306, 5e-8,
          lambda: float(_sine_response().events[1].after[0]), kind="derived", note="expected from the closed form"),
-    Case("fujino-sine-back", WHERE + "sec. 2.2.2", "sine example, displacement after the second slip: no ratcheting", "m", 0.0, CONVERGED,
+    Case("fujino-sine-back", CITATION + "sec. 2.2.2", "sine example, displacement after the second slip: no ratcheting", "m", 0.0, CONVERGED,
          lambda: float(_sine_response().events[3].after[0])),
     Case("newmark-pulse", "[Newmark1965]_ rectangular pulse", "one-way slip under 6 m/s^2 for 1 s", "m",
-         pulse_slip(6.0, 1.0, MU * G), 1e-12, _final(constant(-6.0))),
+         pulse_slip(6.0, 1.0, MU * G), 1e-12, _final_slip(constant(-6.0))),
     Case("westermo-steady", "[WestermoUdwadia1983]_ steady sliding", "swing of the slip on a harmonic base, 4 m/s^2 at 1 Hz", "m",
-         steady_slip(4.0, 1.0, 0.1, kappa=0.9, gravity=G) or math.nan, 2e-7, _steady),
+         steady_slip(4.0, 1.0, 0.1, kappa=0.9, gravity=G) or math.nan, 2e-7, _steady_swing),
 )  # fmt: skip
 """Equations (1) to (15), the sine example, and two closed forms of others."""

@@ -16,21 +16,21 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.inset import SHARP, Inset
-from seisblock.studies.cemetery.limits import rigid_limits
-from seisblock.studies.cemetery.rate import overturning_rate
-from seisblock.studies.cemetery.simulated import simulated_overturns, sine_motion
-from seisblock.typing import FloatArray
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.core.typing import FloatArray
+from seisblock.studies.survey.limits import rigid_limits
+from seisblock.studies.survey.overturning_rate import overturning_rate
+from seisblock.studies.survey.simulation import simulated_overturns, sine_motion
 from seisblock.validation.case import Case
 from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
 
-CHAOS = 0.02
+CHAOS_TOLERANCE = 0.02
 """What another step or another g moves an rms or a bias by."""
 
-ROUNDED = 0.006
+ROUNDING_TOLERANCE = 0.006
 """The values to be met are known to two digits, rounded."""
 
-SURVEYED = np.array([survey.rate for survey in SURVEYS])
+SURVEYED_RATES = np.array([survey.rate for survey in SURVEYS])
 """Rates surveyed, in the order of the table, (6,)."""
 
 
@@ -40,18 +40,18 @@ def stones() -> Cemetery:
     return read_cemetery("aoyama.csv")
 
 
-def by_fit(survey: SurveyedRate) -> float:
+def rate_by_fit(survey: SurveyedRate) -> float:
     """Return the rate by [Furukawa2009]_ eq. (9)."""
     return overturning_rate(stones(), survey.pga, survey.printed_frequency_hz).rate
 
 
-def by_pulse(survey: SurveyedRate) -> float:
+def rate_by_pulse(survey: SurveyedRate) -> float:
     """Return the rate of rigid blocks with sharp edges under half a sine ([Housner1963]_)."""
-    limits = partial(rigid_limits, inset=SHARP)
+    limits = partial(rigid_limits, inset=SHARP_EDGES)
     return overturning_rate(stones(), survey.pga, survey.printed_frequency_hz, limits=limits).rate
 
 
-def by_rocking(inset: Inset, survey: SurveyedRate) -> float:
+def rate_by_rocking(inset: EdgeWear, survey: SurveyedRate) -> float:
     """Return the rate of rigid blocks that rock under the sine ([Housner1963]_)."""
     return float(simulated_overturns(stones(), sine_motion(survey.pga, survey.printed_frequency_hz), inset=inset).mean())
 
@@ -82,12 +82,12 @@ class FieldModel:
 
 
 MODELS = (
-    FieldModel("eq-9", "the criterion, eq. (9)", by_fit, 0.143, -0.04, ROUNDED, True),
-    FieldModel("worn", "rocking blocks with edges worn by 0.1 B per side (0.8 B)", partial(by_rocking, Inset(share=0.1)), 0.145, -0.01, CHAOS, False),
-    FieldModel("sharp", "rocking blocks with sharp edges", partial(by_rocking, SHARP), 0.195, -0.11, CHAOS, False),
-    FieldModel("half-sine", "blocks with sharp edges under half a sine", by_pulse, 0.206, -0.13, ROUNDED, True),
-    FieldModel("worn-more", "rocking blocks with edges worn by 0.15 B per side (0.7 B)", partial(by_rocking, Inset(share=0.15)), 0.267, 0.18,
-               CHAOS, False),
+    FieldModel("eq-9", "the criterion, eq. (9)", rate_by_fit, 0.143, -0.04, ROUNDING_TOLERANCE, True),
+    FieldModel("worn", "rocking blocks with edges worn by 0.1 B per side (0.8 B)", partial(rate_by_rocking, EdgeWear(share=0.1)), 0.145, -0.01, CHAOS_TOLERANCE, False),
+    FieldModel("sharp", "rocking blocks with sharp edges", partial(rate_by_rocking, SHARP_EDGES), 0.195, -0.11, CHAOS_TOLERANCE, False),
+    FieldModel("half-sine", "blocks with sharp edges under half a sine", rate_by_pulse, 0.206, -0.13, ROUNDING_TOLERANCE, True),
+    FieldModel("worn-more", "rocking blocks with edges worn by 0.15 B per side (0.7 B)", partial(rate_by_rocking, EdgeWear(share=0.15)), 0.267, 0.18,
+               CHAOS_TOLERANCE, False),
 )  # fmt: skip
 """From the nearest to the survey to the farthest."""
 
@@ -101,17 +101,17 @@ def rates(key: str) -> FloatArray:
 
 def rms(key: str) -> float:
     """Return the root mean square of a model's rates less the surveyed ones."""
-    return float(np.sqrt(np.mean((rates(key) - SURVEYED) ** 2)))
+    return float(np.sqrt(np.mean((rates(key) - SURVEYED_RATES) ** 2)))
 
 
 def bias(key: str) -> float:
     """Return the mean of a model's rates less the surveyed ones."""
-    return float(np.mean(rates(key) - SURVEYED))
+    return float(np.mean(rates(key) - SURVEYED_RATES))
 
 
 def _cases(model: FieldModel) -> list[Case]:
     """Return what a model makes of the survey: rms and bias."""
-    why = "stones of Aoyama and sines stand in for stones and records of each place; 0 would be perfect"
+    note = "stones of Aoyama and sines stand in for stones and records of each place; 0 would be perfect"
     return [
         Case(
             f"furukawa-field-{model.key}-{name}",
@@ -122,7 +122,7 @@ def _cases(model: FieldModel) -> list[Case]:
             model.tolerance,
             partial(compute, model.key),
             kind="rebuilt",
-            note=why,
+            note=note,
             quick=model.quick,
         )
         for name, expected, compute in (("rms", model.rms, rms), ("bias", model.bias, bias))

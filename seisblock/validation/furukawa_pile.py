@@ -8,14 +8,14 @@ import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.criteria.gravestones import overturning_ratio, published
+from seisblock.core.typing import FloatArray
+from seisblock.criteria.gravestones import furukawa_fit, overturning_ratio
 from seisblock.measures import ground_history
+from seisblock.models.stack.solve import SPRINGS, solve_stack
 from seisblock.records.motion import Motion
-from seisblock.solvers.stack.solve import SPRINGS, solve_stack
 from seisblock.studies.gravestone_criterion import RATIOS, criterion_study
-from seisblock.studies.runs import in_threads
-from seisblock.typing import FloatArray
-from seisblock.validation.case import Case, same
+from seisblock.studies.parallel import map_threads
+from seisblock.validation.case import Case, expected_difference
 
 LEVELS = {
     "6-lower": ((5.53, 4.84, 2.79), (0.39, 0.38, 0.12)),
@@ -24,7 +24,7 @@ LEVELS = {
 }
 """PGA, m/s^2, and PGV, m/s, of x, y and z on the shaking table ([Furukawa2009]_ table 4)."""
 
-FALLS = {
+SAO_FELL = {
     ("6-lower", False): 0.0,
     ("6-upper", False): 1.0,
     ("7", False): 1.0,
@@ -34,14 +34,14 @@ FALLS = {
 }
 """Whether the sao fell on the shaking table ([Furukawa2009]_ table 5(c)), for each level, plain and dowelled."""
 
-MOTIONS = 12
-SHARE = 0.25
+MOTION_COUNT = 12
+SHARE_TOLERANCE = 0.25
 """Three motions of twelve: what the draw of a motion may change."""
 
-NEXT_HEIGHT = RATIOS[1] - RATIOS[0]
+HEIGHT_STEP = RATIOS[1] - RATIOS[0]
 """Heights of the upper stone come in steps of H/B 0.1875."""
 
-SAMPLING_S, SAMPLES = 0.01, 1500
+SAMPLING_S, SAMPLE_COUNT = 0.01, 1500
 
 FRICTION = (
     "strict Coulomb friction of 0.438 lets the lower stones slide at 430 gal, and what stands on them feels no more; "
@@ -60,22 +60,22 @@ def _component(rng: np.random.Generator, pga: float, pgv: float) -> FloatArray:
     """Return band-limited noise under an envelope; the band is moved until PGV fits PGA."""
     from scipy.signal import butter, sosfiltfilt
 
-    noise = rng.normal(size=SAMPLES)
-    time = SAMPLING_S * np.arange(SAMPLES)
+    noise = rng.normal(size=SAMPLE_COUNT)
+    time = SAMPLING_S * np.arange(SAMPLE_COUNT)
     envelope = np.clip(time / 2.0, 0.0, 1.0) ** 2 * np.exp(-np.clip(time - 7.0, 0.0, None) / 2.0)
     low, high = 0.1, 8.0
-    made: FloatArray = noise
+    acceleration: FloatArray = noise
     for _ in range(25):
         centre = 0.5 * (low + high)
         band = butter(2, (0.5 * centre, 1.6 * centre), "bandpass", fs=1.0 / SAMPLING_S, output="sos")
-        made = sosfiltfilt(band, noise) * envelope
-        made *= pga / np.abs(made).max()
-        too_slow = np.abs(ground_history(made, SAMPLING_S).velocity).max() > pgv
+        acceleration = sosfiltfilt(band, noise) * envelope
+        acceleration *= pga / np.abs(acceleration).max()
+        too_slow = np.abs(ground_history(acceleration, SAMPLING_S).velocity).max() > pgv
         low, high = (centre, high) if too_slow else (low, centre)
-    return made
+    return acceleration
 
 
-def _fallen(pile: Pile, motion: Motion) -> tuple[str, ...]:
+def _fallen_stones(pile: Pile, motion: Motion) -> tuple[str, ...]:
     """Return what falls by the paper's own law: springs at 5 x 5 points of each joint."""
     return solve_stack(pile, motion, law=SPRINGS, points=5, stop_at_fall=True).outcome.overturned
 
@@ -84,7 +84,7 @@ def _fallen(pile: Pile, motion: Motion) -> tuple[str, ...]:
 def share_fallen(level: str, reinforced: bool) -> float:
     """Return the share of twelve motions of a level under which the sao falls."""
     pile = load_pile("wagata", reinforced=reinforced).without("mizubachi")
-    runs = in_threads(lambda seed: _fallen(pile, kobe_like(level, seed)), range(MOTIONS))
+    runs = map_threads(lambda seed: _fallen_stones(pile, kobe_like(level, seed)), range(MOTION_COUNT))
     return float(np.mean(["sao" in fallen for fallen in runs]))
 
 
@@ -92,8 +92,8 @@ def threshold(reinforced: bool, frequency: float, pga: float) -> float:
     """Return H/B of the most squat sao that a sine fells; more than any when none falls."""
     pile: Pile = load_pile("wagata", reinforced=reinforced).without("mizubachi")
     study = criterion_study(pile, frequencies=(frequency,), pgas=(pga,))
-    found = study.thresholds[0].ratio
-    return RATIOS[-1] + NEXT_HEIGHT if found is None else found
+    ratio = study.thresholds[0].ratio
+    return RATIOS[-1] + HEIGHT_STEP if ratio is None else ratio
 
 
 TABLE_5_DIFFERS = {
@@ -132,44 +132,44 @@ SINES_DIFFER = {
 """Sines that differ: H/B of the most squat stone that falls today, and why."""
 
 
-def _table_5(level: str, reinforced: bool) -> Case:
+def _table_5_case(level: str, reinforced: bool) -> Case:
     """Return the case of one cell of the shaking table."""
-    today, why = TABLE_5_DIFFERS.get((level, reinforced), (None, ""))
+    today, explanation = TABLE_5_DIFFERS.get((level, reinforced), (None, ""))
     stones = "dowelled" if reinforced else "plain"
     return Case(
         f"furukawa-pile-table-5-{stones}-{level}",
         "[Furukawa2009]_ table 5(c)",
-        f"share of {MOTIONS} motions of JMA {level}, with PGA and PGV of table 4, that fell the sao of the {stones} pile",
+        f"share of {MOTION_COUNT} motions of JMA {level}, with PGA and PGV of table 4, that fell the sao of the {stones} pile",
         "1",
-        FALLS[level, reinforced],
-        SHARE,
+        SAO_FELL[level, reinforced],
+        SHARE_TOLERANCE,
         partial(share_fallen, level, reinforced),
         status="holds" if today is None else "differs",
-        note=why or "the table's own motion is not to be had",
+        note=explanation or "the table's own motion is not to be had",
         kind="rebuilt",
-        today=None if today is None else same(today, SHARE),
+        today=None if today is None else expected_difference(today, SHARE_TOLERANCE),
         quick=False,
     )
 
 
-def _sine(reinforced: bool, frequency: float, pga: float) -> Case:
+def _sine_case(reinforced: bool, frequency: float, pga: float) -> Case:
     """Return the case of one sine: the threshold of the pile beside (9) or (10)."""
-    today, why = SINES_DIFFER.get((reinforced, frequency, pga), (None, ""))
-    fit, equation = published(reinforced)
+    today, explanation = SINES_DIFFER.get((reinforced, frequency, pga), (None, ""))
+    fit, equation = furukawa_fit(reinforced)
     return Case(
         f"furukawa-pile-{equation[1:-1]}-{frequency:g}-hz-{100 * pga:g}-gal",
         f"[Furukawa2009]_ eq. {equation}",
         f"H/B of the most squat sao felled by 20 s of {100 * pga:g} gal at {frequency:g} Hz, {'dowelled' if reinforced else 'plain'} pile",
         "1",
         float(overturning_ratio(pga, frequency, fit)),
-        1.5 * NEXT_HEIGHT,
+        1.5 * HEIGHT_STEP,
         partial(threshold, reinforced, frequency, pga),
         status="holds" if today is None else "differs",
-        note=why or "a fit, within one and a half steps of the heights tried",
-        today=None if today is None else same(today, NEXT_HEIGHT),
+        note=explanation or "a fit, within one and a half steps of the heights tried",
+        today=None if today is None else expected_difference(today, HEIGHT_STEP),
         quick=False,
     )
 
 
-CASES = (*(_table_5(*cell) for cell in FALLS), *(_sine(*sine) for sine in SINES))
+CASES = (*(_table_5_case(*cell) for cell in SAO_FELL), *(_sine_case(*sine) for sine in SINES))
 """Every case of this paper on the pile."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock.units import GAL, KINE
+from seisblock.core.units import GAL, KINE
 
 
 @dataclass(frozen=True)

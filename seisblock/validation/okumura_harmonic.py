@@ -9,11 +9,11 @@ import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.criteria.uplift import harmonic_uplift_ratio
-from seisblock.solvers.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift.minima import UpliftMinimum, uplift_minima
-from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.validation.case import EXACT, same
-from seisblock.validation.okumura_modes import COUNT, dimensionless, steps_not_rising
+from seisblock.models.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
+from seisblock.models.uplift.minima import UpliftMinimum, uplift_minima
+from seisblock.models.uplift.modes import natural_modes
+from seisblock.validation.case import EXACT, expected_difference
+from seisblock.validation.okumura_modes import COUNT_TOLERANCE, dimensionless, steps_not_rising
 
 FIG_6 = {0.02: (0.0350, 0.2776), 0.05: (0.0874, 0.6851), 0.10: (0.1748, 1.3049)}
 """Damping ratio: least A/g of the first and of the second rocking mode, alpha = 1, beta = 0.707, along x; from an independent
@@ -28,10 +28,10 @@ FIG_8 = (0.5, 0.6, 0.707, 0.8, 1.0, 2.0)
 FOUR_DECIMALS = 1e-4
 """One unit of the last of four decimals: a grid finds a minimum a little too high."""
 
-TIES = 3.0
+TIE_COUNT = 3.0
 """Frequencies at which two corners are so near each other that round-off decides."""
 
-FLAT = 1e-7
+MINIMUM_TOLERANCE = 1e-7
 """How well a minimum is placed by comparing values: the root of their round-off."""
 
 
@@ -42,9 +42,9 @@ def _minima(
     return uplift_minima(SpringBlock.from_ratios(alpha, beta, damping=damping), phi_deg=phi, rho_deg=rho)
 
 
-def _least(mode: str, **shaken: float) -> float:
+def _least_ratio(mode: str, **kwargs: float) -> float:
     """Return the least A/g among the minima near modes whose name begins so, infinite without any."""
-    return min((m.acceleration_ratio for m in _minima(**shaken) if m.mode.startswith(mode)), default=math.inf)
+    return min((m.acceleration_ratio for m in _minima(**kwargs) if m.mode.startswith(mode)), default=math.inf)
 
 
 @functools.cache
@@ -59,8 +59,8 @@ def _three_ways() -> tuple[float, float]:
             modal = uplift_thresholds(body, ratio, phi_deg=phi, rho_deg=rho)
             for corner in (1, 2, 3, 4):
                 closed = harmonic_uplift_ratio(ratio, alpha=alpha, beta=beta, damping=damping, phi_deg=phi, rho_deg=rho, corner=corner)
-                known = np.isfinite(modal[corner - 1]) & (modal[corner - 1] < 1e6)
-                closed_apart = max(closed_apart, float(np.abs(closed[known] / modal[corner - 1][known] - 1.0).max(initial=0.0)))
+                finite = np.isfinite(modal[corner - 1]) & (modal[corner - 1] < 1e6)
+                closed_apart = max(closed_apart, float(np.abs(closed[finite] / modal[corner - 1][finite] - 1.0).max(initial=0.0)))
             direction = shaking_direction(phi, rho)
             direct = corner_response_direct(body, omega, direction)
             scale = np.abs(direct).max(axis=0)
@@ -78,32 +78,32 @@ def _easiest_beta() -> float:
     """Return the beta at which the second mode's least A/g is smallest, alpha = 1."""
     from scipy.optimize import minimize_scalar
 
-    return float(minimize_scalar(lambda b: _least("second", beta=b), bounds=(0.6, 1.0), method="bounded", options={"xatol": 1e-10}).x)
+    return float(minimize_scalar(lambda b: _least_ratio("second", beta=b), bounds=(0.6, 1.0), method="bounded", options={"xatol": 1e-10}).x)
 
 
 def _easiest(mode: str, name: str, values: tuple[float, ...]) -> float:
     """Return which value of a parameter lets the block lift most easily near a mode."""
-    return min(values, key=lambda value: _least(mode, **{name: value}))
+    return min(values, key=lambda value: _least_ratio(mode, **{name: value}))
 
 
 def _not_easier(mode: str, name: str, values: tuple[float, ...]) -> float:
     """Return how many steps of a parameter do not let the block lift more easily near a mode."""
-    return steps_not_rising(-np.array([_least(mode, **{name: value}) for value in values]))
+    return steps_not_rising(-np.array([_least_ratio(mode, **{name: value}) for value in values]))
 
 
-def _foreign_minima(mode: str, phis: tuple[float, ...], rho: float, among: bool) -> float:
-    """Return how many minima lie near a mode (`among`), or near any other."""
-    return float(sum((m.mode == mode) == among for phi in phis for m in _minima(phi=phi, rho=rho)))
+def _foreign_minima(mode: str, phis: tuple[float, ...], rho: float, is_near: bool) -> float:
+    """Return how many minima lie near a mode (`is_near`), or near any other."""
+    return float(sum((m.mode == mode) == is_near for phi in phis for m in _minima(phi=phi, rho=rho)))
 
 
 def _fig_11_against_10(corner: int | None) -> float:
     """Return how many of 1996 frequencies are harder at phi = 45 than at 0 degrees, rho = 45 degrees."""
     ratio = np.arange(5, 2001) * 0.0025
     body = SpringBlock.from_ratios(1.0, 0.707)
-    along, diagonal = (uplift_thresholds(body, ratio, phi_deg=phi, rho_deg=45.0) for phi in (0.0, 45.0))
+    axial, diagonal = (uplift_thresholds(body, ratio, phi_deg=phi, rho_deg=45.0) for phi in (0.0, 45.0))
     if corner is None:
-        return float(np.count_nonzero(diagonal.min(axis=0) > along.min(axis=0)))
-    return float(np.count_nonzero(diagonal[corner - 1] > along[corner - 1]))
+        return float(np.count_nonzero(diagonal.min(axis=0) > axial.min(axis=0)))
+    return float(np.count_nonzero(diagonal[corner - 1] > axial[corner - 1]))
 
 
 def _corner_4_too_high(phi: float) -> float:
@@ -127,7 +127,7 @@ HARMONIC = (
             f"least A/g of the {mode} rocking mode, h = {h}",
             value,
             FOUR_DECIMALS,
-            functools.partial(_least, mode, damping=h),
+            functools.partial(_least_ratio, mode, damping=h),
             kind="derived",
             note="the figure cannot be read in the scan; expected from an independent complex response on a grid",
         )
@@ -139,7 +139,7 @@ HARMONIC = (
         "fig. 7",
         "alphas at which the first mode does not lift more easily than before",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _not_easier("first", "alpha", FIG_7),
     ),
     dimensionless(
@@ -147,7 +147,7 @@ HARMONIC = (
         "fig. 7",
         "alpha of six at which the second mode lifts most easily",
         1.5,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _easiest("second", "alpha", FIG_7),
     ),
     dimensionless(
@@ -155,7 +155,7 @@ HARMONIC = (
         "fig. 8",
         "beta of six at which the second mode lifts most easily",
         0.8,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _easiest("second", "beta", FIG_8),
     ),
     dimensionless(
@@ -164,7 +164,7 @@ HARMONIC = (
         "largest over least A/g of the first mode, six betas: hardly changes",
         1.0,
         0.1,
-        lambda: _least("first", beta=2.0) / _least("first", beta=0.8),
+        lambda: _least_ratio("first", beta=2.0) / _least_ratio("first", beta=0.8),
         note="tolerance: one tenth, the width of the paper's word 'hardly'",
     ),
     dimensionless(
@@ -181,7 +181,7 @@ HARMONIC = (
         "least A/g of the second mode, beta = sqrt(3/5)",
         0.676683,
         5e-7,
-        lambda: _least("second", beta=math.sqrt(0.6)),
+        lambda: _least_ratio("second", beta=math.sqrt(0.6)),
         note="printed 0.6768 is the value on a grid of 0.01 in theta/omega_1",
         kind="derived",
     ),
@@ -190,7 +190,7 @@ HARMONIC = (
         "section 6, statement 3",
         "beta at which the second mode lifts most easily, sqrt(3/(1 + 4 alpha^2))",
         math.sqrt(0.6),
-        FLAT,
+        MINIMUM_TOLERANCE,
         _easiest_beta,
         note="printed 0.7746; the closed form was found here",
         kind="derived",
@@ -210,7 +210,7 @@ HARMONIC = (
         "least A/g at phi = 45 over that at 0 degrees",
         1.0 / math.sqrt(2.0),
         EXACT,
-        lambda: _least("first", phi=45.0) / _least("first"),
+        lambda: _least_ratio("first", phi=45.0) / _least_ratio("first"),
     ),
     dimensionless(
         "6-4-second",
@@ -218,14 +218,14 @@ HARMONIC = (
         "the same for the second mode",
         1.0 / math.sqrt(2.0),
         EXACT,
-        lambda: _least("second", phi=45.0) / _least("second"),
+        lambda: _least_ratio("second", phi=45.0) / _least_ratio("second"),
     ),
     dimensionless(
         "6-4-vertical",
         "section 6, statement 4",
         "minima near the vertical mode, horizontal shaking",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _foreign_minima("vertical", (0.0, 20.0, 45.0), 90.0, True),
     ),
     dimensionless(
@@ -233,7 +233,7 @@ HARMONIC = (
         "section 6, statement 5",
         "minima near rocking modes, vertical shaking",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _foreign_minima("vertical", (0.0,), 0.0, False),
     ),
     dimensionless(
@@ -241,7 +241,7 @@ HARMONIC = (
         "section 6, statement 5",
         "steps of rho from 75 to 0 at which the vertical mode does not lift more easily",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _not_easier("vertical", "rho", (75.0, 60.0, 45.0, 30.0, 15.0, 0.0)),
     ),
     dimensionless(
@@ -249,7 +249,7 @@ HARMONIC = (
         "fig. 11",
         "frequencies harder at phi = 45 than at 0 degrees, least of four corners",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _fig_11_against_10(None),
     ),
     dimensionless(
@@ -257,10 +257,10 @@ HARMONIC = (
         "fig. 11",
         "the same by corner 4 alone",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: _fig_11_against_10(4),
         status="differs",
-        today=same(910.0, TIES),
+        today=expected_difference(910.0, TIE_COUNT),
         note="section 5 says the regions widen throughout: true of the block, whose least corner governs, not of the paper's corner 4",
     ),
     dimensionless(
@@ -271,7 +271,7 @@ HARMONIC = (
         EXACT,
         lambda: _corner_4_too_high(0.0),
         status="differs",
-        today=same(9.21643050123),
+        today=expected_difference(9.21643050123),
         note="the paper takes corner 4 as the first to lift; with a vertical part the opposite corner lifts first in whole bands",
     ),
 )

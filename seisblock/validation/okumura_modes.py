@@ -9,26 +9,26 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core.typing import FloatArray
 from seisblock.criteria.uplift import square_base_modes
-from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.typing import FloatArray
+from seisblock.models.uplift.modes import natural_modes
 from seisblock.validation.case import EXACT, Case
 
 ALPHAS = np.geomspace(0.05, 10.0, 41)
 BETAS = np.geomspace(0.05, 5.0, 41)
 ROOT3 = math.sqrt(3.0)
-VANISHING = 1e-7
+NEAR_ZERO = 1e-7
 """Stands for zero where the paper takes a limit; the error is of its square."""
 
-COUNT = 0.0
+COUNT_TOLERANCE = 0.0
 """A number of violations must be exactly that."""
 
 
 def dimensionless(
-    key: str, locator: str, quantity: str, expected: float, tolerance: float, compute: Callable[[], float], **more: Any
+    key: str, locator: str, quantity: str, expected: float, tolerance: float, compute: Callable[[], float], **kwargs: Any
 ) -> Case:
-    """Return a dimensionless case of this paper; `more` are the keywords of :class:`Case`."""
-    return Case(f"okumura-{key}", f"[Okumura1987]_ {locator}", quantity, "1", expected, tolerance, compute, **more)
+    """Return a dimensionless case of this paper; `kwargs` are the keywords of :class:`Case`."""
+    return Case(f"okumura-{key}", f"[Okumura1987]_ {locator}", quantity, "1", expected, tolerance, compute, **kwargs)
 
 
 def steps_not_rising(values: FloatArray) -> float:
@@ -72,15 +72,15 @@ MODES = (
         "section 3, statement 1",
         "omega_1/omega_V at beta = 0",
         0.0,
-        2 * VANISHING,
-        lambda: square_base_modes(1.0, VANISHING).c1,
+        2 * NEAR_ZERO,
+        lambda: square_base_modes(1.0, NEAR_ZERO).c1,
     ),
     dimensionless(
         "modes-1b",
         "section 3, statement 1",
         "steps in beta at which omega_1 does not rise",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: steps_not_rising(_frequencies(1)),
     ),
     dimensionless(
@@ -88,7 +88,7 @@ MODES = (
         "section 3, statement 2",
         "steps in beta at which omega_5 does not rise",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: steps_not_rising(_frequencies(5)),
     ),
     dimensionless(
@@ -108,7 +108,7 @@ MODES = (
         "omega_1/omega_V, alpha to 0, beta = 2.5",
         ROOT3,
         EXACT,
-        lambda: square_base_modes(VANISHING, 2.5).c1,
+        lambda: square_base_modes(NEAR_ZERO, 2.5).c1,
     ),
     dimensionless(
         "modes-4b",
@@ -116,14 +116,14 @@ MODES = (
         "omega_1/omega_V, alpha to 0, beta = 0.8",
         0.8,
         EXACT,
-        lambda: square_base_modes(VANISHING, 0.8).c1,
+        lambda: square_base_modes(NEAR_ZERO, 0.8).c1,
     ),
     dimensionless(
         "modes-5a",
         "section 3, statement 5",
         "steps in alpha at which omega_1 does not fall",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         lambda: steps_not_rising(-_frequencies(1).T),
     ),
     dimensionless(
@@ -131,7 +131,7 @@ MODES = (
         "section 3, statement 5",
         "steps in alpha at which the spread of omega_1 over beta does not shrink",
         0.0,
-        COUNT,
+        COUNT_TOLERANCE,
         _spread_against_alpha,
     ),
     dimensionless(
@@ -140,7 +140,7 @@ MODES = (
         "omega_5/omega_V, alpha to 0, beta = 0.8",
         ROOT3,
         EXACT,
-        lambda: square_base_modes(VANISHING, 0.8).c2,
+        lambda: square_base_modes(NEAR_ZERO, 0.8).c2,
         note="the scan prints 3, meant is sqrt(3)",
     ),
     dimensionless(
@@ -149,10 +149,15 @@ MODES = (
         "omega_5/omega_V, alpha to 0, beta = 2.5",
         2.5,
         EXACT,
-        lambda: square_base_modes(VANISHING, 2.5).c2,
+        lambda: square_base_modes(NEAR_ZERO, 2.5).c2,
     ),
     dimensionless(
-        "modes-7", "section 3, statement 7", "betas at which omega_5 does not run with alpha as stated", 0.0, COUNT, _second_against_alpha
+        "modes-7",
+        "section 3, statement 7",
+        "betas at which omega_5 does not run with alpha as stated",
+        0.0,
+        COUNT_TOLERANCE,
+        _second_against_alpha,
     ),
 )
 """Cases of section 3."""

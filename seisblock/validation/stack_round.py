@@ -13,49 +13,49 @@ import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import ROUND, PileStone
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.stack.arrays import pile_arrays
+from seisblock.models.stack.frames import L, Q, R, V, W, X
+from seisblock.models.stack.outcome import SimulationResult
+from seisblock.models.stack.simulation import Simulation
+from seisblock.models.stack.solve import EDGE_POINTS
 from seisblock.records.motion import Motion
-from seisblock.solvers.stack.arrays import pile_arrays
-from seisblock.solvers.stack.course import Course
-from seisblock.solvers.stack.frames import L, Q, R, V, W, X
-from seisblock.solvers.stack.outcome import End
-from seisblock.solvers.stack.solve import EDGES
-from seisblock.typing import FloatArray
-from seisblock.units import STANDARD_GRAVITY
 from seisblock.validation.case import CONVERGED, Case
 
 RADIUS = 0.2
 STEP = 2e-3
-ROUGH = 5.0
+NO_SLIP_FRICTION = 5.0
 """Friction at which nothing slips."""
 
-ON_THE_RIM = ((1e-3, 0.5), (1e-3, 0.1), (0.1, 0.3), (0.2, 0.4), (1.6, 0.1))
+RIM_CASES = ((1e-3, 0.5), (1e-3, 0.1), (0.1, 0.3), (0.2, 0.4), (1.6, 0.1))
 """Height, m, and lean, rad, of a disk, of drums and of a column."""
 
-RATE = 2e-4
+RATE_TOLERANCE = 2e-4
 """Relative tolerance of a rate: the error of steps of 2 ms, which falls with their square."""
 
-WAY = 1e-5
+DISTANCE_TOLERANCE = 1e-5
 """Tolerance of a way, m: the same."""
 
 TURNS = 5
 SECONDS = 1.0
-ROCKS, BESIDE, FALLS = 0.05, 1e-3, 0.1
+ROCKING_LEAN, OUT_OF_PLANE_RATE, UPRIGHT_TIME = 0.05, 1e-3, 0.1
 """Lean, rad, from which a drum rocks; its rate out of the plane, rad/s; and the time by which it has come upright, s."""
 
 FINE_STEP = 1e-4
 """Step, s, of a drum that rolls from one side of its rim to the other within half a millisecond."""
 
-TURN_OVER = 0.02
+TURN_TOLERANCE = 0.02
 """Tolerance of the angle by which its lean turns, rad: that of the rate out of the plane, which vanishes with it."""
 
 SLOPE = 0.2
 """Angle of the slope, rad."""
 
 SPEED = 2.0
-SLIPPERY = 0.3
+LOW_FRICTION = 0.3
 """Friction of the drum that is thrown without a spin."""
 
-LYING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+LYING_AXES = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Axes of a cylinder on its side, its own axis along y."""
 
 
@@ -64,28 +64,28 @@ def drum(height: float) -> PileStone:
     return PileStone("drum", 2.0 * RADIUS, 2.0 * RADIUS, height, shape=ROUND)
 
 
-def still(seconds: float, step: float = STEP) -> Motion:
+def ground_at_rest(seconds: float, step: float = STEP) -> Motion:
     """Return ground that stands still, a sample a step."""
     return Motion.from_arrays(np.zeros(math.ceil(seconds / step) + 1), step)
 
 
-def let_go(
-    stone: PileStone, axes: FloatArray, height: float, velocity: FloatArray, spin: FloatArray, motion: Motion, mu: float = ROUGH
-) -> End:
+def release(
+    stone: PileStone, axes: FloatArray, height: float, velocity: FloatArray, spin: FloatArray, motion: Motion, mu: float = NO_SLIP_FRICTION
+) -> SimulationResult:
     """Follow one stone that begins in motion: its own axes as columns, the height of its centre, velocity, m/s, and spin, rad/s."""
     from scipy.spatial.transform import Rotation
 
-    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGES)
+    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGE_POINTS)
     body = pile.bodies[0]
     body[X : X + 3] = 0.0, 0.0, height
     body[Q : Q + 4] = np.roll(Rotation.from_matrix(axes).as_quat(), 1)
     body[R : R + 9] = axes.ravel()
     body[V : V + 3], body[W : W + 3] = velocity, spin
     body[L : L + 3] = axes @ (stone.mass * stone.gyration_squared * (axes.T @ spin))
-    return Course(pile, motion, (1.0, 1.0), STANDARD_GRAVITY, 1, True, False, {}).follow()
+    return Simulation(pile, motion, (1.0, 1.0), STANDARD_GRAVITY, 1, True, False, {}).run()
 
 
-def rate_on_the_rim(stone: PileStone, lean: float) -> float:
+def rim_rate(stone: PileStone, lean: float) -> float:
     """Return the rate at which a cylinder whose centre stays at rest goes round on its rim, rad/s ([Moffatt2000]_ eq. (1)).
 
     The spin lies along the line from the centre to the point of contact; the moment of the weight about the centre turns the angular
@@ -93,122 +93,124 @@ def rate_on_the_rim(stone: PileStone, lean: float) -> float:
     gyration across and along the axis (derived here for any height); 4 g/(R sin) for a thin disk.
     """
     s, c, half = math.sin(lean), math.cos(lean), 0.5 * stone.height
-    across, along = (3.0 * RADIUS**2 + stone.height**2) / 12.0, 0.5 * RADIUS**2
-    return math.sqrt(STANDARD_GRAVITY * (RADIUS * c - half * s) / (s * (across * c - along * s * half / RADIUS)))
+    transverse_squared, axial_squared = (3.0 * RADIUS**2 + stone.height**2) / 12.0, 0.5 * RADIUS**2
+    return math.sqrt(STANDARD_GRAVITY * (RADIUS * c - half * s) / (s * (transverse_squared * c - axial_squared * s * half / RADIUS)))
 
 
-def _axis(end: End, seconds: float) -> tuple[FloatArray, FloatArray]:
+def _axis(end: SimulationResult, seconds: float) -> tuple[FloatArray, FloatArray]:
     """Return times, s, (n,), and the axis, (n, 3), of the one stone that was followed."""
     inside = end.track.time <= seconds
     w, x, y, z = end.track.quaternions[inside, 0].T
     return end.track.time[inside], np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]).T
 
 
-def tilted(lean: float) -> FloatArray:
+def tilted_axes(lean: float) -> FloatArray:
     """Return the axes of a cylinder that leans, as columns."""
     s, c = math.sin(lean), math.cos(lean)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
-def go_round(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, End]:
+def roll_on_rim(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, SimulationResult]:
     """Return the times, s, (n,), and the axis, (n, 3), of a cylinder let go as it goes round on its rim, through some turns; and its end."""
-    rate, s, c, half = rate_on_the_rim(stone, lean), math.sin(lean), math.cos(lean), 0.5 * stone.height
-    axes = tilted(lean)
+    rate, s, c, half = rim_rate(stone, lean), math.sin(lean), math.cos(lean), 0.5 * stone.height
+    axes = tilted_axes(lean)
     spin = rate * s * (half / RADIUS * axes[:, 2] - axes[:, 0])
     seconds = 2.0 * math.pi * TURNS / rate
-    end = let_go(stone, axes, RADIUS * s + half * c, np.zeros(3), spin, still(seconds))
+    end = release(stone, axes, RADIUS * s + half * c, np.zeros(3), spin, ground_at_rest(seconds))
     return *_axis(end, seconds), end
 
 
-def turn_over(stone: PileStone) -> float:
+def turn_angle(stone: PileStone) -> float:
     """Return the angle by which the lean of a cylinder turns that rocks almost in a plane, rad ([SrinivasanRuina2008]_).
 
     It does not strike the ground with the far side of its rim, but rolls there along it in no time. For small leans f towards q the speeds
     of that are those of a point in the plane: 2 T/m = (A + R^2) f'^2 + A f^2 q'^2, with A the squared radius of gyration about a diameter of
     the base; straight lines turn q by pi sqrt((A + R^2)/A) (derived here).
     """
-    about = (3.0 * RADIUS**2 + stone.height**2) / 12.0 + 0.25 * stone.height**2
-    return math.pi * math.sqrt((about + RADIUS**2) / about)
+    gyration_squared = (3.0 * RADIUS**2 + stone.height**2) / 12.0 + 0.25 * stone.height**2
+    return math.pi * math.sqrt((gyration_squared + RADIUS**2) / gyration_squared)
 
 
-def rock_and_roll(stone: PileStone, beside: float = BESIDE, step: float = FINE_STEP) -> tuple[float, float, End]:
+def rock_and_roll(
+    stone: PileStone, out_of_plane_rate: float = OUT_OF_PLANE_RATE, step: float = FINE_STEP
+) -> tuple[float, float, SimulationResult]:
     """Return the angle by which the lean of a cylinder turns, rad, the lean that it reaches then over that it came from, and its end."""
-    axes, spin = tilted(ROCKS), np.array([-beside, 0.0, 0.0])
+    axes, spin = tilted_axes(ROCKING_LEAN), np.array([-out_of_plane_rate, 0.0, 0.0])
     foot = RADIUS * axes[:, 0] - 0.5 * stone.height * axes[:, 2]
-    end = let_go(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(2.0 * FALLS, step))
-    time, axis = _axis(end, 2.0 * FALLS)
+    end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, ground_at_rest(2.0 * UPRIGHT_TIME, step))
+    time, axis = _axis(end, 2.0 * UPRIGHT_TIME)
     lean = np.hypot(axis[:, 0], axis[:, 1])
-    upright = int(np.argmin(np.where(time < FALLS, lean, np.inf)))
+    upright = int(np.argmin(np.where(time < UPRIGHT_TIME, lean, np.inf)))
     back = upright + int(np.argmax(lean[upright:]))
-    went = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
-    return float(abs(went[back] - went[0])), float(lean[back] / lean[0]), end
+    angle = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
+    return float(abs(angle[back] - angle[0])), float(lean[back] / lean[0]), end
 
 
-def turned_over(stone: PileStone) -> float:
+def simulated_turn_angle(stone: PileStone) -> float:
     """Return the angle by which the lean of a cylinder turns that rocks almost in a plane, rad."""
     return rock_and_roll(stone)[0]
 
 
-def rate_followed(height: float, lean: float) -> float:
+def simulated_rim_rate(height: float, lean: float) -> float:
     """Return the mean rate at which a cylinder goes round through some turns, rad/s."""
-    time, axis, _ = go_round(drum(height), lean)
-    went = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
-    return float(abs(went[-1] - went[0]) / np.ptp(time))
+    time, axis, _ = roll_on_rim(drum(height), lean)
+    angle = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
+    return float(abs(angle[-1] - angle[0]) / np.ptp(time))
 
 
-def roll_down() -> tuple[float, End]:
+def roll_down_slope() -> tuple[float, SimulationResult]:
     """Return what a drum on its side gains on a slope, m/s^2, and its end; the slope is a weight that does not point down."""
     even = np.full(round(SECONDS / STEP) + 1, STANDARD_GRAVITY)
     motion = Motion.from_arrays(-even * math.sin(SLOPE), STEP, vertical=even * (math.cos(SLOPE) - 1.0))
-    end = let_go(drum(2.0 * RADIUS), LYING, RADIUS, np.zeros(3), np.zeros(3), motion)
+    end = release(drum(2.0 * RADIUS), LYING_AXES, RADIUS, np.zeros(3), np.zeros(3), motion)
     inside = end.track.time <= SECONDS
     way = np.polynomial.Polynomial.fit(end.track.time[inside], end.track.centres[inside, 0, 0], 2)
     return float(2.0 * way.convert().coef[2]), end
 
 
-def rolled_down() -> float:
+def simulated_slope_acceleration() -> float:
     """Return what a drum on its side gains on a slope, m/s^2."""
-    return roll_down()[0]
+    return roll_down_slope()[0]
 
 
-def roll_on(height: float, speed: float = SPEED, rolls: bool = True, mu: float = ROUGH) -> tuple[FloatArray, FloatArray]:
+def roll_on_level(height: float, speed: float = SPEED, rolls: bool = True, mu: float = NO_SLIP_FRICTION) -> tuple[FloatArray, FloatArray]:
     """Return times, s, (n,), and centres, m, (n, 3), of a cylinder on its side that rolls, or is thrown without a spin."""
     spin = np.array([0.0, speed / RADIUS if rolls else 0.0, 0.0])
-    end = let_go(drum(height), LYING, RADIUS, np.array([speed, 0.0, 0.0]), spin, still(SECONDS), mu)
+    end = release(drum(height), LYING_AXES, RADIUS, np.array([speed, 0.0, 0.0]), spin, ground_at_rest(SECONDS), mu)
     inside = end.track.time <= SECONDS
     return end.track.time[inside], end.track.centres[inside, 0]
 
 
-def rolled(height: float, rolls: bool = True, mu: float = ROUGH) -> float:
+def rolling_distance(height: float, rolls: bool = True, mu: float = NO_SLIP_FRICTION) -> float:
     """Return how far a cylinder on its side gets, m."""
-    _, centres = roll_on(height, rolls=rolls, mu=mu)
+    _, centres = roll_on_level(height, rolls=rolls, mu=mu)
     return float(centres[-1, 0])
 
 
-def thrown() -> float:
+def thrown_distance() -> float:
     """Return how far a drum gets that is thrown without a spin: friction turns it until it rolls, with two thirds of its speed, m."""
-    slips = SPEED / (3.0 * SLIPPERY * STANDARD_GRAVITY)
-    return SPEED * slips - 0.5 * SLIPPERY * STANDARD_GRAVITY * slips**2 + 2.0 / 3.0 * SPEED * (SECONDS - slips)
+    slips = SPEED / (3.0 * LOW_FRICTION * STANDARD_GRAVITY)
+    return SPEED * slips - 0.5 * LOW_FRICTION * STANDARD_GRAVITY * slips**2 + 2.0 / 3.0 * SPEED * (SECONDS - slips)
 
 
-def _round(height: float, lean: float) -> Case:
+def _rim_case(height: float, lean: float) -> Case:
     """Return the case of one cylinder on its rim."""
-    expected = rate_on_the_rim(drum(height), lean)
+    expected = rim_rate(drum(height), lean)
     return Case(
         f"stack-round-rim-{height:g}-m-{lean:g}-rad",
         "[Moffatt2000]_ eq. (1)",
         f"rate at which a cylinder of radius {RADIUS:g} m and height {height:g} m goes round on its rim, {lean:g} rad from lying flat",
         "rad/s",
         expected,
-        RATE * expected,
-        partial(rate_followed, height, lean),
+        RATE_TOLERANCE * expected,
+        partial(simulated_rim_rate, height, lean),
         note="expected: the closed form for any height, derived here; the paper's is that of a thin disk. Steps of 2 ms",
         kind="derived",
         quick=False,
     )
 
 
-def _can() -> Case:
+def _can_case() -> Case:
     """Return the case of a drum that seems to rock."""
     stone = drum(2.0 * RADIUS)
     return Case(
@@ -216,9 +218,9 @@ def _can() -> Case:
         "[SrinivasanRuina2008]_",
         "angle by which the lean of a drum turns that rocks almost in a plane: it rolls to the other side of its rim and does not strike with it",
         "rad",
-        turn_over(stone),
-        TURN_OVER,
-        partial(turned_over, stone),
+        turn_angle(stone),
+        TURN_TOLERANCE,
+        partial(simulated_turn_angle, stone),
         note="expected: pi sqrt(1 + m R^2/I), I about a diameter of the base, derived here. Steps of 0.1 ms: it rolls across within half a "
         "millisecond; a step ends where its lowest point has wandered far",
         kind="derived",
@@ -226,7 +228,7 @@ def _can() -> Case:
     )
 
 
-def _rolling(key: str, quantity: str, unit: str, expected: float, tolerance: float, compute: Callable[[], float]) -> Case:
+def _rolling_case(key: str, quantity: str, unit: str, expected: float, tolerance: float, compute: Callable[[], float]) -> Case:
     """Return the case of a cylinder on its side."""
     return Case(
         f"stack-round-{key}",
@@ -242,16 +244,16 @@ def _rolling(key: str, quantity: str, unit: str, expected: float, tolerance: flo
     )
 
 
-DOWN = 2.0 / 3.0 * STANDARD_GRAVITY * math.sin(SLOPE)
+SLOPE_ACCELERATION = 2.0 / 3.0 * STANDARD_GRAVITY * math.sin(SLOPE)
 
 CASES = (
-    *(_round(*stone) for stone in ON_THE_RIM),
-    _can(),
-    _rolling("slope", "acceleration of a drum that rolls down a slope of 0.2 rad, two thirds of g sin", "m/s^2", DOWN, CONVERGED * DOWN, rolled_down),
-    _rolling("coin", "way of a coin that rolls at 2 m/s, after 1 s", "m", SPEED * SECONDS, WAY, partial(rolled, 1e-3)),
-    _rolling(
+    *(_rim_case(*stone) for stone in RIM_CASES),
+    _can_case(),
+    _rolling_case("slope", "acceleration of a drum that rolls down a slope of 0.2 rad, two thirds of g sin", "m/s^2", SLOPE_ACCELERATION, CONVERGED * SLOPE_ACCELERATION, simulated_slope_acceleration),
+    _rolling_case("coin", "way of a coin that rolls at 2 m/s, after 1 s", "m", SPEED * SECONDS, DISTANCE_TOLERANCE, partial(rolling_distance, 1e-3)),
+    _rolling_case(
         "thrown", "way of a drum thrown at 2 m/s without a spin, which slips until it rolls with two thirds of that, after 1 s; friction 0.3",
-        "m", thrown(), WAY, partial(rolled, 2.0 * RADIUS, rolls=False, mu=SLIPPERY),
+        "m", thrown_distance(), DISTANCE_TOLERANCE, partial(rolling_distance, 2.0 * RADIUS, rolls=False, mu=LOW_FRICTION),
     ),
 )  # fmt: skip
 """Every case on round stones."""

@@ -19,7 +19,7 @@ OF_MOTIONS = {
     "slide_study": lambda motion: sb.slide_study(0.2, motion),
     "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2),
     "stack_probability": lambda motion: sb.stack_probability(PILE, motion, runs=2),
-    "respond_many": lambda motion: sb.respond_many([sb.make_setting(BLOCK, mu=0.3)], motion),
+    "respond_many": lambda motion: sb.respond_many([sb.respond_params(BLOCK, mu=0.3)], motion),
     "jump_many": lambda motion: sb.jump_many([LAYERS], motion, contacts=[sb.load_contact("chozusha")]),
     "uplift_many": lambda motion: sb.uplift_many([SPRINGS], motion),
     "scale_factors": lambda motion: sb.scale_factors(lambda factor: factor, 0.05, motion),
@@ -27,8 +27,8 @@ OF_MOTIONS = {
     "perturb": lambda motion: sb.perturb(BLOCK, motion, 2),
     "find_margin": lambda motion: sb.find_margin(BLOCK, motion),
     "rocking_spectrum": lambda motion: sb.rocking_spectrum([1.0], [0.2], motion),
-    "slid": lambda motion: sb.slid(0.2, motion),
-    "jumped": lambda motion: sb.jumped(LAYERS, motion, contact=sb.load_contact("chozusha")),
+    "slid": lambda motion: sb.slide_displacement(0.2, motion),
+    "jumped": lambda motion: sb.jump_displacement(LAYERS, motion, contact=sb.load_contact("chozusha")),
 }
 OF_RECORDS = {
     "demean": sb.demean,
@@ -37,7 +37,7 @@ OF_RECORDS = {
     "scale_to_pga": lambda record: sb.scale_to_pga(record, 3.0),
     "highpass": lambda record: sb.highpass(record, 0.1),
     "rotate": lambda record: sb.rotate(record, 30.0),
-    "towards": lambda record: sb.towards(record, 30.0),
+    "towards": lambda record: sb.component_at_azimuth(record, 30.0),
     "measure": sb.measure,
     "jma_intensity": sb.jma_intensity,
     "motion_of": lambda record: sb.motion_of(record, "EW"),
@@ -45,7 +45,7 @@ OF_RECORDS = {
     "respond_directions": lambda record: sb.respond_directions(BLOCK, record, mu=0.3),
 }
 OF_BODIES = {
-    "make_setting": (lambda body: sb.make_setting(body, mu=0.3), "Block"),
+    "make_setting": (lambda body: sb.respond_params(body, mu=0.3), "Block"),
     "respond_probability": (lambda body: sb.respond_probability(body, MOTION, mu=0.3, runs=2), "Block"),
     "stack_probability": (lambda body: sb.stack_probability(body, MOTION, runs=2), "Pile"),
     "respond_directions": (lambda body: sb.respond_directions(body, RECORD, mu=0.3), "Block"),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import seisblock as sb
-from seisblock.units import LARGEST_BARE
+from seisblock.core.units import MAX_UNITLESS_LENGTH
 
 SINE = np.sin(0.1 * np.arange(400))
 STRONG = sb.Record((sb.Component("NS", 400.0 * SINE), sb.Component("UD", SINE)), 0.01)
@@ -48,7 +48,7 @@ def quiet(call):
 
 def test_what_is_common_is_not():
     """Up to 20 m, 5 g and 0.1 s nothing is said."""
-    quiet(lambda: sb.Block(LARGEST_BARE, LARGEST_BARE))
+    quiet(lambda: sb.Block(MAX_UNITLESS_LENGTH, MAX_UNITLESS_LENGTH))
     quiet(lambda: sb.Motion.from_arrays(50.0 * SINE / SINE.max(), 0.1))
     quiet(lambda: sb.motion_of(sb.read("synthetic_jma.csv"), "EW"))
 
@@ -56,10 +56,10 @@ def test_what_is_common_is_not():
 def test_the_house_does_not_warn_of_itself(tmp_path):
     """Sizes that follow from others, versions, motions scaled within studies, and a record whose doubt says it already."""
     house = quiet(lambda: sb.from_slenderness(0.3, 0.4))
-    assert house.height > LARGEST_BARE
+    assert house.height > MAX_UNITLESS_LENGTH
     motion = quiet(lambda: sb.motion_of(sb.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
     quiet(lambda: sb.perturb(house, motion, 2))
-    quiet(lambda: replace(house, mass=1e6).worn(0.1))
+    quiet(lambda: replace(house, mass=1e6).with_wear(0.1))
     quiet(lambda: sb.mode_map([0.3], [100.0], [0.2], motion))
     path = tmp_path / "gal.csv"
     path.write_text("time,NS (m/s2)\n" + "".join(f"{0.01 * i:.2f},{400.0 * a:.6f}\n" for i, a in enumerate(SINE)))

@@ -16,7 +16,7 @@ STUBS = sorted(ROOT.glob("seisblock/**/__init__.pyi"))
 SCRIPT = """
 import seisblock
 from seisblock import Block, Contact, Motion, SlidingBase
-from seisblock.solvers.rock import solve_rock
+from seisblock.models.rock import solve_rock
 
 record = seisblock.highpass(seisblock.demean(seisblock.read("synthetic_jma.csv")), 0.1)
 motion = seisblock.motion_of(record, "EW")
@@ -33,7 +33,7 @@ reveal_type(seisblock.solve_stack(seisblock.load_pile("wagata"), motion).outcome
 reveal_type(seisblock.find_margin(gravestone, motion).nearest_flip)  # float | None
 reveal_type(seisblock.perturb(gravestone, motion, 20, spread=seisblock.Spread()).probability)  # float
 reveal_type(seisblock.criteria.overturning_card)  # def (block: Block
-reveal_type(seisblock.errors.SolverError)  # def (
+reveal_type(seisblock.core.errors.SolverError)  # def (
 try:
     seisblock.read("nothing.csv")
 except seisblock.RecordNotFoundError as found:
@@ -48,7 +48,7 @@ WRONG = {
     "seisblock.solve_rock(Block(0.2, 0.6), motion).outcome.max_rotation": 'has no attribute "max_rotation"',
     "seisblock.criteria.housner": "has no attribute",
     "from seisblock import demeaned": "has no attribute",
-    "from seisblock.solvers.rock import solve_slide": "has no attribute",
+    "from seisblock.models.rock import solve_slide": "has no attribute",
 }
 HEAD = "import seisblock\nfrom seisblock import Block, Motion\nmotion = Motion.from_arrays([0.0, 1.0], 0.01)\n"
 

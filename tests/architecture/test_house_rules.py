@@ -19,7 +19,7 @@ from tests.trees import tree_of
 
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
-CITING = ("measures", "criteria", "solvers", "bodies", "studies")
+CITING = ("measures", "criteria", "models", "bodies", "studies")
 LONGEST = 400
 
 HEAVY = {"numba", "obspy", "scipy", "matplotlib", "PIL", "rich", "pandas"}
@@ -29,18 +29,18 @@ LIGHT = (
     "seisblock.cli.command",
     "seisblock.cli.options",
     "seisblock.cli.types",
-    "seisblock.errors",
-    "seisblock.words",
-    "seisblock.units",
+    "seisblock.core.errors",
+    "seisblock.core.i18n",
+    "seisblock.core.units",
     "seisblock.references",
-    "seisblock.results",
+    "seisblock.core.results",
     "seisblock.records",
     "seisblock.bodies.block",
     "seisblock.samples",
-    "seisblock.present.page",
-    "seisblock.present.documents.kind",
-    "seisblock.present.documents.write",
-    "seisblock.present.files",
+    "seisblock.report.templating",
+    "seisblock.report.json.schema",
+    "seisblock.report.json.encode",
+    "seisblock.report.io.atomic",
 )
 """Modules that promise to load nothing large."""
 
@@ -199,9 +199,9 @@ def test_light_modules_are_light(module):
 
 def test_the_pile_does_not_load_the_engine():
     """What shares the engine's statuses and array types only does not wait for its kernels."""
-    script = "import sys, seisblock.solvers.stack.solve; print(*(name for name in sys.modules if name.startswith('seisblock.dynamics.')))"
+    script = "import sys, seisblock.models.stack.solve; print(*(name for name in sys.modules if name.startswith('seisblock.dynamics.')))"
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
-    assert sorted(loaded) == ["seisblock.dynamics.arrays", "seisblock.dynamics.halt", "seisblock.dynamics.status"]
+    assert sorted(loaded) == ["seisblock.dynamics.array_types", "seisblock.dynamics.cancellation"]
 
 
 def test_no_command_imports_heavy_packages_at_its_top():
@@ -277,7 +277,7 @@ def test_lower_floors_name_quantities_never_flags():
     """H4: below the rooms that present and command, a sentence names a parameter, `` `dt` ``; the command line tells it as its option."""
     found = []
     for path in PACKAGE.rglob("*.py"):
-        if path.relative_to(PACKAGE).parts[0] not in {"cli", "present", "validation"}:
+        if path.relative_to(PACKAGE).parts[0] not in {"cli", "report", "validation"}:
             texts = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.Constant)]
             found += [f"{path.name}: {node.value}" for node in texts if isinstance(node.value, str) and FLAG.search(node.value)]
     assert found == []

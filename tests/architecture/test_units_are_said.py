@@ -10,7 +10,7 @@ import pytest
 import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.types import Count
-from seisblock.present.documents.units import unit_of
+from seisblock.report.json.units import split_unit
 
 UNIT = (
     r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^[23]|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|1/year|years|m|s|1)"
@@ -78,7 +78,7 @@ def test_numbers_have_a_unit():
 
 def named_dimension(name):
     """Return whether a name says what its number is in: `width_m`, `max_rotation_ratio`."""
-    return bool(unit_of(name)[1]) or name.split("_")[-1] in {"ratio", "ratios", "share", "factor"}
+    return bool(split_unit(name)[1]) or name.split("_")[-1] in {"ratio", "ratios", "share", "factor"}
 
 
 def numbers_described(text):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import seisblock
-from seisblock.errors import KindError, ParameterError
+from seisblock.core.errors import KindError, ParameterError
 from tests.batch.conftest import document, run, write_record
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.present.journal import Journal, alone_with
+from seisblock.core.io.checkpoint import Checkpoint, lock_checkpoint
 from seisblock.samples import sample_directory
 from seisblock.studies.batch import cluster
 from tests.batch.conftest import document, run, write_record
@@ -56,7 +56,7 @@ def test_outputs_are_never_harmed(folder):
 )
 def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
     """And leaves nothing behind."""
-    monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
+    monkeypatch.setattr(cluster, "CONNECT_TIMEOUT_S", 0.5)
     (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
     line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
     line = line if "--solver" not in change else line.replace("--solver rock ", "")
@@ -138,8 +138,8 @@ def test_the_table_of_one_station_is_whole_without_the_others(folder):
 def test_two_runs_never_write_one_table(folder):
     """The second is refused while the first lives, whatever it says; it wrote into the journal of the first, which then lost its rows."""
     journal = folder / "t.csv.journal"
-    with alone_with(journal):
-        Journal.begin(journal, {"of": "another run"})
+    with lock_checkpoint(journal):
+        Checkpoint.begin(journal, {"of": "another run"})
         held = journal.read_bytes()
         for how in ("--resume", "--force"):
             answer = run(f"{LINE} {how}")
@@ -174,7 +174,7 @@ def _journal_of(folder):
         self.path.unlink()
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("seisblock.present.journal.Journal.remove", leave)
+        patch.setattr("seisblock.core.io.checkpoint.Checkpoint.remove", leave)
         assert run(LINE).exit_code == 0
     whole = Path("t.csv").read_bytes()
     Path("t.csv").unlink()

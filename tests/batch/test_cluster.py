@@ -10,7 +10,7 @@ from contextlib import suppress
 import pytest
 
 import seisblock
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.studies.batch import cluster, run
 from tests.batch.conftest import write_record
 
@@ -20,7 +20,7 @@ distributed = pytest.importorskip("distributed")
 @pytest.fixture(scope="module")
 def client():
     """Return a client of two processes of this machine."""
-    with cluster.connected("local:2") as found:
+    with cluster.connect("local:2") as found:
         yield found
 
 
@@ -43,7 +43,7 @@ def test_what_is_no_scheduler_is_said_in_a_sentence():
     with socket.create_server(("127.0.0.1", 0)) as listening:
         threading.Thread(target=answer, daemon=True).start()
         address = "{}:{}".format(*listening.getsockname())
-        with pytest.raises(ParameterError, match=f"no Dask scheduler answers at {address}"), cluster.connected(address):
+        with pytest.raises(ParameterError, match=f"no Dask scheduler answers at {address}"), cluster.connect(address):
             pass
         listening.shutdown(socket.SHUT_RDWR)
 
@@ -66,9 +66,9 @@ def test_an_answer_travels_in_one_piece(client, monkeypatch):
     submit, nthreads = client.submit, client.nthreads
     monkeypatch.setattr(client, "submit", lambda *given, **how: futures.append(submit(*given, **how)) or futures[-1])
     monkeypatch.setattr(client, "nthreads", lambda: asked.append(True) or nthreads())
-    monkeypatch.setattr(cluster, "NEWS_S", 3600.0)
+    monkeypatch.setattr(cluster, "POLL_INTERVAL_S", 3600.0)
     tasks = [[{"body": f"b{row}", "impacts": row}] * 3 for row in range(12)]
-    assert list(cluster.on_cluster(client, list, tasks, lost=None)) == tasks
+    assert list(cluster.map_cluster(client, list, tasks, on_lost=None)) == tasks
     assert {future.type for future in futures} == {bytes}
     assert len(asked) == 1
 
@@ -84,10 +84,10 @@ def test_records_that_were_read_already(client, records):
 def test_a_worker_that_dies_is_survived(client, records):
     """One of two processes is killed when the first answer is there, while others are under way in it."""
     victim = next(iter(client.run(os.getpid).values()))
-    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, reading=run.Options())
+    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     read = [seisblock.read(name) for name in records]
     found = []
-    for rows in run.each_record(iter(read), plan, total=12, client=client):
+    for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
         if not found:
             os.kill(victim, signal.SIGKILL)
         found += rows
@@ -115,7 +115,7 @@ def test_a_record_of_which_every_worker_dies_is_a_row(client):
 
     usual = client.run_on_scheduler(forgive, 0)  # whatever is in a worker that dies is blamed at once
     try:
-        answers = list(cluster.on_cluster(client, work, ["a", "deadly", "b", "c", "d", "deadly", "e", "f"], lost=reason))
+        answers = list(cluster.map_cluster(client, work, ["a", "deadly", "b", "c", "d", "deadly", "e", "f"], on_lost=reason))
     finally:
         client.run_on_scheduler(forgive, usual)
     assert answers == ["a", "lost deadly", "b", "c", "d", "lost deadly", "e", "f"]
@@ -125,10 +125,10 @@ def test_a_record_of_which_every_worker_dies_is_a_row(client):
 def test_a_scheduler_that_goes_away_is_no_fault_of_a_record(records):
     """One sentence, and the records under way have no rows: they stood in the table as records of which every worker had died."""
     found, read = [], [seisblock.read(name) for name in records]
-    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, reading=run.Options())
+    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     local = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60)
     with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped answering"):
-        for rows in run.each_record(iter(read), plan, total=12, client=client):
+        for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
             found += rows
             local.sync(local.scheduler.close)
     with suppress(TimeoutError):  # its scheduler is closed already

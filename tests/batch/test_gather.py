@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
-from seisblock.readers import read, shelf, source
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
-from seisblock.readers.shelf import Shelf
+from seisblock.core.errors import RecordError, RecordFormatError, RecordNotFoundError
+from seisblock.readers import member_buffer, read, source
+from seisblock.readers.discover import iter_records
+from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.member_buffer import MemberBuffer
 from seisblock.samples import sample_directory
 from tests.batch.conftest import run, write_record
 
@@ -26,7 +26,7 @@ KNET = [sample_directory() / f"synthetic_knet.{code}" for code in ("EW", "NS", "
 
 def found(*names, **said):
     """Return what some names stand for."""
-    return list(gather([str(name) for name in names], Options(**said)))
+    return list(iter_records([str(name) for name in names], ReadOptions(**said)))
 
 
 def test_files_patterns_folders_and_lists(folder):
@@ -72,12 +72,12 @@ def test_the_files_of_one_station_are_one_record(folder):
         (folder / path.name.replace("synthetic", "other")).write_bytes(path.read_bytes())
     both = found(*[each.name for each in KNET], "other_knet.EW", "other_knet.NS")
     assert [each.name for each in both] == ["synthetic_knet.EW", "other_knet.EW"]
-    assert [each.read(Options()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
+    assert [each.read(ReadOptions()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
     (alone,) = found("synthetic_knet.NS")
     np.testing.assert_array_equal(
-        alone.read(Options()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
+        alone.read(ReadOptions()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
     )
-    assert alone.read(Options()).codes == ("NS", "EW", "UD")
+    assert alone.read(ReadOptions()).codes == ("NS", "EW", "UD")
 
 
 def packed(path, members):
@@ -108,7 +108,7 @@ def test_each_station_of_a_bundle_is_a_record(folder, suffix, order):
     if order == "by component":
         members.sort(key=lambda each: each[0].rsplit(".", 1)[-1])
     bundle = packed(folder / f"event{suffix}", members)
-    records = {each.name[:6]: each.read(Options()) for each in found(bundle)}
+    records = {each.name[:6]: each.read(ReadOptions()) for each in found(bundle)}
     assert {name: (record.station, record.codes) for name, record in records.items()} == {
         "AAA001": ("AAA001", ("NS", "EW", "UD")),
         "BBB002": ("BBB002", ("NS", "EW", "UD")),
@@ -140,9 +140,9 @@ def test_a_damaged_bundle_keeps_what_came_before_the_damage(folder):
     data[place + 200 : place + 400] = bytes(200)
     bundle.write_bytes(bytes(data))
     good, bad = found(bundle)
-    assert good.read(Options()).codes == ("NS", "EW", "UD")
+    assert good.read(ReadOptions()).codes == ("NS", "EW", "UD")
     with pytest.raises(ValueError, match="damaged"):
-        bad.read(Options())
+        bad.read(ReadOptions())
 
 
 def test_the_sensor_of_a_borehole_is_chosen(folder):
@@ -165,15 +165,15 @@ def members_of_stations(count, *, by_component):
 @pytest.mark.parametrize("by_component", [False, True])
 def test_of_a_bundle_no_more_is_held_than_one_station(folder, monkeypatch, suffix, by_component):
     """Twenty-four stations take the memory of eight: what waits for the rest of its set, and a large archive, lie in files."""
-    monkeypatch.setattr(source, "LARGE", 2**16)
-    monkeypatch.setattr(Shelf, "__init__", partialmethod(Shelf.__init__, in_memory=2**16))
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 2**16)
+    monkeypatch.setattr(MemberBuffer, "__init__", partialmethod(MemberBuffer.__init__, in_memory=2**16))
     station = sum(path.stat().st_size for path in KNET)
     peaks = []
     for count in (8, 24):
         bundle = packed(folder / f"{count}{suffix}", members_of_stations(count, by_component=by_component))
         tracemalloc.start()
         try:
-            assert sum(len(each.blobs) == 3 for each in gather([str(bundle)], Options())) == count
+            assert sum(len(each.blobs) == 3 for each in iter_records([str(bundle)], ReadOptions())) == count
             peaks.append(tracemalloc.get_traced_memory()[1])
         finally:
             tracemalloc.stop()
@@ -190,10 +190,10 @@ def test_a_temporary_file_without_room_is_told(folder, monkeypatch):
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
             return super().write(data)
 
-    monkeypatch.setattr(shelf.tempfile, "SpooledTemporaryFile", lambda size: Full())
+    monkeypatch.setattr(member_buffer.tempfile, "SpooledTemporaryFile", lambda size: Full())
     *_, failed = found(bundle)[:1]
     with pytest.raises(RecordError, match=r"cannot be put away until the rest of its set is unpacked.*No space left"):
-        failed.read(Options())
+        failed.read(ReadOptions())
 
 
 def test_a_bundle_that_is_cut_keeps_what_came_before(folder):
@@ -207,6 +207,6 @@ def test_a_bundle_that_is_cut_keeps_what_came_before(folder):
     for data, good in ((whole[: len(whole) * 2 // 3], 2), (gzip.compress(spoilt, 1), 3), (spoilt, 3), (lie, 4)):
         bundle.write_bytes(data)
         *kept, failed = [each for each in found(bundle) if each.failure or len(each.blobs) == 3]
-        assert [each.read(Options()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
+        assert [each.read(ReadOptions()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
         with pytest.raises(RecordFormatError, match=r"event.tar.gz is a damaged or encrypted archive"):
-            failed.read(Options())
+            failed.read(ReadOptions())

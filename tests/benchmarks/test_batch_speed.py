@@ -8,13 +8,13 @@ import time
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.models.respond import solve_respond
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Component, Record, motion_of
-from seisblock.solvers.respond import solve_respond
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.batch import cluster
 from seisblock.studies.batch.run import run_batch
-from seisblock.studies.runs import cores
+from seisblock.studies.parallel import cpu_count
 from tests.batch.conftest import shaking, write_record
 
 BODIES = {f"block {number}": Block(0.15 + 0.01 * number, 1.0) for number in range(20)}
@@ -59,12 +59,12 @@ def test_a_row(benchmark, solver, bodies, options, single):
 def test_two_processes(benchmark, tmp_path):
     """Two of a local cluster against one; what client and scheduler take of a record is told beside, which no load changes."""
     pytest.importorskip("distributed")
-    if benchmark.disabled or cores() < 2 or os.getloadavg()[0] > 0.5:
+    if benchmark.disabled or cpu_count() < 2 or os.getloadavg()[0] > 0.5:
         pytest.skip("is a measurement, on two idle cores")
     names = [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=6000, peak=3.0)) for seed in range(20)]
     bodies = {f"block {number}": Block(0.15 + 0.005 * number, 0.9) for number in range(100)}
     alone, beside = _on_processes(1, names, bodies)
-    with cluster.connected("local:2") as client:
+    with cluster.connect("local:2") as client:
         run_batch(names[:4], bodies, "rock", client=client)
         table = benchmark.pedantic(run_batch, args=(names, bodies, "rock"), kwargs={"client": client}, rounds=3)
     assert len(table) == 20 * 2 * 100
@@ -74,7 +74,7 @@ def test_two_processes(benchmark, tmp_path):
 
 def _on_processes(count, names, bodies):
     """Return how long a batch takes on some processes, at best, and the time of a processor that this one spends meanwhile."""
-    with cluster.connected(f"local:{count}") as client:
+    with cluster.connect(f"local:{count}") as client:
         run_batch(names[: 2 * count], bodies, "rock", client=client)
         found = []
         for _ in range(3):

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.two_layer import TwoLayerBlock, load_contact, load_two_layer
-from seisblock.dynamics import follow
+from seisblock.dynamics import integrate
+from seisblock.models.jump import flight as flying
+from seisblock.models.jump import jump_many, modes, rocking, solve_jump
 from seisblock.records import Motion
-from seisblock.solvers.jump import flight as flying
-from seisblock.solvers.jump import jump_many, modes, rocking, solve_jump
 from tests.benchmarks.test_slide_speed import best
 from tests.solvers.uplift_motions import shaking
 
@@ -25,16 +25,16 @@ def parameters(**changed):
 
 def flight():
     p = modes.flight_parameters(BLOCK, 1e-9, 0.2, 0.2, 0.3, QUIET.dt)
-    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0, *[0.0] * 4], modes.FLIGHT, keep_path=False)
+    return integrate(flying.FLIGHT_MODEL, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0, *[0.0] * 4], modes.FLIGHT, keep_path=False)
 
 
 def rest():
-    return follow(rocking.ROCKING, QUIET, parameters(), [0.0, 0.0], rocking.REST, keep_path=False)
+    return integrate(rocking.ROCKING_MODEL, QUIET, parameters(), [0.0, 0.0], rocking.REST, keep_path=False)
 
 
 def rocks():
     # gravity and push scaled down so that one swing lasts the whole record
-    return follow(rocking.ROCKING, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
+    return integrate(rocking.ROCKING_MODEL, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
 
 
 MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}

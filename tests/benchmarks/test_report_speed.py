@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from seisblock.bodies.subjects import subject
-from seisblock.present.files import write_records
-from seisblock.present.pages.report import report
 from seisblock.readers import read
+from seisblock.report.html.report import report
+from seisblock.report.io.atomic import write_records
 from seisblock.studies.assessment import assess
+from seisblock.studies.report.models import body_models
 from tests.present.long_record import record
 
 THREE = ("gravestone", "chozusha", "24cmx72cm")
@@ -26,7 +26,7 @@ def cpu_of_children():
 @pytest.mark.slow
 def test_report_of_one_body(benchmark):
     """The bundled record of 60 s and a gravestone: models, versions and three drawings."""
-    record, stone = read("synthetic_jma.csv"), subject("gravestone")
+    record, stone = read("synthetic_jma.csv"), body_models("gravestone")
     page = benchmark.pedantic(lambda: report(assess(record, [stone])), rounds=3, warmup_rounds=1)
     assert page.count("data:image/svg+xml") == 3
 

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block, from_slenderness
-from seisblock.dynamics import follow
+from seisblock.dynamics import integrate
+from seisblock.models.respond import constants, respond_many, respond_params, solve_respond
+from seisblock.models.respond.model import RESPOND
 from seisblock.records import Motion
-from seisblock.solvers.respond import make_setting, names, respond_many, solve_respond
-from seisblock.solvers.respond.model import RESPOND
 from tests.benchmarks.test_slide_speed import strong_motion
 from tests.solvers.respond.cases import leaning
 
@@ -36,15 +36,15 @@ def bound(benchmark, seconds):
 
 def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     """Time a run that stays almost wholly in some modes; hold its time per sample against a bound."""
-    setting = make_setting(block, **friction)
+    setting = respond_params(block, **friction)
     p, y = setting.parameters(motion.dt), setting.state(initial)
 
     def work(keep=False):
-        return follow(RESPOND, motion, p, y, names.START, gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep)
+        return integrate(RESPOND, motion, p, y, constants.START, gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep)
 
     kept = work(keep=True)
     samples = kept.end.sample
-    inside = np.isin([names.MODES[each] for each in kept.modes[1 : samples + 1]], mode)
+    inside = np.isin([constants.MODES[each] for each in kept.modes[1 : samples + 1]], mode)
     assert samples > 2000
     assert inside.mean() > 0.97
     benchmark(work)
@@ -87,7 +87,7 @@ def versions(block, n=200):
     size, width = np.exp(rng.normal(0.0, 0.05, (2, n)))
     mu, e = 0.35 * np.exp(rng.normal(0.0, 0.2, n)), rng.uniform(0.0, 0.3, n)
     return [
-        make_setting(Block(block.width * w * s, block.height * s), mu=m, restitution=r)
+        respond_params(Block(block.width * w * s, block.height * s), mu=m, restitution=r)
         for w, s, m, r in zip(width, size, mu, e, strict=True)
     ]
 

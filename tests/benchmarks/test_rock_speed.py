@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.bodies.block import Block, from_slenderness
-from seisblock.bodies.blocks import rectangles
-from seisblock.dynamics import follow, follow_many
+from seisblock.bodies.block_array import rectangular_blocks
+from seisblock.dynamics import integrate, integrate_many
+from seisblock.models.rock.model import REST, ROCKING, TO_RIGHT, parameters
+from seisblock.models.rock.params import rock_batch_params, rock_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.model import REST, ROCKING, TO_RIGHT, parameters
-from seisblock.solvers.rock.rocker import rocker, rockers
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.rock.stride import ROCKING_TOGETHER
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum
+from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, rocking_spectrum
 from tests.benchmarks.test_slide_speed import TIMES_FASTER_ALONE, best, share
 from tests.crosscheck.test_slide import G, pyslammer_motion
 
@@ -29,23 +29,23 @@ def test_a_sample_of_rocking(benchmark):
     """At most 500 ns per sample while rocking, at round-off accuracy."""
     block = from_slenderness(0.25, 2.14)
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
-    p = parameters(rocker(block, motion, restitution=0.9999), motion.dt)
-    answer = benchmark(follow, ROCKING, motion, p, (0.15, 0.0), TO_RIGHT, keep_path=False, keep_events=False)
+    p = parameters(rock_params(block, motion, restitution=0.9999), motion.dt)
+    answer = benchmark(integrate, ROCKING, motion, p, (0.15, 0.0), TO_RIGHT, keep_path=False, keep_events=False)
     assert answer.final_mode != REST
     bound(benchmark, 500e-9 * SAMPLES)
 
 
 def test_a_sample_of_many_that_rock(benchmark):
     """At most 60 ns per sample of each of 64 blocks side by side on one core, impacts included: the same bits as alone."""
-    blocks = rectangles(np.linspace(0.9, 1.1, 64), np.linspace(3.4, 4.4, 64))
+    blocks = rectangular_blocks(np.linspace(0.9, 1.1, 64), np.linspace(3.4, 4.4, 64))
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
-    p = parameters(rockers(blocks, motion, restitution=0.9999), motion.dt)
+    p = parameters(rock_batch_params(blocks, motion, restitution=0.9999), motion.dt)
 
     def work():
-        return follow_many(ROCKING_TOGETHER, motion, p, [0.15, 0.0], TO_RIGHT, gains=(1.0, 0.0, 0.0))
+        return integrate_many(ROCKING_SIMD_MODEL, motion, p, [0.15, 0.0], TO_RIGHT, gains=(1.0, 0.0, 0.0))
 
     answer = benchmark(work)
-    assert (answer.final_mode != REST).all() and (answer.n_changes > 50).any()
+    assert (answer.final_mode != REST).all() and (answer.n_events > 50).any()
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / (SAMPLES * 64) * 1e9
     bound(benchmark, 60e-9 * SAMPLES * 64)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from seisblock.bodies.scan.enclosed import enclosed_by
+from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import Mesh, read_mesh
-from seisblock.bodies.scan.polygon import hull
-from seisblock.bodies.scan.resting import resting
+from seisblock.bodies.scan.polygon import convex_hull
+from seisblock.bodies.scan.resting_pose import find_resting_pose
 from tests.bodies.meshes import frustum, write_stl
 
 SIDES = 250_000
@@ -33,8 +33,8 @@ def test_a_million_triangles_become_a_body(benchmark):
     mesh = Mesh(*frustum(SIDES, 0.3, 0.25, 0.9))
 
     def body():
-        found = enclosed_by(mesh)
-        return found, resting(mesh.vertices, found.centre, tolerance=1e-3, source="a scan"), hull(mesh.vertices[:, :2])
+        found = mass_properties(mesh)
+        return found, find_resting_pose(mesh.vertices, found.centre, tolerance=1e-3, source="a scan"), convex_hull(mesh.vertices[:, :2])
 
     found, on, outline = benchmark.pedantic(body, rounds=1, warmup_rounds=0)
     assert found.volume == pytest.approx(np.pi * 0.9 * (0.3**2 + 0.3 * 0.25 + 0.25**2) / 3.0, rel=1e-6)

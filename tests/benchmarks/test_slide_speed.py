@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
-from seisblock.dynamics import follow_many
+from seisblock.dynamics import integrate_many
+from seisblock.models.slide.model import SLIDE, STICK, parameters
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion
-from seisblock.solvers.slide.model import SLIDE, STICK, parameters
-from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study
 from tests.crosscheck.test_slide import PYSLAMMER, G, pyslammer_motion
 
@@ -56,7 +56,7 @@ def test_kernel_speed(benchmark):
     p = np.array([parameters(sliding_base(mu, kappa=0.5), G) for mu in mus])
 
     def work():
-        return follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=[1.0, 0.0, 1.0])
+        return integrate_many(SLIDE, motion, p, np.zeros(4), STICK, gains=[1.0, 0.0, 1.0])
 
     benchmark.pedantic(work, rounds=5, warmup_rounds=1)
     per_sample = best(work) / (mus.size * motion.samples) * 1e9

@@ -10,8 +10,8 @@ import pytest
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.stack.solve import solve_stack
 
 WIDTH = 0.2424
 SECONDS = 10.0

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.solvers.uplift.harmonic import uplift_thresholds
-from seisblock.solvers.uplift.many import uplift_many
-from seisblock.solvers.uplift.solve import solve_uplift
+from seisblock.models.uplift.batch import uplift_many
+from seisblock.models.uplift.harmonic import uplift_thresholds
+from seisblock.models.uplift.solve import solve_uplift
 from tests.benchmarks.test_slide_speed import best
 from tests.solvers.uplift_motions import shaking
 

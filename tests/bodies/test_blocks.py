@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from seisblock.bodies.block import Block, resized
-from seisblock.bodies.blocks import Blocks, gathered, rectangles, versions
-from seisblock.bodies.inset import Inset
-from seisblock.errors import BodyError, ParameterError
+from seisblock.bodies.block import Block, scale_block
+from seisblock.bodies.block_array import BlockArray, block_variants, rectangular_blocks, to_block_array
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.core.errors import BodyError, ParameterError
 
 RNG = np.random.default_rng(11)
 STATUE = Block(0.4, 1.6, mass=300.0, centroid_height=0.9, centroid_offset=0.04, centroid_inertia=70.0, inset=0.01)
 
 
-def assert_same(found: Blocks, alone: list[Block]):
+def assert_same(found: BlockArray, alone: list[Block]):
     """Hold every array against the property of the same name of each block."""
     assert len(found) == len(alone)
     for name in ("centre", "gyration_squared", "radii", "slendernesses", "lever_ratios", "restitutions"):
@@ -20,12 +20,12 @@ def assert_same(found: Blocks, alone: list[Block]):
     np.testing.assert_array_equal(np.column_stack([found.right, found.left]), [block.arms for block in alone])
 
 
-@pytest.mark.parametrize("inset", [Inset(), Inset(share=0.1), Inset(length_m=0.02, share=0.05)], ids=str)
+@pytest.mark.parametrize("inset", [EdgeWear(), EdgeWear(share=0.1), EdgeWear(length_m=0.02, share=0.05)], ids=str)
 def test_rectangles(inset):
     """Widths and heights drawn at random, some of them wider than tall, where the restitution is zero."""
     widths, heights = RNG.uniform(0.1, 3.0, (2, 200))
-    found = rectangles(widths, heights, inset)
-    assert_same(found, [Block(float(w), float(h)).worn(inset) for w, h in zip(widths, heights, strict=True)])
+    found = rectangular_blocks(widths, heights, inset)
+    assert_same(found, [Block(float(w), float(h)).with_wear(inset) for w, h in zip(widths, heights, strict=True)])
     assert (found.restitutions == 0.0).any() and (found.restitutions > 0.9).any()
 
 
@@ -33,28 +33,28 @@ def test_rectangles(inset):
 def test_versions_are_those_that_one_resizes_and_wears(block):
     """Lengths by any factors, edges as they are or by a share of the new width; a given inertia keeps its radius of gyration, to an ulp."""
     size, wider, share = RNG.uniform(0.8, 1.2, 100), RNG.uniform(0.8, 1.2, 100), RNG.uniform(0.0, 0.1, 100)
-    alone = [resized(block, size=float(s), slenderness=float(q)) for s, q in zip(size, wider, strict=True)]
-    worn = [each.worn(float(x)) for each, x in zip(alone, share, strict=True)]
+    alone = [scale_block(block, size=float(s), slenderness=float(q)) for s, q in zip(size, wider, strict=True)]
+    worn = [each.with_wear(float(x)) for each, x in zip(alone, share, strict=True)]
     for found, expected in (
-        (versions(block, size=size, slenderness=wider), alone),
-        (versions(block, size=size, slenderness=wider, inset_share=share), worn),
+        (block_variants(block, size=size, slenderness=wider), alone),
+        (block_variants(block, size=size, slenderness=wider, inset_share=share), worn),
     ):
         kept = [each.gyration_squared for each in expected]
         np.testing.assert_allclose(found.gyration_squared, kept, rtol=3e-16)
-        assert_same(Blocks(found.right, found.left, found.centre, np.array(kept)), expected)
+        assert_same(BlockArray(found.right, found.left, found.centre, np.array(kept)), expected)
 
 
 def test_blocks_that_are_there_are_gathered():
     """Any blocks, in their order."""
     some = [Block(0.24, 0.8), STATUE, Block(3.0, 0.2)]
-    assert_same(gathered(some), some)
+    assert_same(to_block_array(some), some)
 
 
 def test_what_no_block_can_be_is_refused_in_its_words():
     """The first of them says what is wrong."""
     with pytest.raises(BodyError, match=r"width must be positive.*-1"):
-        rectangles([0.3, -1.0], [0.9, 0.9])
+        rectangular_blocks([0.3, -1.0], [0.9, 0.9])
     with pytest.raises(ParameterError, match=r"leaves nothing of a base 0\.3 m wide"):
-        rectangles([0.9, 0.3], [0.9, 0.9], Inset(length_m=0.2))
+        rectangular_blocks([0.9, 0.3], [0.9, 0.9], EdgeWear(length_m=0.2))
     with pytest.raises(BodyError, match="must lie above the base"):
-        versions(STATUE, size=[1.0, 1.0], slenderness=[1.0, 1.0], inset_share=[0.1, 0.45])
+        block_variants(STATUE, size=[1.0, 1.0], slenderness=[1.0, 1.0], inset_share=[0.1, 0.45])

@@ -7,10 +7,10 @@ import pytest
 
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
-from seisblock.errors import BodyError
-from seisblock.present.text.tables import number
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import use_locale
 from seisblock.readers import sample_path
-from seisblock.words import speaking
+from seisblock.report.text.tables import format_number
 from tests import make_aoyama
 
 SURVEY = """\
@@ -31,7 +31,7 @@ def test_columns_in_english_with_a_ratio():
     assert [s.fallen for s in found.stones] == [True, False]
     assert (found.size, found.ratios.tolist()) == (5, [2.6, 3.1, 3.1, 3.1, 3.1])
     assert [s.line for s in found.stones] == [2, 3]
-    assert found.surveyed
+    assert found.has_survey
 
 
 def test_columns_in_japanese_with_sizes():
@@ -143,7 +143,7 @@ def test_aoyama_has_the_printed_shares_and_says_that_it_is_reconstructed():
     assert aoyama.ratios.min() >= 1.25
     assert aoyama.ratios.max() <= 6.5
     assert "RECONSTRUCTED" in aoyama.notes[0]
-    assert not aoyama.surveyed
+    assert not aoyama.has_survey
     assert not aoyama.reinforced.any()
     assert np.all(aoyama.widths() < 0.31)
 
@@ -156,8 +156,8 @@ def test_the_script_makes_aoyama_again():
 @pytest.mark.parametrize("lang", ["en", "ja"])
 def test_what_the_program_prints_is_read_back(lang):
     """Yes and no as tables print them, in either language, and as surveys mark them."""
-    with speaking(lang):
-        yes, no = number(True), number(False)
+    with use_locale(lang):
+        yes, no = format_number(True), format_number(False)
     for fell, stood in ((yes, no), ("○", "×"), ("◯", "✕"), ("有", "無"), ("転倒", "残存")):
         found = parse_cemetery(f"H/B,転倒,補強\n2.6,{fell},{no}\n3.1,{stood},{yes}\n")
         assert [stone.fallen for stone in found.stones] == [True, False]

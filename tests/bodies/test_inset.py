@@ -10,21 +10,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import SHARP, WORN, Inset, parse_inset
-from seisblock.bodies.library import block_of, load_block
+from seisblock.bodies.edge_wear import DEFAULT_WEAR, SHARP_EDGES, EdgeWear, parse_edge_wear
+from seisblock.bodies.factory import block_from_table, load_block
 from seisblock.cli import main
-from seisblock.errors import BodyError, InputError, ParameterError
+from seisblock.core.errors import BodyError, InputError, ParameterError
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.studies.inverse import estimate
-from seisblock.studies.rocking.spectra import rocking_spectrum
+from seisblock.studies.rocking.spectrum import rocking_spectrum
+from seisblock.studies.survey import estimate
 
 STONE = Block(0.24, 0.72, 0.3, centroid_height=0.3, centroid_offset=0.01)
 
 
 def test_worn_edges_change_the_arms_and_nothing_else():
     """Mass, centre and inertia stay those of the whole body; arms, alpha, R and the threshold are those of the worn corners."""
-    worn = STONE.worn(0.1)
+    worn = STONE.with_wear(0.1)
     assert worn.inset == pytest.approx(0.024, rel=1e-15)
     assert (worn.total_mass, worn.centre, worn.gyration_squared) == (STONE.total_mass, STONE.centre, STONE.gyration_squared)
     assert worn.arms == pytest.approx((0.24 * 0.4 - 0.01, 0.24 * 0.4 + 0.01))
@@ -37,7 +37,7 @@ def test_worn_edges_change_the_arms_and_nothing_else():
 def test_a_worn_block_rocks_as_one_whose_base_is_so_narrow(share, width, ratio):
     """The equations know the base by its arms alone: a narrower block of the same mass, centre and inertia answers alike."""
     whole = Block(width, width * ratio, mass=100.0)
-    worn = whole.worn(share)
+    worn = whole.with_wear(share)
     narrow = Block(width * (1 - 2 * share), width * ratio, mass=100.0, centroid_inertia=100.0 * whole.gyration_squared)
     assert worn.slendernesses == pytest.approx(narrow.slendernesses, rel=1e-12)
     assert worn.lever_ratios == pytest.approx(narrow.lever_ratios, rel=1e-12)
@@ -46,24 +46,32 @@ def test_a_worn_block_rocks_as_one_whose_base_is_so_narrow(share, width, ratio):
 
 @pytest.mark.parametrize(
     ("text", "inset"),
-    [("0.05", WORN), ("5%", WORN), (" 5 % ", WORN), (0.05, WORN), ("1cm", Inset(0.01)), ("0.5sun", Inset(0.01515)), ("0", SHARP)],
+    [
+        ("0.05", DEFAULT_WEAR),
+        ("5%", DEFAULT_WEAR),
+        (" 5 % ", DEFAULT_WEAR),
+        (0.05, DEFAULT_WEAR),
+        ("1cm", EdgeWear(0.01)),
+        ("0.5sun", EdgeWear(0.01515)),
+        ("0", SHARP_EDGES),
+    ],
 )
 def test_a_share_or_a_length(text, inset):
     """A bare number or a percentage is a share of the width per side, a number with a unit a length."""
-    assert parse_inset(text) == inset
+    assert parse_edge_wear(text) == inset
 
 
 @pytest.mark.parametrize("text", ["-0.1", "-1cm", "nan", "wide", "1 parsec"])
 def test_what_is_no_inset_is_refused(text):
     """One sentence each."""
     with pytest.raises(InputError):
-        parse_inset(text)
+        parse_edge_wear(text)
 
 
 def test_something_of_the_base_must_be_left():
     """Half the width per side, and a centre of gravity beyond the worn edge, are refused."""
     with pytest.raises(ParameterError, match=r"inset of 0\.12 m per side leaves nothing"):
-        Block(0.24, 0.72).worn(0.5)
+        Block(0.24, 0.72).with_wear(0.5)
     with pytest.raises(BodyError, match="inset must lie between 0 and half the width"):
         Block(0.24, 0.72, inset=0.12)
     with pytest.raises(BodyError, match=r"within 0\.096 m of its middle"):
@@ -75,17 +83,17 @@ def test_gravestones_are_worn_and_other_bodies_are_not():
     assert load_block("gravestone").inset == pytest.approx(0.05 * 0.2424)
     assert load_block("chozusha").inset == 0.0
     table = {"kind": "block", "width": 0.4, "height": 1.0}
-    assert block_of(table).inset == 0.0
-    assert [block_of({**table, "inset": given}).inset for given in (0.05, "2cm", "5%")] == pytest.approx([0.02, 0.02, 0.02])
+    assert block_from_table(table).inset == 0.0
+    assert [block_from_table({**table, "inset": given}).inset for given in (0.05, "2cm", "5%")] == pytest.approx([0.02, 0.02, 0.02])
     with pytest.raises(BodyError, match="inset must be a number"):
-        block_of({**table, "inset": [1]})
+        block_from_table({**table, "inset": [1]})
 
 
 def test_a_spectrum_of_worn_blocks_is_that_of_each():
     """rocking_spectrum tells the lean over the alpha that is left, as solve_rock does."""
     motion = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 6 * np.pi, 301)), 0.01)
-    found = rocking_spectrum([1.0], [0.3], motion, inset=WORN)
-    alone = solve_rock(Block(math.sin(0.3), math.cos(0.3)).worn(WORN), motion).outcome
+    found = rocking_spectrum([1.0], [0.3], motion, inset=DEFAULT_WEAR)
+    alone = solve_rock(Block(math.sin(0.3), math.cos(0.3)).with_wear(DEFAULT_WEAR), motion).outcome
     assert found.max_rotation_ratio[0, 0] == alone.max_rotation_ratio
     assert alone.max_rotation_ratio != solve_rock(Block(math.sin(0.3), math.cos(0.3)), motion).outcome.max_rotation_ratio
 
@@ -135,7 +143,9 @@ def test_the_fit_has_its_edges_in_it(run):
 
 def test_estimates_of_worn_rigid_stones_need_less_shaking(run, monkeypatch):
     """`infer --criterion rigid`: stones that turn about worn edges fell at a smaller PGA, by the rule of their limits."""
-    monkeypatch.setattr(estimate, "contour", partial(estimate.contour, frequencies=[1.0]))  # which stands beside the estimate
+    monkeypatch.setattr(
+        estimate, "frequency_contour", partial(estimate.frequency_contour, frequencies=[1.0])
+    )  # which stands beside the estimate
     words = ("infer", "--cemetery", "aoyama.csv", "--rate", "35/100", "--frequency", 1, "--criterion", "rigid", "--inset")
     sharp, worn = (run(*words, text)[0]["results"][0]["pga_m_s2"] for text in ("0", "0.1"))
     assert 0.75 < worn / sharp < 0.95

@@ -4,12 +4,12 @@ import math
 
 import pytest
 
-from seisblock.bodies.block import Block, resized
-from seisblock.bodies.library import block_of, load_block
+from seisblock.bodies.block import Block, scale_block
+from seisblock.bodies.factory import block_from_table, load_block
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.cli.bodies.block import choose_block
-from seisblock.errors import BodyError, InputError
-from seisblock.present.documents.bodies import block_entry
+from seisblock.core.errors import BodyError, InputError
+from seisblock.report.json.bodies import block_entry
 
 
 def test_bundled_gravestone():
@@ -82,7 +82,7 @@ def test_units_and_everything_a_block_takes(tmp_path):
 def test_wrong_tables_are_refused(table, says):
     """One sentence each."""
     with pytest.raises(InputError, match=says):
-        block_of(table)
+        block_from_table(table)
 
 
 def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
@@ -113,7 +113,7 @@ def test_incomplete_choices_are_refused(asked, says):
 
 def test_resizing_a_given_mass_keeps_what_was_given():
     """A mass that was given stays; its inertia scales with the square of the size."""
-    block = resized(Block(0.4, 1.0, mass=100.0, centroid_inertia=9.0), size=2.0)
+    block = scale_block(Block(0.4, 1.0, mass=100.0, centroid_inertia=9.0), size=2.0)
     assert (block.total_mass, block.centroid_inertia) == (100.0, 36.0)
 
 
@@ -122,7 +122,7 @@ def test_resizing_a_given_inertia_keeps_its_gyration(depth):
     """Where the mass follows from the volume, the inertia follows the mass: its radius of gyration doubles with the size, no more (N6)."""
     block = Block(0.4, 1.0, depth, centroid_inertia=30.0)
     for slenderness in (1.0, 1.1):
-        twice = resized(block, size=2.0, slenderness=slenderness)
+        twice = scale_block(block, size=2.0, slenderness=slenderness)
         assert twice.gyration_squared == pytest.approx(4.0 * block.gyration_squared, rel=1e-12)
         assert twice.frequency_parameter(9.8) == pytest.approx(
             Block(0.8 * slenderness, 2.0, mass=1.0, centroid_inertia=4.0 * block.gyration_squared).frequency_parameter(9.8), rel=1e-12

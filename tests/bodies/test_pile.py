@@ -10,8 +10,8 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.errors import BodyError, ParameterError
-from seisblock.units import SUN
+from seisblock.core.errors import BodyError, ParameterError
+from seisblock.core.units import SUN
 
 FOOT = PileStone("foot", 0.6, 0.6, 0.2)
 HEAD = PileStone("head", 0.3, 0.3, 0.5, on="foot")
@@ -69,7 +69,7 @@ def test_the_lantern_stands():
             ),
             "unstable at rest: the stone slab",
         ),
-        (lambda: pile(FOOT, replace(HEAD, offset=(0.25, 0.0))).worn(0.45), "unstable at rest: the stone foot"),
+        (lambda: pile(FOOT, replace(HEAD, offset=(0.25, 0.0))).with_wear(0.45), "unstable at rest: the stone foot"),
         (lambda: pile(FOOT, replace(HEAD, density=0.0)), "density of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, height=-1.0)), "height of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, mu=-0.1)), "friction under the stone head must be zero or more"),
@@ -120,14 +120,14 @@ def test_dowels_that_are_not_there_are_refused(tmp_path):
 
 def test_contact_is_per_mass_or_physical():
     """Table 2 is 10 Hz and critical damping per point; a joint of known stiffness shares it among its points."""
-    normal, dashpot, shear, _ = PileContact().of_joint(100.0, 0.04, 0.3, 25)
+    normal, dashpot, shear, _ = PileContact().point_coefficients(100.0, 0.04, 0.3, 25)
     assert math.sqrt(normal / 100.0) / (2.0 * math.pi) == pytest.approx(10.0, rel=1e-4)
     assert dashpot / (2.0 * math.sqrt(normal * 100.0)) == pytest.approx(1.0, rel=1e-4)
     assert shear / normal == pytest.approx(0.4, rel=1e-4)
-    normal, dashpot, _, _ = PileContact(stiffness=1e9, damping_ratio=0.5).of_joint(100.0, 0.04, 0.3, 4)
+    normal, dashpot, _, _ = PileContact(stiffness=1e9, damping_ratio=0.5).point_coefficients(100.0, 0.04, 0.3, 4)
     assert normal == pytest.approx(1e7)
     assert 4 * dashpot == pytest.approx(2 * 0.5 * math.sqrt(4e7 * 100.0))
-    assert PileContact(young=3e9).of_joint(100.0, 0.04, 0.3, 1)[0] == pytest.approx(3e9 * 0.04 / 0.3)
+    assert PileContact(young=3e9).point_coefficients(100.0, 0.04, 0.3, 1)[0] == pytest.approx(3e9 * 0.04 / 0.3)
     with pytest.raises(ParameterError, match="not both"):
         PileContact(young=1e9, stiffness=1e9)
     with pytest.raises(ParameterError, match="must be positive"):
@@ -142,10 +142,10 @@ def test_what_slides_may_have_less_friction_than_what_clings(tmp_path):
     file.write_text(f'kind = "pile"\nmu = 0.7\nmu_kinetic = 0.5\n{stones}')
     own = load_pile(file)
     assert [own.friction(), *map(own.friction, own.stones)] == [(0.7, 0.5), (0.4, 0.1), (0.7, 0.5)]
-    alike = own.sliding_at(0.3)
+    alike = own.with_kinetic_friction(0.3)
     assert [alike.friction(stone) for stone in alike.stones] == [(0.4, 0.3), (0.7, 0.3)]
     same = load_pile(file, mu=0.2)
-    assert not same.slides_easier and own.slides_easier
+    assert not same.has_lower_kinetic_friction and own.has_lower_kinetic_friction
     assert {same.friction(stone) for stone in same.stones} == {(0.2, 0.2)}
 
 

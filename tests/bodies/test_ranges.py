@@ -8,20 +8,20 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import within
-from seisblock.bodies.library import load_block
-from seisblock.bodies.ranges import Ranges
+from seisblock.bodies.block_array import within
+from seisblock.bodies.factory import load_block
+from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.cli import main
-from seisblock.errors import BodyError
+from seisblock.core.errors import BodyError
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.fragility.run import run_fragility
-from seisblock.studies.rocking.perturb import Spread, draws_of, perturb
-from seisblock.studies.standing.probability import Versions, changed_settings, respond_probability
+from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params, respond_probability
+from seisblock.studies.rocking.perturb import Spread, draw_samples, perturb
 
 PULSE = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.01)
-FRIDGE = Ranges(width_m=(0.6, 0.75), height_m=(1.6, 1.9), inset_m=(0.02, 0.06), mu=(0.15, 0.5))
+FRIDGE = ParameterRanges(width_m=(0.6, 0.75), height_m=(1.6, 1.9), inset_m=(0.02, 0.06), mu=(0.15, 0.5))
 FILE = 'kind = "block"\nname = "thing"\nwidth = "60cm"\nheight = "1.8m"\nmu = 0.3\n[ranges]\n'
 
 
@@ -47,8 +47,8 @@ def test_within_fills_a_range_with_the_own_value_as_median():
 def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_sizes():
     """Width and height of this body are known, vary by 5 % independently of each other, and are the medians."""
     body = load_block("refrigerator")
-    draws = draws_of(4000, 1)
-    some = changed_settings(body, Versions(), draws, mu=0.3)
+    draws = draw_samples(4000, 1)
+    some = perturbed_respond_params(body, ParameterVariation(), draws, mu=0.3)
     heights = 2 * some.blocks.centre
     widths = np.sqrt(12 * some.blocks.gyration_squared - heights**2)
     insets = (widths / 2 - some.blocks.right) / widths * body.width
@@ -67,13 +67,13 @@ def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_size
 def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
     """Ranges or not, all samples do what the body does: `rock` and `respond`."""
     block = Block(0.24, 0.8)
-    same = replace(block, ranges=Ranges(inset_m=(0.0, 0.02), mu=(0.2, 0.9)))
+    same = replace(block, ranges=ParameterRanges(inset_m=(0.0, 0.02), mu=(0.2, 0.9)))
     for size in (0.8, 1.0, 1.5):
         motion = Motion.from_arrays(size * PULSE.horizontal, 0.01)
         still = Spread(size=0.0, slenderness=0.0, inset=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
         found = perturb(same, motion, 5, spread=still)
         assert found.overturned == 5 * rock_verdict(block, motion).overturned
-        nothing = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+        nothing = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
         one = respond_probability(same, motion, mu=0.5, runs=3, versions=nothing)
         assert one.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and one.ranges == same.ranges
 
@@ -81,7 +81,7 @@ def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
 def test_what_is_given_is_known():
     """A width of its edges or a friction that the user gives has no range any more; a resized block has none of its drawing."""
     body = load_block("refrigerator")
-    assert body.worn(0.05).ranges == Ranges(width_m=FRIDGE.width_m, height_m=FRIDGE.height_m, mu=FRIDGE.mu)
+    assert body.with_wear(0.05).ranges == ParameterRanges(width_m=FRIDGE.width_m, height_m=FRIDGE.height_m, mu=FRIDGE.mu)
     line = ["respond", "elcentro_1940_ns.csv", "--block", "refrigerator", "--runs", "2", "--json", "--quiet"]
     for more, inset, mu in (
         ([], [0.02, 0.06], [0.15, 0.5]),
@@ -126,7 +126,9 @@ def test_unmeasured_edges_scatter_more():
     """The dispersion of a gravestone of unknown edges is more than that of one whose edges were measured."""
     suite = ["synthetic_jma.csv", "elcentro_1940_ns.csv"]
     stone = load_block("gravestone")
-    study = run_fragility(suite, {"any": stone, "one": stone.known("inset_m")}, "rock", im="pgv", perturb=12, steps=12, bootstrap=2)
+    study = run_fragility(
+        suite, {"any": stone, "one": stone.without_ranges("inset_m")}, "rock", im="pgv", perturb=12, steps=12, bootstrap=2
+    )
     wide, narrow = study.curves
     assert wide.dispersion.beta_parameter > 1.1 * narrow.dispersion.beta_parameter
     (note,) = (note for note in study.notes if note.startswith("any: its versions lie within its own ranges"))

@@ -3,28 +3,28 @@
 import pytest
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.kinds import of_kind
-from seisblock.bodies.roster import read_bodies
-from seisblock.bodies.subjects import subject
-from seisblock.errors import BodyError
+from seisblock.bodies.table import read_bodies
+from seisblock.core.errors import BodyError
+from seisblock.core.units import SUN
 from seisblock.studies.batch.models import batch_model
-from seisblock.units import SUN
+from seisblock.studies.report.models import body_models
 
 
 def told(tmp_path, text, encoding="utf-8"):
     """Return what a table says of its bodies."""
     path = tmp_path / "bodies.csv"
     path.write_bytes(text.encode(encoding))
-    return {body.name: dict(body.told) for body in read_bodies(path)}
+    return {body.name: dict(body.parameters) for body in read_bodies(path)}
 
 
 def test_units_stand_in_headings_or_cells(tmp_path):
     """A cell's own unit counts, then that of its column, then metres and kilograms."""
     text = "# the museum\nname,width (cm),height,mass_t,inset,slope (deg)\na,12,40cm,0.5,5%,\nb,8sun,1.6,900kg,1cm,3\n"
     assert told(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
-        "a": {"width": 0.12, "height": 0.4, "mass": 500.0, "inset": Inset(share=0.05)},
-        "b": {"width": pytest.approx(8 * SUN), "height": 1.6, "mass": 900.0, "inset": Inset(length_m=0.01), "slope_deg": 3.0},
+        "a": {"width": 0.12, "height": 0.4, "mass": 500.0, "inset": EdgeWear(share=0.05)},
+        "b": {"width": pytest.approx(8 * SUN), "height": 1.6, "mass": 900.0, "inset": EdgeWear(length_m=0.01), "slope_deg": 3.0},
     }
 
 
@@ -39,7 +39,7 @@ def test_rows_may_take_a_body_from_elsewhere(tmp_path):
     """A bundled body or a file, beside bodies named by themselves."""
     (tmp_path / "b.csv").write_text("name,body,mu,side\npavilion,chozusha,0.3,long\n")
     row, alone = read_bodies([tmp_path / "b.csv", "gravestone"])
-    assert (row.description["kind"], row.told, alone.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
+    assert (row.description["kind"], row.parameters, alone.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
 
 
 @pytest.mark.parametrize(
@@ -84,12 +84,12 @@ def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
     """As `--kind` does for one body, in both languages of the heading; beside a file, or misspelt, it is refused with its line."""
     path = tmp_path / "stones.csv"
     path.write_text("名前,幅,高さ,種類,mu\n墓,0.24,0.72,gravestone,0.6\n棚,0.3,1.8,furniture,0.6\n")
-    grave, shelf = (batch_model("respond").place(listed, {}).body for listed in read_bodies(path))
+    grave, shelf = (batch_model("respond").build_body(listed, {}).body for listed in read_bodies(path))
     assert (grave.inset, grave.ranges.inset_m) == (of_kind(Block(0.24, 0.72), "gravestone").inset, (0.0, pytest.approx(0.024)))
     assert (shelf.inset, shelf.ranges) == (0.0, None)
-    assert subject("24cmx72cm", kind="gravestone").block.inset == grave.inset
+    assert body_models("24cmx72cm", kind="gravestone").block.inset == grave.inset
     for row, says in (("a,,,statue,0.5,lantern", "or `body`, not both"), ("a,0.2,0.6,grave,0.5,", "no kind of body 'grave'")):
         path.write_text(f"name,width,height,kind,mu,body\n{row}\n")
         (listed,) = read_bodies(path)
         with pytest.raises(BodyError, match=rf"line 2: .*{says}"):
-            batch_model("respond").place(listed, {})
+            batch_model("respond").build_body(listed, {})

@@ -8,18 +8,18 @@ import pytest
 from numpy.polynomial import Polynomial
 from scipy.spatial.transform import Rotation
 
-from seisblock import Block, Inset, Motion, motion_of, read, solve_rock
-from seisblock.bodies.library import along, load_block
-from seisblock.bodies.scan.body import ScannedBody, weakest
-from seisblock.bodies.scan.directions import scan_azimuths
-from seisblock.bodies.scan.doubts import scan_doubts
-from seisblock.bodies.scan.enclosed import enclosed_by
-from seisblock.bodies.scan.mesh import UPWARD, Mesh, read_mesh
-from seisblock.bodies.scan.polygon import depth_within, hull, least_width, reach, shrunk
+from seisblock import Block, EdgeWear, Motion, motion_of, read, solve_rock
+from seisblock.bodies.factory import block_for_motion, load_block
+from seisblock.bodies.scan.azimuths import scan_azimuths
+from seisblock.bodies.scan.body import ScannedBody, min_slenderness
+from seisblock.bodies.scan.mass_properties import mass_properties
+from seisblock.bodies.scan.mesh import AXIS_ROTATIONS, Mesh, read_mesh
+from seisblock.bodies.scan.polygon import convex_hull, interior_distance, min_width, offset_polygon, support_distance
+from seisblock.bodies.scan.qc import scan_qc_messages
 from seisblock.bodies.scan.scan import scan_body
-from seisblock.bodies.scan.toml import load_scan, scanned_body, told
-from seisblock.bodies.toml import read_table
-from seisblock.errors import BodyError, ComponentError, InputError
+from seisblock.bodies.scan.toml import load_scan, scan_from_table, scan_to_toml
+from seisblock.bodies.toml import read_body_toml
+from seisblock.core.errors import BodyError, ComponentError, InputError
 from tests import make_boulder
 from tests.bodies.meshes import box, frustum, write_obj, write_ply, write_stl
 
@@ -43,7 +43,7 @@ def test_what_a_frustum_encloses(sides, below, above):
     height, far = 0.9, np.array([3.0, -2.0, 5.0])
     vertices, faces = frustum(sides, below, above, height)
     used = np.unique(faces)
-    found = enclosed_by(Mesh(*_shared(vertices[used] + far, np.searchsorted(used, faces))))
+    found = mass_properties(Mesh(*_shared(vertices[used] + far, np.searchsorted(used, faces))))
     z = Polynomial([0.0, 1.0])
     radius = below + (above - below) / height * z
     area, moment = regular(sides, 1.0)
@@ -76,7 +76,7 @@ def boxed(tmp_path_factory):
 def test_a_box_is_a_block_towards_each_of_its_sides(boxed):
     """+x is east: towards 90 degrees it is as wide as along x. Mass, centre, inertia, alpha and p are those of the rectangle."""
     for azimuth, width, depth in ((90.0, 0.3, 0.4), (0.0, 0.4, 0.3), (270.0, 0.3, 0.4), (180.0, 0.4, 0.3)):
-        found, expected = boxed.body.towards(azimuth), Block(width, 0.9, depth, density=2000.0)
+        found, expected = boxed.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
         assert found.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
         for name in ("arms", "radii", "slendernesses", "corner_inertias", "lever_ratios", "restitutions"):
             assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
@@ -96,7 +96,7 @@ def test_a_box_turns_about_its_corner_between_its_sides(boxed, azimuth):
     """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""
     angle = math.radians(90.0 - azimuth)
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
-    found = boxed.body.towards(azimuth)
+    found = boxed.body.block_toward(azimuth)
     mass = 2000.0 * 0.3 * 0.4 * 0.9
     assert found.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
     about_y, about_x = mass * (0.3**2 + 0.9**2) / 12, mass * (0.4**2 + 0.9**2) / 12
@@ -107,7 +107,7 @@ def test_facing_turns_the_body(boxed):
     """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
     turned = ScannedBody(**{**vars_of(boxed.body), "facing": 130.0})
     for azimuth in (0.0, 17.0, 200.0):
-        before, after = boxed.body.towards(azimuth), turned.towards(azimuth + 40.0)
+        before, after = boxed.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
         assert before.arms == pytest.approx(after.arms, rel=1e-12) and before.gyration_squared == pytest.approx(
             after.gyration_squared, rel=1e-12
         )
@@ -125,22 +125,22 @@ def test_formats_agree(write, tmp_path):
     path = write(tmp_path / f"box.{write.__name__[-3:]}", vertices, faces)
     mesh = read_mesh(path, unit="mm")
     assert len(mesh.vertices) == 10 and len(mesh.faces) == 16
-    assert enclosed_by(mesh).volume == pytest.approx(0.108, rel=1e-7)
+    assert mass_properties(mesh).volume == pytest.approx(0.108, rel=1e-7)
 
 
-@pytest.mark.parametrize("up", UPWARD)
+@pytest.mark.parametrize("up", AXIS_ROTATIONS)
 def test_every_axis_may_point_upwards(up, tmp_path):
     """Whatever axis is up, volume and height are the same, nothing is mirrored, and the body stands."""
     vertices, faces = frustum(5, 0.3, 0.2, 0.8, sheared=(0.05, 0.02))
     shuffled = np.empty_like(vertices)
-    for column, (axis, sign) in enumerate(UPWARD[up]):
+    for column, (axis, sign) in enumerate(AXIS_ROTATIONS[up]):
         shuffled[:, axis] = sign * vertices[:, column]
     kept = 1 if up.endswith("x") else 0
-    assert UPWARD[up][kept] == (kept, 1)
+    assert AXIS_ROTATIONS[up][kept] == (kept, 1)
     body = scan_body(write_ply(tmp_path / "body.ply", shuffled, faces), up=up).body
     upright = scan_body(write_ply(tmp_path / "upright.ply", vertices, faces)).body
     assert body.centre == pytest.approx(upright.centre, abs=1e-12)
-    assert body.towards(77.0).arms == pytest.approx(upright.towards(77.0).arms, abs=1e-12)
+    assert body.block_toward(77.0).arms == pytest.approx(upright.block_toward(77.0).arms, abs=1e-12)
 
 
 def test_a_scan_that_leans_is_laid_level(tmp_path, boxed):
@@ -150,9 +150,9 @@ def test_a_scan_that_leans_is_laid_level(tmp_path, boxed):
     found = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
     assert math.degrees(found.tilt) == pytest.approx(4.0, abs=1e-6)
     assert found.body.height == pytest.approx(0.9, abs=1e-8)
-    assert weakest(found.body)[0] == pytest.approx(weakest(boxed.body)[0], abs=1e-7)
+    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(boxed.body)[0], abs=1e-7)
     assert np.array(found.body.inertia) == pytest.approx(np.array(boxed.body.inertia), abs=1e-6)
-    assert any("turned by 4 degrees" in doubt for doubt in scan_doubts(found))
+    assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(found))
 
 
 def test_feet_carry_and_a_hollow_between_them_does_not(tmp_path):
@@ -161,7 +161,7 @@ def test_feet_carry_and_a_hollow_between_them_does_not(tmp_path):
     vertices[8, 2] = 0.05  # the middle of the base
     assert scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).touching == 4
     found = scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).body
-    assert found.towards(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
+    assert found.block_toward(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
 
 
 def test_the_tolerance_decides_what_carries(tmp_path):
@@ -170,9 +170,9 @@ def test_the_tolerance_decides_what_carries(tmp_path):
     vertices[0, 2] = 0.003
     path = write_ply(tmp_path / "short.ply", vertices, faces)
     wide, narrow = (scan_body(path, tolerance=tolerance).body for tolerance in (0.004, 0.001))
-    assert wide.towards(90.0).arms[0] == pytest.approx(0.3, abs=1e-3)
-    assert narrow.towards(90.0).arms[0] == pytest.approx(0.3 * math.cos(math.pi / 4.0), abs=1e-3)
-    assert "depends on the tolerance" in " ".join(scan_doubts(scan_body(path, tolerance=0.002)))
+    assert wide.block_toward(90.0).arms[0] == pytest.approx(0.3, abs=1e-3)
+    assert narrow.block_toward(90.0).arms[0] == pytest.approx(0.3 * math.cos(math.pi / 4.0), abs=1e-3)
+    assert "depends on the tolerance" in " ".join(scan_qc_messages(scan_body(path, tolerance=0.002)))
 
 
 def test_an_irregular_body_against_points_in_a_grid():
@@ -180,7 +180,7 @@ def test_an_irregular_body_against_points_in_a_grid():
     towards, faces = make_boulder.sphere(40_000)
     points = make_boulder.bumpy(towards)
     points[:, 2] = np.maximum(points[:, 2], -make_boulder.CUT)
-    found = enclosed_by(Mesh(points, faces))
+    found = mass_properties(Mesh(points, faces))
     spacing = 0.011
     axes = [np.arange(low + spacing / 2, high, spacing) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -199,11 +199,11 @@ def test_worn_edges_of_a_regular_polygon(sides):
     """Moving all sides inwards leaves a similar polygon; its corners move by more than its sides."""
     turn = 2.0 * np.pi * np.arange(sides) / sides
     corners = np.column_stack([np.cos(turn), np.sin(turn)])
-    left = shrunk(corners, 0.1)
+    left = offset_polygon(corners, 0.1)
     share = 1.0 - 0.1 / math.cos(math.pi / sides)
     assert len(left) == sides
     assert np.sort(np.linalg.norm(left, axis=1)) == pytest.approx(np.full(sides, share), rel=1e-9)
-    assert depth_within(left, (0.0, 0.0)) == pytest.approx(math.cos(math.pi / sides) - 0.1, rel=1e-9)
+    assert interior_distance(left, (0.0, 0.0)) == pytest.approx(math.cos(math.pi / sides) - 0.1, rel=1e-9)
 
 
 def test_a_hull_keeps_what_stands_out():
@@ -211,40 +211,40 @@ def test_a_hull_keeps_what_stands_out():
     dice = np.random.default_rng(3)
     towards = np.stack([np.cos(np.arange(0.0, 6.3, 0.01)), np.sin(np.arange(0.0, 6.3, 0.01))])
     for points in (dice.normal(size=(20_000, 2)), dice.uniform(size=(300, 2))):
-        assert (hull(points) @ towards).max(axis=0) == pytest.approx((points @ towards).max(axis=0), abs=1e-6 * np.ptp(points))
+        assert (convex_hull(points) @ towards).max(axis=0) == pytest.approx((points @ towards).max(axis=0), abs=1e-6 * np.ptp(points))
     turn = np.linspace(0.0, 2.0 * np.pi, 30_000, endpoint=False)
     ring = np.column_stack([np.cos(turn), np.sin(turn)])
-    corners = hull(ring)
+    corners = convex_hull(ring)
     assert 500 < len(corners) < 5000
     assert (corners @ towards).max(axis=0) == pytest.approx(np.ones(towards.shape[1]), abs=1e-5)
-    assert len(hull([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])) < 3
+    assert len(convex_hull([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])) < 3
 
 
 def test_worn_edges_may_swallow_a_side():
     """A short side between two long ones is gone when they meet before it; beyond the deepest point nothing is left."""
-    roof = hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
-    assert len(shrunk(roof, 0.2)) == 4 and len(roof) == 5
-    assert len(shrunk(roof, 0.6)) == 0
-    assert least_width(roof) == pytest.approx(1.1)
-    assert reach(roof, (0.0, 1.0)) == pytest.approx(1.1)
+    roof = convex_hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
+    assert len(offset_polygon(roof, 0.2)) == 4 and len(roof) == 5
+    assert len(offset_polygon(roof, 0.6)) == 0
+    assert min_width(roof) == pytest.approx(1.1)
+    assert support_distance(roof, (0.0, 1.0)) == pytest.approx(1.1)
 
 
 def test_an_inset_moves_every_side_of_the_base(boxed):
     """10 mm in: arms shrink by 10 mm towards sides, by more towards corners; a share is one of the least width, 0.3 m."""
-    worn = boxed.body.worn(Inset(length_m=0.01))
-    assert worn.towards(90.0).arms == pytest.approx((0.14, 0.14), rel=EXACT)
-    assert worn.towards(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
-    assert worn.towards(90.0).inset == pytest.approx(0.01, rel=1e-9)
-    assert boxed.body.worn(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
+    worn = boxed.body.with_wear(EdgeWear(length_m=0.01))
+    assert worn.block_toward(90.0).arms == pytest.approx((0.14, 0.14), rel=EXACT)
+    assert worn.block_toward(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
+    assert worn.block_toward(90.0).inset == pytest.approx(0.01, rel=1e-9)
+    assert boxed.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
     with pytest.raises(BodyError, match="leaves nothing of the base"):
-        boxed.body.worn(Inset(length_m=0.16))
+        boxed.body.with_wear(EdgeWear(length_m=0.16))
 
 
 def test_towards_the_opposite_azimuth_it_is_the_same_block_seen_from_behind():
     """Arms and restitutions change sides, mass and inertia stay: the two sides of a boulder differ."""
     body = load_scan("boulder")
     for azimuth in (0.0, 33.0, 120.0):
-        here, behind = body.towards(azimuth), body.towards(azimuth + 180.0)
+        here, behind = body.block_toward(azimuth), body.block_toward(azimuth + 180.0)
         assert here.arms == pytest.approx(behind.arms[::-1], rel=1e-12)
         assert here.restitutions == pytest.approx(behind.restitutions[::-1], rel=1e-12)
         assert abs(here.arms[0] - here.arms[1]) > 1e-3
@@ -252,16 +252,16 @@ def test_towards_the_opposite_azimuth_it_is_the_same_block_seen_from_behind():
 
 def test_the_table_of_azimuths_is_that_of_the_blocks():
     """b, alpha, R, I_O, p and the threshold towards an azimuth are those of the block's right corner; the least alpha is among them."""
-    body = load_scan("boulder").worn(0.05)
+    body = load_scan("boulder").with_wear(0.05)
     around = scan_azimuths(body, step_deg=1.0)
     for each in around[::37]:
-        block = body.towards(each.azimuth_deg)
+        block = body.block_toward(each.azimuth_deg)
         assert (each.arm_m, each.slenderness_rad, each.radius_m) == (block.arms[0], block.slendernesses[0], block.radii[0])
         inertia = block.gyration_squared * body.mass + body.mass * each.radius_m**2
         assert each.pivot_inertia_kg_m2 == pytest.approx(inertia, rel=1e-12)
         assert each.frequency_parameter_rad_s == pytest.approx(math.sqrt(body.mass * 9.80665 * each.radius_m / inertia), rel=1e-12)
         assert each.threshold_m_s2 == pytest.approx(9.80665 * math.tan(each.slenderness_rad), rel=1e-12)
-    alpha, azimuth = weakest(body)
+    alpha, azimuth = min_slenderness(body)
     least = min(around, key=lambda each: each.slenderness_rad)
     assert alpha <= least.slenderness_rad == pytest.approx(alpha, rel=1e-3)
     assert abs(azimuth - least.azimuth_deg) <= 1.0
@@ -270,7 +270,7 @@ def test_the_table_of_azimuths_is_that_of_the_blocks():
 def test_a_box_from_a_scan_rocks_as_the_block(boxed):
     """Towards its side, a scanned box leans, hits and falls as the block of its sizes, at the same times."""
     pulse = Motion.from_arrays(4.2 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401)), 0.01, name="90")
-    scanned = solve_rock(along(boxed.body, pulse), pulse).outcome
+    scanned = solve_rock(block_for_motion(boxed.body, pulse), pulse).outcome
     drawn = solve_rock(Block(0.3, 0.9), pulse).outcome
     assert scanned.rocks and scanned.impacts == drawn.impacts
     assert scanned.max_rotation_rad == pytest.approx(drawn.max_rotation_rad, rel=1e-9)
@@ -281,21 +281,21 @@ def test_a_motion_knows_its_azimuth():
     record = read("synthetic_jma.csv")
     assert [motion_of(record, name).azimuth_deg for name in ("NS", "EW", "37")] == [0.0, 90.0, 37.0]
     body, bare = load_scan("boulder"), Motion.from_arrays([0.0, 1.0], 0.01)
-    assert body.along(motion_of(record, "EW")) == body.towards(90.0)
+    assert body.block_for_motion(motion_of(record, "EW")) == body.block_toward(90.0)
     assert bare.azimuth_deg is None
     with pytest.raises(ComponentError, match="another block in each direction"):
-        along(body, bare)
-    assert along(load_block("gravestone"), bare) == load_block("gravestone")
+        block_for_motion(body, bare)
+    assert block_for_motion(load_block("gravestone"), bare) == load_block("gravestone")
 
 
 def test_a_body_is_read_as_it_was_written(tmp_path):
     """Every number of the TOML keeps its digits; a name with quotation marks is one."""
-    found = scan_body("boulder.ply", inset=Inset(length_m=0.004), facing=12.5, called='a "stone" \\ 石')
+    found = scan_body("boulder.ply", inset=EdgeWear(length_m=0.004), facing=12.5, body_name='a "stone" \\ 石')
     path = tmp_path / "stone.toml"
-    path.write_text(told(found), encoding="utf-8")
+    path.write_text(scan_to_toml(found), encoding="utf-8")
     assert load_scan(path) == found.body
     written = (make_boulder.sample_directory() / "boulder.toml").read_text(encoding="utf-8")
-    now, then = ("".join(text.splitlines(keepends=True)[1:20]) for text in (told(scan_body("boulder.ply")), written))
+    now, then = ("".join(text.splitlines(keepends=True)[1:20]) for text in (scan_to_toml(scan_body("boulder.ply")), written))
     assert NUMBER.sub("#", now) == NUMBER.sub("#", then)
     # sums of thousands of facets end otherwise in the last digits on another processor
     np.testing.assert_allclose([float(n) for n in NUMBER.findall(now)], [float(n) for n in NUMBER.findall(then)], rtol=1e-9, atol=1e-12)
@@ -371,7 +371,7 @@ def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
     for write in (write_ply, write_obj, write_stl):
         path = write(tmp_path / f"box.{write.__name__[-3:]}", *BOX)
         with monkeypatch.context() as patch:
-            patch.setattr("seisblock.bodies.scan.mesh._triangles", None)
+            patch.setattr("seisblock.bodies.scan.mesh._load_triangles", None)
             with pytest.raises(BodyError, match=r"16 triangles, and 10 are allowed: .* SEISBLOCK_TRIANGLES"):
                 read_mesh(path)
     monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
@@ -383,14 +383,14 @@ def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
 def test_a_wrong_unit_is_a_doubt():
     """A gravestone of 300 m, and one of 1 mm."""
     for unit in ("km", "mm"):
-        assert any("files of meshes do not say their unit" in doubt for doubt in scan_doubts(scan_body("boulder.ply", unit=unit)))
-    assert not any("unit" in doubt for doubt in scan_doubts(scan_body("boulder.ply", inset=0.1)))
+        assert any("files of meshes do not say their unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", unit=unit)))
+    assert not any("unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", inset=0.1)))
 
 
 def test_sharp_edges_are_a_doubt():
     """What two granite rocks taught is said where no inset is given, and not where one is."""
-    assert "1.4 to 2.5 times" in " ".join(scan_doubts(scan_body("boulder.ply")))
-    assert list(scan_doubts(scan_body("boulder.ply", inset=0.1))) == []
+    assert "1.4 to 2.5 times" in " ".join(scan_qc_messages(scan_body("boulder.ply")))
+    assert list(scan_qc_messages(scan_body("boulder.ply", inset=0.1))) == []
 
 
 def test_what_else_stands_in_the_file_is_one_body(tmp_path):
@@ -399,7 +399,7 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
     both = write_ply(
         tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
     )
-    assert any("2 surfaces" in doubt for doubt in scan_doubts(scan_body(both)))
+    assert any("2 surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
     stray = write_ply(tmp_path / "stray.ply", np.concatenate([vertices, [[0.0, 0.0, -9.0]]]), faces)
     assert scan_body(stray).body.height == pytest.approx(0.9, rel=EXACT)
 
@@ -426,7 +426,7 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
 def test_a_scan_that_is_described_wrongly_is_refused_in_words(change, told_so):
     """Each slip in the TOML of a body is one sentence."""
     with pytest.raises(InputError, match=told_so):
-        scanned_body({**read_table("boulder"), **change})
+        scan_from_table({**read_body_toml("boulder"), **change})
 
 
 def test_one_block_is_not_taken_for_a_scan():

@@ -7,11 +7,11 @@ import time
 
 import pytest
 
-from seisblock.bodies.library import friction_of, load_block, restitution_of
+from seisblock.bodies.factory import load_block, table_friction, table_restitution
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.bodies.toml import read_table
+from seisblock.bodies.toml import read_body_toml
 from seisblock.bodies.two_layer import load_contact, load_two_layer
-from seisblock.errors import BodyError, InputError
+from seisblock.core.errors import BodyError, InputError
 from seisblock.samples import sample_path
 
 NO_NUMBERS = ("true", "[1]", "{ a = 1 }", "2020-01-01", "07:32:00", '"x"', "nan", "inf", "9" * 400, "1e308", "-1")
@@ -40,11 +40,11 @@ def test_a_block(key, value, tmp_path):
 @pytest.mark.parametrize("key", ["mu", "mu_kinetic"])
 def test_friction_and_restitution(key, value, tmp_path):
     """What the commands look up beside the block."""
-    table = read_table(written(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
+    table = read_body_toml(written(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
     with pytest.raises(BodyError, match=key):
-        friction_of(table, "body.toml")
+        table_friction(table, "body.toml")
     with pytest.raises(BodyError, match="restitution"):
-        restitution_of(table, "body.toml")
+        table_restitution(table, "body.toml")
 
 
 @pytest.mark.parametrize("value", NO_NUMBERS)
@@ -93,14 +93,14 @@ def test_no_toml(text, tmp_path):
     path = tmp_path / "body.toml"
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
     with pytest.raises(BodyError, match="is not a TOML description"):
-        read_table(path)
+        read_body_toml(path)
 
 
 def test_names_that_no_file_has():
     """Too long for a file system, or with a NUL: no such body, in a sentence of ordinary length."""
     for name in ("x" * 5000, "a\0b"):
         with pytest.raises(BodyError, match="no body file") as caught:
-            read_table(name)
+            read_body_toml(name)
         assert len(str(caught.value)) < 1000
 
 
@@ -110,7 +110,7 @@ def test_a_file_that_may_not_be_read(tmp_path):
     path = written(tmp_path, STONE)
     path.chmod(0)
     with pytest.raises(BodyError, match="Permission denied"):
-        read_table(path)
+        read_body_toml(path)
 
 
 def test_a_pile_of_thousands_is_refused_at_once(tmp_path):

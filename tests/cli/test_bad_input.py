@@ -106,7 +106,7 @@ FOREIGN = {
 @pytest.mark.parametrize(("header", "azimuths"), FOREIGN.items(), ids=FOREIGN)
 def test_an_azimuth_is_met_by_the_azimuths_of_the_record(tmp_path, header, azimuths):
     """`--component 37` of foreign layouts: turned by the record's own azimuths, refused where there are none."""
-    from seisblock.errors import ComponentError
+    from seisblock.core.errors import ComponentError
     from seisblock.readers import read
     from seisblock.records import motion_of
 

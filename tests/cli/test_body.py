@@ -39,10 +39,10 @@ def stone(tmp_path_factory):
 
 def test_what_is_written_is_what_was_scanned(stone):
     """The file holds the body of the library call, to the last digit."""
-    found = scan_body("boulder.ply", facing=30.0, called="stone").body
+    found = scan_body("boulder.ply", facing=30.0, body_name="stone").body
     written = load_scan(stone)
     assert written.inset_m == 0.01
-    assert written == found.worn(written.inset)
+    assert written == found.with_wear(written.inset)
 
 
 def test_document_table_and_rows_say_the_same(stone, tmp_path):
@@ -68,7 +68,7 @@ def test_document_table_and_rows_say_the_same(stone, tmp_path):
 def test_each_component_meets_its_own_block(stone):
     """NS and EW find other arms, told beside each answer; respond and criteria take the same ones."""
     body = load_scan(stone)
-    expected = [min(body.towards(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
+    expected = [min(body.block_toward(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
     rocked = document("rock", *SHORT, "--block", stone)["results"]
     assert [min(r["block"]["slenderness_right_rad"], r["block"]["slenderness_left_rad"]) for r in rocked] == pytest.approx(expected)
     stood = document("respond", *SHORT, "--block", stone, "--mu", "0.4", "--runs", "0")["results"]
@@ -167,7 +167,7 @@ FIT = ("fit", "shaken_block.csv", "--free", "inset", "--runs", "1", "--folds", "
 def test_a_fit_begins_with_the_block_of_the_azimuth_that_was_shaken(stone):
     """The arms towards that azimuth."""
     block = document(*FIT, "--block", stone, "--azimuth", "40")["parameters"]["block"]
-    expected = load_scan(stone).towards(40.0)
+    expected = load_scan(stone).block_toward(40.0)
     assert block["width_m"] == expected.width and block["centroid_offset_m"] == expected.centroid_offset
     assert block["centroid_inertia_kg_m2"] == pytest.approx(expected.gyration_squared * expected.mass, rel=1e-12)
 

@@ -5,7 +5,7 @@ import shlex
 import pytest
 
 from seisblock.cli import main
-from seisblock.cli.elsewhere import respond_line
+from seisblock.cli.hints import respond_command
 from seisblock.cli.options import Source
 
 GIVEN = (
@@ -39,6 +39,6 @@ def prepared(line):
 def test_the_line_prepares_the_record_as_it_was(given):
     """Every option of the record is typed again: without the storey or the window it would be another answer."""
     asked = prepared(f"synthetic_jma.csv --component NS --component 30 {given} --width 1 --height 2 --mu 0.5")
-    line = respond_line(Source(**asked), "--width", "1", "--height", "2", "--mu", "0.5")
+    line = respond_command(Source(**asked), "--width", "1", "--height", "2", "--mu", "0.5")
     assert line.startswith("seisblock respond synthetic_jma.csv ")
     assert prepared(line.removeprefix("seisblock respond ")) == asked

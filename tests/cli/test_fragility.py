@@ -10,12 +10,12 @@ from click.testing import CliRunner
 
 from seisblock import Block, solve_rock
 from seisblock.cli import main
+from seisblock.core.i18n import gettext, use_locale
 from seisblock.records import Motion
-from seisblock.studies.fragility.answer import Fragility
-from seisblock.studies.fragility.estimate import IDA, Rules
+from seisblock.studies.fragility.estimate import IDA, FitOptions
 from seisblock.studies.fragility.intensity import intensity_measure
-from seisblock.studies.fragility.notes import notes_on
-from seisblock.words import speaking, tell
+from seisblock.studies.fragility.results import Fragility
+from seisblock.studies.fragility.warnings import fragility_warnings
 from tests.motions import synthetic_suite
 
 SHELF = ("--width", "30cm", "--height", "1.2", "--solver", "rock", "--im", "pgv", "--dt", "0.02", "--bootstrap", "20")
@@ -117,9 +117,9 @@ def test_bodies_and_limits_have_their_names_in_japanese(folder):
     assert answer.stdout.startswith("墓石、転倒：")
     warned = Fragility("gravestone", "slip=0.05m", "pgv", "m/s", IDA, 3, 3, 0, 0, 0, (), problem="none")
     own = replace(warned, body="{odd}\x1b[31m", limit="overturn")
-    rules = Rules(IDA, (intensity_measure("pgv"),), 0.95, 0, 0)
-    with speaking("ja"):
-        told = [tell(note) for note in notes_on([warned, own], [np.ones(3)], rules)]
+    rules = FitOptions(IDA, (intensity_measure("pgv"),), 0.95, 0, 0)
+    with use_locale("ja"):
+        told = [gettext(note) for note in fragility_warnings([warned, own], [np.ones(3)], rules)]
     assert any(text.startswith("墓石、移動 0.05 m：") for text in told)
     assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in told)
 
@@ -127,5 +127,5 @@ def test_bodies_and_limits_have_their_names_in_japanese(folder):
 def test_a_block_without_a_name_is_one_in_japanese():
     """What the solvers warn of names it as tables do."""
     motion = Motion.from_arrays(np.zeros(10), 0.01)
-    with speaking("ja"):
-        assert tell(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")
+    with use_locale("ja"):
+        assert gettext(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")

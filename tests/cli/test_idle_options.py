@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import infer, main
-from seisblock.cli.idle import RECORD_OPTIONS
+from seisblock.cli.option_checks import RECORD_OPTIONS
 from seisblock.cli.options import Source
 from seisblock.cli.output import Output
 
@@ -80,10 +80,10 @@ def test_a_body_of_one_block_has_no_long_side(line):
 def test_a_form_of_infer_refuses_all_that_it_does_not_read():
     """Each option of the command belongs to a form, or to all; the refused are those of the other forms."""
     shared = {*Source.__dataclass_fields__, *Output.__dataclass_fields__, "help", "lang", "cemetery", "slid", "jumped", "rate"}
-    own = {"--cemetery": {*infer.STONES}, "--slid": {*infer.SLID}, "--jumped": {*infer.JUMPED}}
+    own = {"--cemetery": {*infer.STONE_OPTIONS}, "--slid": {*infer.SLID_OPTIONS}, "--jumped": {*infer.JUMPED_OPTIONS}}
     assert {each.name for each in main.get_command(None, "infer").params} - shared == set().union(*own.values())
     for form, read in own.items():
-        idle = set(infer._idle(form, rigid=False))
+        idle = set(infer._foreign_options(form, rigid=False))
         assert not idle & (read - {"gravity"})
         assert idle == set().union(*own.values()) - read | (set(RECORD_OPTIONS) if form == "--cemetery" else set())
 

@@ -14,7 +14,7 @@ from click.testing import CliRunner
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import overturning_level
-from seisblock.studies.inverse import estimate
+from seisblock.studies.survey import estimate
 
 ESTIMATE = {
     "stones",
@@ -51,7 +51,7 @@ def document(run):
 @pytest.fixture
 def no_contour(monkeypatch):
     """Compute the contour at one frequency: the test looks at the estimates beside it."""
-    monkeypatch.setattr(estimate, "contour", partial(estimate.contour, frequencies=[2.0]))
+    monkeypatch.setattr(estimate, "frequency_contour", partial(estimate.frequency_contour, frequencies=[2.0]))
 
 
 @pytest.fixture

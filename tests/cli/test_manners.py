@@ -251,7 +251,7 @@ def test_what_the_library_calls_a_parameter_is_an_option_here(tmp_path, monkeypa
     """A sentence from below names parameters as Python does; the command line tells them as its own options, in any language."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bare.csv").write_text("NS (gal)\n" + "1\n2\n" * 50, encoding="utf-8")
-    from seisblock.errors import InputError
+    from seisblock.core.errors import InputError
     from seisblock.readers import read
 
     assert told in CliRunner().invoke(main, words).stderr

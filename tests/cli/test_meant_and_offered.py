@@ -6,9 +6,9 @@ from click.shell_completion import ShellComplete
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
-from seisblock.cli.meant import nearest
-from seisblock.cli.offered import SWEEPING
-from seisblock.words import speaking
+from seisblock.cli.shell_completion import SWEEP_COMMANDS
+from seisblock.cli.suggest import closest_name
+from seisblock.core.i18n import use_locale
 
 MISSPELT = (
     (("messure",), "measure"),
@@ -77,8 +77,8 @@ def test_what_is_like_nothing_is_not_asked_for(line):
 )
 def test_near_is_one_slip_a_beginning_or_a_word_that_goes_on(typed, meant):
     """Nothing else is: of a long name two slips."""
-    assert nearest(typed, COMMANDS) == meant and nearest(typed, ()) is None
-    assert nearest("ovreturn-rat", COMMANDS) == "overturn-rate" and nearest("ovretrn-rat", COMMANDS) is None
+    assert closest_name(typed, COMMANDS) == meant and closest_name(typed, ()) is None
+    assert closest_name("ovreturn-rat", COMMANDS) == "overturn-rate" and closest_name("ovretrn-rat", COMMANDS) is None
 
 
 def offered(*words):
@@ -123,9 +123,9 @@ def test_a_shell_is_offered_the_names_there_are(words, names):
 def test_every_direction_is_offered_where_it_is_understood():
     """A command that sweeps the azimuths says so in its help, and the others do not offer it."""
     for name in COMMANDS:
-        with speaking("en"):
+        with use_locale("en"):
             told = " ".join(CliRunner().invoke(main, [name, "--help"]).stdout.split())
-        assert ("--component all-azimuths" in told) == (name in SWEEPING), name
+        assert ("--component all-azimuths" in told) == (name in SWEEP_COMMANDS), name
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.core.units import STANDARD_GRAVITY
 
 CHOZUSHA_CENTROID = (1303.7 * (1.84 + 1.06 / 2) + 160.0 * 1.84 / 2) / 1463.7
 

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 
 from seisblock import Motion, solve_slide
-from seisblock.dynamics.halt import hearing
+from seisblock.dynamics.cancellation import progress_scope
 from tests.brief_record import brief_record
 
 COMMANDS = """
 import shlex, sys
 from seisblock.cli import main
 shown = sys.modules["seisblock.cli.progress"]
-shown.PATIENCE_S, shown.READY_S, shown.TICK_S = 0.0, 0.0, 0.001
+shown.SHOW_DELAY_S, shown.REFRESH_DELAY_S, shown.TICK_S = 0.0, 0.0, 0.001
 for line in sys.argv[1:]:
     try:
         main(shlex.split(line))
@@ -32,7 +32,7 @@ import importlib
 import numpy as np
 from seisblock import Motion, solve_slide
 shown = importlib.import_module("seisblock.cli.progress")
-shown.PATIENCE_S, shown.READY_S, shown.TICK_S = 0.0, 0.0, 0.001
+shown.SHOW_DELAY_S, shown.REFRESH_DELAY_S, shown.TICK_S = 0.0, 0.0, 0.001
 motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(1e6)), 0.01)
 with shown.progress("working"):
     solve_slide(0.2, motion)
@@ -149,7 +149,7 @@ def test_a_single_long_motion_says_how_far_it_is(tmp_path):
 def test_the_samples_that_are_told_grow_to_the_last_one():
     """The engine tells a motion piece by piece to its end; it begins anew where it needs more room for events."""
     motion, told = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
-    with hearing(lambda done, total: told.append((done, total))):
+    with progress_scope(lambda done, total: told.append((done, total))):
         solve_slide(0.2, motion)
     assert {total for _, total in told} == {motion.samples - 1}
     assert told[-1] == (motion.samples - 1, motion.samples - 1)

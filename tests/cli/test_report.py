@@ -9,23 +9,23 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from seisblock.bodies.library import load_block
-from seisblock.bodies.subjects import subject
+from seisblock.bodies.factory import load_block
 from seisblock.cli import main
+from seisblock.core.i18n import use_locale
 from seisblock.measures import measure
-from seisblock.present.figures.embed import MOST_POINTS, picture
-from seisblock.present.figures.heading import heading
-from seisblock.present.figures.measure import measure_figure
-from seisblock.present.pages.report import report
-from seisblock.present.pages.report_words import verdict
+from seisblock.models.jump.chain import JUMPED
+from seisblock.models.respond import solve_respond
+from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read, sample_path
 from seisblock.records import Preparation, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump.chain import JUMPED
-from seisblock.solvers.respond import solve_respond
-from seisblock.solvers.rock.solve import solve_rock
+from seisblock.report.figures.heading import heading
+from seisblock.report.figures.measure import measure_figure
+from seisblock.report.figures.svg import MAX_POINTS, embed_figure
+from seisblock.report.html.report import report
+from seisblock.report.html.report_text import verdict
 from seisblock.studies.assessment import assess
-from seisblock.words import speaking
+from seisblock.studies.report.models import body_models
 from tests.brief_record import brief_record
 from tests.language.english import english_in, seen_in
 
@@ -35,11 +35,11 @@ CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 @pytest.fixture(scope="module")
 def pages():
     """The page of a window of the bundled record, in both languages, with all four kinds of motion."""
-    bodies = [subject("gravestone"), subject("chozusha", frequency_vertical=5.0)]
+    bodies = [body_models("gravestone"), body_models("chozusha", frequency_vertical=5.0)]
     found = assess(crop(read("synthetic_jma.csv"), 22, 29), bodies, components=["EW"])
     made = {}
     for lang in ("en", "ja"):
-        with speaking(lang):
+        with use_locale(lang):
             made[lang] = report(found, command="seisblock report")
     return made
 
@@ -71,7 +71,7 @@ def square(tmp_path_factory):
     """What a record that is as it was read does to a square block."""
     path = tmp_path_factory.mktemp("record") / "brief.csv"
     path.write_bytes(brief_record())
-    return assess(read(path), [subject("1x1")], components=["EW"])
+    return assess(read(path), [body_models("1x1")], components=["EW"])
 
 
 @pytest.fixture(scope="module")
@@ -94,9 +94,9 @@ def test_a_file_is_named_without_its_folder(tmp_path):
 @pytest.mark.slow
 def test_what_was_done_to_the_record_stands_above_the_verdicts(square, page_of_square):
     """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
-    scaled = assess(Preparation(scale=0.5).apply(square.record), [subject("1x1")], components=["EW"])
+    scaled = assess(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
     for lang, told in (("en", "What was done to the record: "), ("ja", "記録に施した処理：")):
-        with speaking(lang):
+        with use_locale(lang):
             page = report(scaled)
         (line,) = re.findall(rf'<p class="processed">{told}(.*?)</p>', page)
         assert "0.5" in line and page.index(line) < page.index('<div class="verdicts">')
@@ -121,11 +121,11 @@ def test_a_drawing_loses_no_peak():
     for line in lines:
         line.axes.set_xlim(auto=True)
     before = [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines]
-    assert max(len(line.get_xdata()) for line in lines) > MOST_POINTS
-    drawn = picture(figure, "the record").source
+    assert max(len(line.get_xdata()) for line in lines) > MAX_POINTS
+    drawn = embed_figure(figure, "the record").source
     assert drawn.startswith("data:image/svg+xml") and len(drawn) < 900_000
     assert [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines] == before
-    assert max(len(line.get_xdata()) for line in lines) <= MOST_POINTS + 4
+    assert max(len(line.get_xdata()) for line in lines) <= MAX_POINTS + 4
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")

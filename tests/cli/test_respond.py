@@ -10,12 +10,12 @@ from click.testing import CliRunner
 
 from seisblock.bodies.block import Block
 from seisblock.cli import main
-from seisblock.present.figures.respond import figure
-from seisblock.present.scales import length_unit
-from seisblock.present.text.respond import share, signed, verdict
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
-from seisblock.studies.standing.probability import Probability, Versions
+from seisblock.report.figures.respond import figure
+from seisblock.report.text.respond import format_signed, probability_sentence, verdict
+from seisblock.report.units_display import length_unit
+from seisblock.studies.respond.probability import ParameterVariation, Probability
 
 CABINET = ("--width", "45cm", "--height", "180cm", "--mu", "0.3")
 KEYS = {
@@ -148,7 +148,7 @@ def test_files(tmp_path):
 def test_what_rounds_to_nothing_has_no_sign():
     """A quantile of a quarter of a millimetre is 0, not -0.0 cm."""
     unit = length_unit([0.0123], gal=True)
-    assert [signed(value, unit) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
+    assert [format_signed(value, unit) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
 
 
 def test_hops_too_small_to_see_have_no_panel():
@@ -245,8 +245,8 @@ def test_tenons_hold_the_feet_before_friction_does():
 )
 def test_one_version_falls_and_two_fall(fallen, begins):
     """The number of versions and its verb agree."""
-    found = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, Versions(), 0)
-    assert share(found).startswith(begins)
+    found = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, ParameterVariation(), 0)
+    assert probability_sentence(found).startswith(begins)
 
 
 @pytest.mark.parametrize(
@@ -255,8 +255,8 @@ def test_one_version_falls_and_two_fall(fallen, begins):
 )
 def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
     """Quantiles of less than half a millimetre are no interval to tell."""
-    found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, Versions(), 0)
-    assert share(found).endswith(ends)
+    found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, ParameterVariation(), 0)
+    assert probability_sentence(found).endswith(ends)
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,12 @@ from click.testing import CliRunner
 
 from seisblock import find_risk, read_hazard
 from seisblock.cli import main
-from seisblock.present.documents.risk import document
-from seisblock.present.text.risk import name_of
+from seisblock.core.i18n import use_locale
+from seisblock.report.json.risk import document
+from seisblock.report.text.risk import risk_label
+from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
-from seisblock.studies.hazard.given import GivenFragility
-from seisblock.words import speaking
 
 LINE = ("--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv")
 
@@ -120,7 +120,7 @@ def test_a_doubt_about_one_of_several_curves_says_about_which():
     """What is said of the hazard is said once."""
     hazard = Hazard("pga", "m/s2", (HazardCurve(np.array([0.1, 0.2]), np.array([1e-2, 2e-3])),), notes=("passed over",))
     given = [
-        GivenFragility("shelf", limit, "pga", "m/s2", Lognormal(median, 0.4)) for limit, median in (("overturns", 3.0), ("slides", 2.0))
+        FragilityCurve("shelf", limit, "pga", "m/s2", Lognormal(median, 0.4)) for limit, median in (("overturns", 3.0), ("slides", 2.0))
     ]
     answer = document([(each, find_risk(each.curve, hazard)) for each in given], hazard, "site.csv")
     about, *doubts = answer.warnings
@@ -130,9 +130,9 @@ def test_a_doubt_about_one_of_several_curves_says_about_which():
 
 def test_what_happens_is_listed_as_the_language_lists():
     """The body and what becomes of it, by their names and with the comma of the language spoken."""
-    given = GivenFragility("bookcase", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
+    given = FragilityCurve("bookcase", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
     names = {}
     for spoken in ("en", "ja"):
-        with speaking(spoken):
-            names[spoken] = name_of(given)
+        with use_locale(spoken):
+            names[spoken] = risk_label(given)
     assert names["en"].startswith("bookcase, ") and names["ja"].startswith("書棚、")

@@ -10,10 +10,10 @@ from click.testing import CliRunner
 
 from seisblock.bodies.block import Block
 from seisblock.cli import main
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.rocking import verdicts
-from seisblock.studies.rocking.spectra import rocking_spectrum
+from seisblock.studies.rocking.spectrum import rocking_spectrum
 from tests.lengths import all_but_slow
 
 GRID = ("--component", "NS", "--scale", 0.6, "--sizes", "30cm,1,3", "--height-over-width", "2,4")
@@ -143,7 +143,7 @@ def test_modes_take_the_vertical_motion_where_there_is_one(run):
 
 def test_progress_is_told_and_memory_is_bounded(monkeypatch):
     """The bar hears of every chunk and ends at the number of runs."""
-    monkeypatch.setattr(verdicts, "SAMPLES_AT_ONCE", 20_000)
+    monkeypatch.setattr(verdicts, "CHUNK_SIZE", 20_000)
     told = []
     motion = Motion.from_arrays(3 * np.sin(np.arange(400) * 0.1), 0.02)
     rocking_spectrum(np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), motion, progress=lambda done, total: told.append((done, total)))

@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.cli import main
+from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from seisblock.solvers.uplift.solve import solve_uplift
 from tests.solvers.uplift_motions import shaking
 
 BODY = ("--width", 0.6, "--height", 1.8, "--frequency-vertical", 6)

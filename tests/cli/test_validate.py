@@ -105,7 +105,7 @@ def test_a_claim_that_is_not_true_exits_with_one(case, says, monkeypatch):
 
 def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
     """An error inside a case is its failure, not the end of the run."""
-    from seisblock.errors import ParameterError
+    from seisblock.core.errors import ParameterError
 
     def refuse():
         raise ParameterError("no such thing")

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import ComponentError
+from seisblock.core.errors import ComponentError
 from seisblock.readers import read
 
 

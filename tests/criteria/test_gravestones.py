@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seisblock.criteria.gravestones import DOWELLED, judge, outside_fit, overturning_level, overturning_ratio
+from seisblock.criteria.gravestones import DOWELLED, fit_range_warnings, overturning_level, overturning_ratio, predict
 
 
 def test_more_acceleration_or_a_lower_frequency_overturns_stouter_stones():
@@ -17,14 +17,14 @@ def test_more_acceleration_or_a_lower_frequency_overturns_stouter_stones():
 
 def test_table_5_band_on_the_line_includes_its_ends():
     """|threshold - H/B| <= 0.1 is on the line, to the last bit of 2.6 - 2.5."""
-    assert [judge(2.6, t) for t in (2.49, 2.5, 2.6, 2.7, 2.71)] == ["overturns", *["on the line"] * 3, "stands"]
+    assert [predict(2.6, t) for t in (2.49, 2.5, 2.6, 2.7, 2.71)] == ["overturns", *["on the line"] * 3, "stands"]
 
 
 def test_leaving_the_fit_is_said():
     """Each of PGA, frequency and H/B outside its range is one sentence; the ends are inside."""
-    assert outside_fit(1.0, 0.5, [1.25, 6.5]) == ()
-    assert outside_fit(13.0, 3.0) == ()
-    said = outside_fit(14.0, 3.2, [1.0, 2.0, 7.0])
+    assert fit_range_warnings(1.0, 0.5, [1.25, 6.5]) == ()
+    assert fit_range_warnings(13.0, 3.0) == ()
+    said = fit_range_warnings(14.0, 3.2, [1.0, 2.0, 7.0])
     assert len(said) == 3
     assert "1400 gal" in said[0]
     assert "3.2 Hz" in said[1]

@@ -7,11 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
-from seisblock.criteria import first_mode, friction_to_rock, loading
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.criteria import first_mode, friction_to_rock, peak_loading_ratio
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import steady
 
 
@@ -34,15 +34,15 @@ def test_the_friction_that_a_corner_needs_rises_from_b_h_to_its_limit():
     assert friction_to_rock(block, b / h) is None
     assert friction_to_rock(block, b / h * (1.0 + 1e-12)) == pytest.approx(b / h, rel=1e-11)
     assert friction_to_rock(block, 1e12) == pytest.approx((k2 + b * b) / (b * h), rel=1e-9)
-    assert friction_to_rock(block.worn(0.1), 0.25) is not None
+    assert friction_to_rock(block.with_wear(0.1), 0.25) is not None
 
 
 def test_the_largest_push_counts_the_weight_of_its_instant():
     """The largest abs(a)/(g + a_y) need not be at the peak; ground that falls faster than gravity leaves no weight."""
     motion = Motion.from_arrays([0.0, 3.0, -2.5, 0.0], 0.5, vertical=[0.0, 2.0, -5.0, 0.0])
-    assert loading(motion, gravity=10.0) == (0.5, 1.0)
-    assert loading(motion, vertical=False, gravity=10.0) == (0.3, 0.5)
-    assert math.isinf(loading(Motion.from_arrays([0.0, 1.0], 0.5, vertical=[0.0, -11.0]), gravity=10.0)[0])
+    assert peak_loading_ratio(motion, gravity=10.0) == (0.5, 1.0)
+    assert peak_loading_ratio(motion, vertical=False, gravity=10.0) == (0.3, 0.5)
+    assert math.isinf(peak_loading_ratio(Motion.from_arrays([0.0, 1.0], 0.5, vertical=[0.0, -11.0]), gravity=10.0)[0])
 
 
 def test_what_cannot_be_a_friction_is_refused():

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
-from seisblock.criteria.card import OWN_FREQUENCY, once_each, overturning_card
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.criteria.compare import PREFERRED_FREQUENCY, overturning_card, unique_criteria
 from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio
-from seisblock.errors import ParameterError
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.units import STANDARD_GRAVITY as G
 
 STONE = Block(0.24, 0.63)
 TOLD = 6.278
@@ -65,11 +65,11 @@ def test_what_is_out_of_range_is_refused(alpha, p, f):
 def test_a_criterion_counts_once_however_many_frequencies_it_was_given():
     """Seven criteria take three frequencies each: the card has a row for each, the count has one (N13)."""
     rows = overturning_card(STONE, 5.0, 0.5, {"pga_pgv": 1.6, "fourier": 2.0, "pulse_width": None})
-    once = once_each(rows)
+    once = unique_criteria(rows)
     assert len(rows) == 6 + 8 * 2
     assert [row.criterion for row in once] == list(dict.fromkeys(row.criterion for row in rows))
-    assert {row.frequency for row in once} == {None, OWN_FREQUENCY}
-    assert once_each(rows, "fourier")[-1].frequency == "fourier"
+    assert {row.frequency for row in once} == {None, PREFERRED_FREQUENCY}
+    assert unique_criteria(rows, "fourier")[-1].frequency == "fourier"
     names = {row.criterion for row in rows}
     assert {"half sine, linear", "half sine, nonlinear"} <= names
     assert not any("half sine, exact" in name for name in names)

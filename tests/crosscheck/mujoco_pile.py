@@ -8,8 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
-from seisblock.units import STANDARD_GRAVITY
 
 FALLEN = math.cos(math.radians(60.0))
 

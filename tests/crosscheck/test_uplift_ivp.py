@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from seisblock.solvers.uplift.solve import solve_uplift
 from tests.solvers.uplift_motions import shaking
 
 G = 9.80665

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
-from seisblock.dynamics import follow, follow_many
-from seisblock.errors import ParameterError, SolverError
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.dynamics import integrate, integrate_many
+from seisblock.models.slide import model as slide
 from seisblock.records import Motion
-from seisblock.solvers.slide import model as slide
 from tests.dynamics.toy_models import BALL, FLIP, SLED
 
 pytestmark = pytest.mark.kernel
@@ -19,17 +19,17 @@ def test_rows_are_the_single_trajectories_bit_by_bit():
     motion = Motion.from_arrays(rng.normal(size=60), 0.02)
     limits = np.array([[0.3], [1.5], [99.0]])
     gains = np.array([[1.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
-    many = follow_many(SLED, motion, limits, [0.0, 0.0], 0, gains=gains)
+    many = integrate_many(SLED, motion, limits, [0.0, 0.0], 0, gains=gains)
     for row in range(3):
-        alone = follow(SLED, motion, limits[row], [0.0, 0.0], 0, gains=gains[row])
+        alone = integrate(SLED, motion, limits[row], [0.0, 0.0], 0, gains=gains[row])
         np.testing.assert_array_equal(many.final[row], alone.final)
         np.testing.assert_array_equal(many.extrema[row], alone.extrema)
-        assert many.n_changes[row] == alone.n_changes
+        assert many.n_events[row] == alone.n_events
         assert many.end_time[row] == alone.end_time
         assert many.final_mode[row] == alone.final_mode
-        first = alone.changes[0].time if alone.changes else np.nan
-        np.testing.assert_equal(many.first_change[row], first)
-    assert many.n_changes.tolist() == [1, 1, 0]
+        first = alone.events[0].time if alone.events else np.nan
+        np.testing.assert_equal(many.first_event_time[row], first)
+    assert many.n_events.tolist() == [1, 1, 0]
 
 
 def test_a_row_left_out_of_one_trajectory_is_zero_whatever_the_one_before_read():
@@ -37,28 +37,28 @@ def test_a_row_left_out_of_one_trajectory_is_zero_whatever_the_one_before_read()
     motion = Motion.from_arrays(np.sin(np.arange(40.0)), 0.02, vertical=np.full(40, -9.0))
     base = slide.parameters(sliding_base(0.3), 9.8)
     gains = np.array([[8.0, 0.0, 1.0], [8.0, 0.0, 0.0]])
-    many = follow_many(slide.SLIDE, motion, [base, base], np.zeros(4), slide.STICK, gains=gains)
-    alone = follow(slide.SLIDE, motion, base, np.zeros(4), slide.STICK, gains=gains[1])
-    assert alone.n_changes > 0
-    assert many.first_change[1] == alone.changes[0].time
+    many = integrate_many(slide.SLIDE, motion, [base, base], np.zeros(4), slide.STICK, gains=gains)
+    alone = integrate(slide.SLIDE, motion, base, np.zeros(4), slide.STICK, gains=gains[1])
+    assert alone.n_events > 0
+    assert many.first_event_time[1] == alone.events[0].time
     np.testing.assert_array_equal(many.final[1], alone.final)
 
 
 def test_tally_counts_guards_by_the_mode_they_lead_to():
     """A ball that bounces k times and rests has k entries of flight and one of rest, the mode that ends it."""
     motion = Motion.from_arrays(np.zeros(301), 0.01)
-    many = follow_many(BALL, motion, [[9.8, 0.5, 0.1]], [1.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
-    assert many.tally[0].tolist() == [[many.n_changes[0] - 1, 1]]
+    many = integrate_many(BALL, motion, [[9.8, 0.5, 0.1]], [1.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    assert many.transition_counts[0].tolist() == [[many.n_events[0] - 1, 1]]
 
 
 def test_stays_are_the_times_between_events():
     """The stays in each mode add up to the whole time; the longest is that between two events, or to the end."""
     motion = Motion.from_arrays(np.zeros(41), 0.01)
-    many = follow_many(BALL, motion, [[9.8, 0.9, 1e-9]], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
-    alone = follow(BALL, motion, [9.8, 0.9, 1e-9], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
-    times = np.array([0.0, *(change.time for change in alone.changes), alone.end_time])
-    assert alone.n_changes >= 2
-    total, longest = many.stays[0, 0]
+    many = integrate_many(BALL, motion, [[9.8, 0.9, 1e-9]], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    alone = integrate(BALL, motion, [9.8, 0.9, 1e-9], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    times = np.array([0.0, *(change.time for change in alone.events), alone.end_time])
+    assert alone.n_events >= 2
+    total, longest = many.dwell_times[0, 0]
     assert total == pytest.approx(0.4, abs=1e-15)
     assert longest == pytest.approx(np.diff(times).max(), abs=1e-15)
 
@@ -66,13 +66,13 @@ def test_stays_are_the_times_between_events():
 def test_failure_names_its_row():
     """A row that has to be given up is an error that says which."""
     with pytest.raises(SolverError, match="row 0"):
-        follow_many(FLIP, Motion.from_arrays(np.zeros(3), 0.01), [[0.0]], [0.0], 0, gains=[1.0, 0.0, 0.0])
+        integrate_many(FLIP, Motion.from_arrays(np.zeros(3), 0.01), [[0.0]], [0.0], 0, gains=[1.0, 0.0, 0.0])
 
 
 def test_one_flat_row_of_parameters_is_refused():
     """Parameters without the axis of rows are an error, not one trajectory per number."""
     with pytest.raises(ParameterError, match="one row"):
-        follow_many(SLED, Motion.from_arrays(np.zeros(3), 0.01), [0.3], [0.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
+        integrate_many(SLED, Motion.from_arrays(np.zeros(3), 0.01), [0.3], [0.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
 
 
 def test_follow_many_marks_failed_rows_where_failures_are_allowed():
@@ -81,7 +81,7 @@ def test_follow_many_marks_failed_rows_where_failures_are_allowed():
     parameters = np.array([[9.81, 0.5, 1e-3], [9.81, 0.5, -1.0]])
     start = [0.1, 0.0]
     with pytest.raises(SolverError, match="row 1: given up"):
-        follow_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0))
-    many = follow_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0), allow_failures=True)
+        integrate_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0))
+    many = integrate_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0), allow_failures=True)
     assert many.failed.tolist() == [False, True]
-    np.testing.assert_array_equal(many.final[0], follow(BALL, motion, parameters[0], start, 0).final)
+    np.testing.assert_array_equal(many.final[0], integrate(BALL, motion, parameters[0], start, 0).final)

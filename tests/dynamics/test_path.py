@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from seisblock.dynamics.changes import Changes
+from seisblock.dynamics.events import EventLog
 from seisblock.dynamics.trajectory import Path
 
 DT, SAMPLES, FIRST = 0.5, 6, 10
@@ -16,7 +16,7 @@ def path():
     log = np.column_stack([sample, [0, 0, 0, 0], [1, 2, 3, 4], [2, 3, 4, 5]])
     limits = np.arange(100.0, 116.0).reshape(4, 2, 2)
     states, modes = np.arange(12.0).reshape(SAMPLES, 2), np.array([2, 2, 2, 4, 4, 4])
-    return Path(DT, FIRST, states, modes, Changes(log, tau, sample * DT + tau, limits))
+    return Path(DT, FIRST, states, modes, EventLog(log, tau, sample * DT + tau, limits))
 
 
 def test_limits_stand_where_their_events_are(path):
@@ -32,9 +32,9 @@ def test_limits_stand_where_their_events_are(path):
 def test_some_samples_with_all_events(path):
     """They are the rows of the whole table that their numbers say."""
     chosen = np.array([1, 3, 5])
-    numbers = path.numbers(chosen)
+    numbers = path.row_indices(chosen)
     ground = np.random.default_rng(4).normal(size=20)
     assert numbers.tolist() == [0, 1, 3, 5, 6, 7, 8, 9, 11, 12, 13]
     for some, whole in zip(path.table(chosen), path.table(), strict=True):
         assert np.array_equal(some, whole[numbers])
-    assert np.array_equal(path.sampled(ground, chosen), path.sampled(ground)[numbers])
+    assert np.array_equal(path.interpolate(ground, chosen), path.interpolate(ground)[numbers])

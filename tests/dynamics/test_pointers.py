@@ -7,9 +7,9 @@ import sys
 import numpy as np
 import pytest
 
-from seisblock._jit import ENABLED, pointer
-from seisblock.dynamics import follow
-from seisblock.dynamics.contract import SERIES
+from seisblock._jit import ENABLED, function_pointer
+from seisblock.dynamics import integrate
+from seisblock.dynamics.model_api import SERIES
 from seisblock.dynamics.polynomial import evaluate
 from seisblock.records import Motion
 from tests.dynamics.toy_models import BALL
@@ -20,7 +20,7 @@ STILL = Motion.from_arrays(np.zeros(301), 0.01)
 @pytest.mark.skipif(not ENABLED, reason="nothing is compiled")
 def test_a_pointer_is_its_kernel():
     """Called from Python it does what the kernel does, and says the signature that it was made for."""
-    made = pointer(BALL.series, SERIES)
+    made = function_pointer(BALL.series, SERIES)
     room = np.zeros((2, 4)), np.zeros((1, 4)), np.zeros((2, 4)), np.zeros((1, 4))
     for function, c, g in ((BALL.series, *room[:2]), (made, *room[2:])):
         assert function(0, np.array([1.0, 2.0]), np.zeros((3, 2)), np.array([9.8, 0.5, 0.1]), 3, c, g) == 2
@@ -36,13 +36,13 @@ def test_a_kernel_travels_by_name():
 
 def test_a_model_that_has_been_followed_can_be_sent_to_another_process():
     """Addresses are not taken along: the other process finds its own, and the same answer."""
-    here = follow(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
+    here = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     script = (
         "import pickle, sys, numpy as np\n"
         "from seisblock.dynamics import follow; from seisblock.records import Motion\n"
         "model = pickle.loads(sys.stdin.buffer.read())\n"
         "there = follow(model, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-3], [1.0, 0.0], 0)\n"
-        "print(repr(there.end_time), there.n_changes)"
+        "print(repr(there.end_time), there.n_events)"
     )
     done = subprocess.run([sys.executable, "-c", script], input=pickle.dumps(BALL), capture_output=True, check=True)
-    assert done.stdout.decode().split() == [repr(here.end_time), str(here.n_changes)]
+    assert done.stdout.decode().split() == [repr(here.end_time), str(here.n_events)]

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.dynamics.polynomial import NEVER, evaluate, first_crossing, shift
+from seisblock.dynamics.polynomial import NO_CROSSING, evaluate, first_crossing, shift
 
 pytestmark = pytest.mark.kernel
 
@@ -31,7 +31,7 @@ def test_dip_between_ends():
 
 def test_touching_is_no_event():
     """A double root touches zero and goes back: no event."""
-    assert crossing(from_roots([0.3, 0.3])) == NEVER
+    assert crossing(from_roots([0.3, 0.3])) == NO_CROSSING
 
 
 def test_triple_root_is_an_event():
@@ -41,34 +41,34 @@ def test_triple_root_is_an_event():
 
 def test_zero_at_start_is_judged_by_the_next_term():
     """The half-open rule: zero and rising is admissible, zero and falling fires at once."""
-    assert crossing([0.0, 1.0, -0.5]) == NEVER
+    assert crossing([0.0, 1.0, -0.5]) == NO_CROSSING
     assert crossing([-1e-3, 2.0]) == 0.0
     assert crossing([0.0, -1.0]) == pytest.approx(0.0, abs=1e-15)
-    assert crossing([0.0, 0.0, 1.0]) == NEVER
+    assert crossing([0.0, 0.0, 1.0]) == NO_CROSSING
     assert crossing([0.0, 0.0, -1.0]) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_round_off_at_start_is_zero():
     """A coefficient that is round-off beside the others does not decide."""
-    assert crossing([1e-18, -1e-17, 1.0]) == NEVER
-    assert crossing([0.0, 0.0, -2e-16, 2.5], 1e-3) == NEVER
-    assert crossing([0.0, -1e-15, 30.0, -3.0], 1e-2) == NEVER
+    assert crossing([1e-18, -1e-17, 1.0]) == NO_CROSSING
+    assert crossing([0.0, 0.0, -2e-16, 2.5], 1e-3) == NO_CROSSING
+    assert crossing([0.0, -1e-15, 30.0, -3.0], 1e-2) == NO_CROSSING
 
 
 def test_crossing_at_the_very_end_is_inside():
     """The step's end belongs to the step, but only what goes below zero fires."""
     assert crossing([1.0, -1.0 - 1e-9]) == pytest.approx(1.0, abs=2e-9)
-    assert crossing([1.0, -1.0]) == NEVER
+    assert crossing([1.0, -1.0]) == NO_CROSSING
 
 
 def test_zero_polynomial_never_fires():
     """A guard that stays exactly at its limit is admissible."""
-    assert crossing([0.0, 0.0, 0.0]) == NEVER
+    assert crossing([0.0, 0.0, 0.0]) == NO_CROSSING
 
 
 def test_not_a_number_returns():
     """A guard that is not a number ends the search."""
-    assert crossing([np.nan, 1.0]) == NEVER
+    assert crossing([np.nan, 1.0]) == NO_CROSSING
 
 
 @given(st.lists(st.floats(-2.0, 3.0), min_size=1, max_size=6), st.sampled_from([1.0, -1.0]))
@@ -89,7 +89,7 @@ def test_agrees_with_the_roots_it_was_made_from(roots, sign):
     if inside.size:
         assert found == pytest.approx(inside[0], abs=1e-8)
     else:
-        assert found == NEVER
+        assert found == NO_CROSSING
 
 
 @given(st.lists(st.floats(-5.0, 5.0), min_size=2, max_size=9), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))

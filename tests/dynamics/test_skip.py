@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from seisblock._jit import kernel
-from seisblock.dynamics import follow
-from seisblock.dynamics.contract import SKIP
+from seisblock.dynamics import integrate
+from seisblock.dynamics.model_api import SKIP
 from seisblock.records import Motion
 from tests.dynamics.toy_models import SLED, STICK
 
@@ -29,9 +29,9 @@ def test_short_cut_changes_nothing():
     """Path, modes, events and extrema are the same, bit by bit, with and without the short cut."""
     rng = np.random.default_rng(3)
     motion = Motion.from_arrays(np.concatenate([np.zeros(40), rng.normal(size=100)]), 0.02)
-    plain = follow(SLED, motion, [1.5], [0.0, 0.0], STICK)
-    quick = follow(replace(SLED, skip=sled_skip), motion, [1.5], [0.0, 0.0], STICK)
-    assert quick.n_changes == plain.n_changes == 1
+    plain = integrate(SLED, motion, [1.5], [0.0, 0.0], STICK)
+    quick = integrate(replace(SLED, skip=sled_skip), motion, [1.5], [0.0, 0.0], STICK)
+    assert quick.n_events == plain.n_events == 1
     np.testing.assert_array_equal(quick.states, plain.states)
     np.testing.assert_array_equal(quick.modes, plain.modes)
     np.testing.assert_array_equal(quick.extrema, plain.extrema)
@@ -41,7 +41,7 @@ def test_short_cut_changes_nothing():
 def test_motion_that_never_wakes_it_ends_at_the_last_sample():
     """The short cut stops at the end of the record."""
     quiet = Motion.from_arrays(np.full(30, 0.1), 0.02)
-    answer = follow(replace(SLED, skip=sled_skip), quiet, [1.5], [0.0, 0.0], STICK)
+    answer = integrate(replace(SLED, skip=sled_skip), quiet, [1.5], [0.0, 0.0], STICK)
     assert answer.end.sample == 29
-    assert answer.n_changes == 0
+    assert answer.n_events == 0
     np.testing.assert_array_equal(answer.modes, STICK)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from seisblock._jit import ENABLED
-from seisblock.dynamics import Instant, follow, follow_many, following
-from seisblock.errors import SolverError
+from seisblock.core.errors import SolverError
+from seisblock.dynamics import Instant, integrate, integrate_many, integration
 from seisblock.records import Motion
 from tests.dynamics.toy_models import BALL, SLED
 
@@ -19,8 +19,8 @@ def short_slices(request, monkeypatch):
     """Slices of so many steps instead of many thousands."""
 
     def cut():
-        monkeypatch.setattr(following, "SLICE", request.param)
-        monkeypatch.setattr("seisblock.dynamics.ensemble.SLICE", request.param)
+        monkeypatch.setattr(integration, "STEPS_PER_SLICE", request.param)
+        monkeypatch.setattr("seisblock.dynamics.ensemble.STEPS_PER_SLICE", request.param)
 
     return cut
 
@@ -37,8 +37,8 @@ def short_stretches(request, monkeypatch):
     """Motions that count as long from ten samples on, and stretches of so many."""
 
     def cut():
-        monkeypatch.setattr("seisblock.records.motion.LONG", 10)
-        monkeypatch.setattr("seisblock.records.motion.STRETCH", request.param)
+        monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 10)
+        monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", request.param)
 
     return cut
 
@@ -47,49 +47,49 @@ def short_stretches(request, monkeypatch):
 @pytest.mark.parametrize("begins", [Instant(), Instant(3, 0.004), Instant(29, 0.0)], ids=["at first", "inside", "late"])
 def test_a_long_motion_is_followed_stretch_by_stretch_to_the_same_bits(model, motion, p, start, begins, short_stretches):
     """The trajectory, and the path that is followed again when it is asked for, are those of a motion that is held whole."""
-    whole = follow(model, motion, p, start, 0, start=begins)
-    table, ground = whole.table(), whole.sampled(motion.horizontal)
+    whole = integrate(model, motion, p, start, 0, start=begins)
+    table, ground = whole.table(), whole.interpolate(motion.horizontal)
     short_stretches()
-    parts = follow(model, motion, p, start, 0, start=begins)
-    assert sum(1 for _ in parts.walk()) > 1
-    for one, other in zip((*table, ground), (*parts.table(), parts.sampled(motion.horizontal)), strict=True):
+    parts = integrate(model, motion, p, start, 0, start=begins)
+    assert sum(1 for _ in parts.iter_paths()) > 1
+    for one, other in zip((*table, ground), (*parts.table(), parts.interpolate(motion.horizontal)), strict=True):
         np.testing.assert_array_equal(other, one)
     for field in ("extrema", "final"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
-    assert (parts.end, parts.status, parts.n_changes, parts.final_mode) == (whole.end, whole.status, whole.n_changes, whole.final_mode)
-    for path in parts.walk():
-        assert all(path.first - 1 <= change.at.sample for change in path.changes)
+    assert (parts.end, parts.status, parts.n_events, parts.final_mode) == (whole.end, whole.status, whole.n_events, whole.final_mode)
+    for path in parts.iter_paths():
+        assert all(path.first - 1 <= change.at.sample for change in path.events)
 
 
 def test_rows_go_through_a_long_motion_stretch_by_stretch(short_stretches):
     """Many trajectories, those that end early among them, are those through a motion that is held whole."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
-    whole = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     short_stretches()
-    parts = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
-    for field in ("final", "final_mode", "n_changes", "end_time", "first_change", "extrema", "tally", "stays"):
+    parts = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    for field in ("final", "final_mode", "n_events", "end_time", "first_event_time", "extrema", "transition_counts", "dwell_times"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
 
 
 @TOYS
 def test_where_the_loop_pauses_changes_no_bit(model, motion, p, start, short_slices):
     """Path, modes, events, extrema and end of a trajectory in slices of a few steps are those of one in a single slice."""
-    whole = follow(model, motion, p, start, 0)
+    whole = integrate(model, motion, p, start, 0)
     short_slices()
-    parts = follow(model, motion, p, start, 0)
+    parts = integrate(model, motion, p, start, 0)
     for field in ("states", "modes", "extrema", "final"):
         np.testing.assert_array_equal(getattr(parts, field)[: whole.end.sample], getattr(whole, field)[: whole.end.sample])
-    assert (parts.end, parts.status, parts.n_changes) == (whole.end, whole.status, whole.n_changes)
-    assert [c[:5] for c in parts.changes] == [c[:5] for c in whole.changes]
+    assert (parts.end, parts.status, parts.n_events) == (whole.end, whole.status, whole.n_events)
+    assert [c[:5] for c in parts.events] == [c[:5] for c in whole.events]
 
 
 def test_rows_go_on_where_they_paused(short_slices):
     """Many trajectories in slices that end inside a row are those in a single slice."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
-    whole = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
     short_slices()
-    parts = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
-    for field in ("final", "final_mode", "n_changes", "end_time", "first_change", "extrema", "tally"):
+    parts = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    for field in ("final", "final_mode", "n_events", "end_time", "first_event_time", "extrema", "transition_counts"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
 
 
@@ -98,4 +98,4 @@ def test_events_without_end_inside_one_sample_are_given_up():
     """A ball that hardly loses speed bounces for ever within one long sample: an error with its time, whether events are kept or not."""
     one_sample = Motion.from_arrays(np.zeros(2), 1e7)
     with pytest.raises(SolverError, match="without end"):
-        follow(BALL, one_sample, [9.8, 1.0, 0.0], [1e-3, 0.0], 0, keep_path=False, keep_events=False)
+        integrate(BALL, one_sample, [9.8, 1.0, 0.0], [1e-3, 0.0], 0, keep_path=False, keep_events=False)

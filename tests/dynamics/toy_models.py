@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
+from seisblock.dynamics.model_api import CONSTANT, OFF, RESET, SERIES
 from seisblock.dynamics.series import sine_cosine
 
 

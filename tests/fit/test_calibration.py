@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from seisblock import Observed, fit_block
-from seisblock.studies.fit.axes import axes_for
-from seisblock.studies.fit.blocks import Family
-from seisblock.studies.fit.experiment import experiment_of
-from seisblock.studies.fit.likelihood import lapses
-from seisblock.studies.fit.runs import shares_of
+from seisblock import Observation, fit_block
+from seisblock.studies.fit.block_family import BlockFamily
+from seisblock.studies.fit.dataset import make_experiment
+from seisblock.studies.fit.likelihood import make_lapse_rate
+from seisblock.studies.fit.priors import make_priors
+from seisblock.studies.fit.simulate import outcome_shares
 from tests.fit.conftest import TRUTH, pulse
 
 BOUNDS = {"alpha": (0.1, 0.5)}
@@ -18,12 +18,12 @@ PULSES = 10
 def held(number):
     """Return whether the intervals of alpha, scatter and lapses, and the half of alpha's, hold the truth of one experiment."""
     dice = np.random.default_rng([5, number])
-    family = Family(axes_for(["alpha"], BOUNDS, scatter=None, block=TRUTH), TRUTH, None, 0.0, 0.0, False, 9.80665)
-    place, lapse = dice.random((1, 2)), dice.choice(lapses(None).values)
-    shaking = [Observed(pulse(p, f), True) for p, f in zip(dice.uniform(1.0, 12.0, PULSES), dice.uniform(0.5, 3.0, PULSES), strict=True)]
-    falls = shares_of(experiment_of(shaking), family, place, np.ones(PULSES, dtype=int), (9, number))[:, 0] > 0
+    family = BlockFamily(make_priors(["alpha"], BOUNDS, scatter=None, block=TRUTH), TRUTH, None, 0.0, 0.0, False, 9.80665)
+    place, lapse = dice.random((1, 2)), dice.choice(make_lapse_rate(None).values)
+    shaking = [Observation(pulse(p, f), True) for p, f in zip(dice.uniform(1.0, 12.0, PULSES), dice.uniform(0.5, 3.0, PULSES), strict=True)]
+    falls = outcome_shares(make_experiment(shaking), family, place, np.ones(PULSES, dtype=int), (9, number))[:, 0] > 0
     fell = np.where(dice.random(PULSES) < lapse, dice.random(PULSES) < 0.5, falls)
-    seen = [Observed(each.motion, bool(happened)) for each, happened in zip(shaking, fell, strict=True)]
+    seen = [Observation(each.motion, bool(happened)) for each, happened in zip(shaking, fell, strict=True)]
     truth = {name: float(value[0]) for name, value in family.values(place).items()} | {"lapse": float(lapse)}
     found = fit_block(seen, free=["alpha"], bounds=BOUNDS, block=TRUTH, runs=4, folds=2, seed=number)
     inside = [found[name].interval[0] <= value <= found[name].interval[1] for name, value in truth.items()]

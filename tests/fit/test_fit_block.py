@@ -5,22 +5,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock import Block, KindError, Observed, ParameterError, fit_block, from_slenderness
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.fit.axes import AXES, axes_for
-from seisblock.studies.fit.blocks import Family
-from seisblock.studies.fit.experiment import dealt, experiment_of, without_silence
-from seisblock.studies.fit.held_out import calibration, scores
-from seisblock.studies.fit.likelihood import lapses, log_likelihood
-from seisblock.studies.fit.proposal import cloud_around
-from seisblock.studies.fit.runs import LEVELS, shares_of
+from seisblock import Block, KindError, Observation, ParameterError, fit_block, from_slenderness
+from seisblock.models.rock.verdicts import rock_verdict
+from seisblock.studies.fit.block_family import BlockFamily
+from seisblock.studies.fit.cross_validation import calibration, score_predictions
+from seisblock.studies.fit.dataset import assign_folds, make_experiment, trim_zeros
+from seisblock.studies.fit.likelihood import log_likelihood, make_lapse_rate
+from seisblock.studies.fit.priors import DEFAULT_PRIORS, make_priors
+from seisblock.studies.fit.proposal import make_proposal
+from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
 from tests.fit.conftest import KNOWN, TRUTH, pulse, shaken
 
 
 def family(*free, bounds=None, block=None, scatter=0.0, **how):
     """Return the blocks among which a test looks."""
-    axes = axes_for(free, bounds or {}, scatter=scatter, block=block)
-    return Family(axes, block, how.get("restitution"), how.get("inset", 0.0), scatter, False, 9.80665)
+    axes = make_priors(free, bounds or {}, scatter=scatter, block=block)
+    return BlockFamily(axes, block, how.get("restitution"), how.get("inset", 0.0), scatter, False, 9.80665)
 
 
 def test_the_truth_lies_in_its_interval(slender):
@@ -82,7 +82,7 @@ def test_a_weight_is_so_many_outcomes(experiment):
 def test_all_fell_or_none():
     """One side is bounded, and what was thought before decides the other: it is said."""
     for happened, strength, said in ((False, 1.0, "never fell"), (True, 40.0, "always fell")):
-        seen = [Observed(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
+        seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
         found = fit_block(seen, free=["alpha"], **KNOWN)
         assert any(said in text for text in found.warnings)
         assert found.held_out.folds == 3
@@ -91,7 +91,7 @@ def test_all_fell_or_none():
 def test_one_record_alone():
     """Nothing can be held out."""
     motion = pulse(1.0, 0.8)
-    seen = [Observed(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
+    seen = [Observation(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
     found = fit_block(seen, free=["alpha"], **KNOWN)
     assert found.held_out is None and found.probability_held_out is None
     assert any("all outcomes are of one record" in text for text in found.warnings)
@@ -101,7 +101,7 @@ def test_one_record_alone():
 def test_what_moved_tells_how_slender_it_is():
     """A block rocks above g tan(alpha), whatever its size: alpha is found, p stays as it was thought before, and that is said."""
     peaks = np.linspace(1.0, 5.0, 30)
-    seen = [Observed(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
+    seen = [Observation(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
     found = fit_block(seen, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
     assert found["alpha"].median == pytest.approx(0.25, rel=0.05)
     assert found["p"].narrowed > 0.8 and not found["p"].identified
@@ -130,7 +130,7 @@ def test_outcomes_by_chance_are_recognised():
 
 WRONG = {
     "no outcome": ({"outcomes": []}, "no outcome to learn from"),
-    "no weight": ({"outcomes": [Observed(pulse(1.0, 1.0), True, weight=0.0)]}, "none has a weight"),
+    "no weight": ({"outcomes": [Observation(pulse(1.0, 1.0), True, weight=0.0)]}, "none has a weight"),
     "a parameter": ({"free": ["mu"]}, "'mu' cannot be looked for; what can are alpha, p, restitution, inset"),
     "a parameter twice": ({"free": ["p", "p"]}, "named twice"),
     "nothing": ({"free": [], "scatter": 0.05, "block": TRUTH}, "nothing to look for"),
@@ -148,7 +148,7 @@ WRONG = {
     "lapses": ({"lapse": -0.1}, "lapses"),
     "a restitution": ({"restitution": 1.2}, "restitution"),
     "a kind": ({"kind": "slid"}, "'slid'"),
-    "an inset of a length": ({"inset": __import__("seisblock").Inset(length_m=0.01)}, "needs a `block`"),
+    "an inset of a length": ({"inset": __import__("seisblock").EdgeWear(length_m=0.01)}, "needs a `block`"),
 }
 
 
@@ -165,9 +165,9 @@ def test_what_is_no_outcome_is_refused():
     with pytest.raises(KindError, match="Observed is needed, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
     with pytest.raises(KindError, match="Motion is needed"):
-        Observed("pulse.csv", True)
+        Observation("pulse.csv", True)
     with pytest.raises(ParameterError, match="weight of an outcome must be zero or more, found nan"):
-        Observed(pulse(1.0, 1.0), True, weight=float("nan"))
+        Observation(pulse(1.0, 1.0), True, weight=float("nan"))
 
 
 def test_blocks_are_what_their_points_say():
@@ -191,29 +191,29 @@ def test_a_share_without_scatter_is_the_single_verdict():
     """Rows of a fit are runs of `rock`, worn edges, scale and a given restitution among them."""
     bounds = {"alpha": (0.1, 0.5), "p": (3.0, 6.0)}
     made = family("alpha", "p", bounds=bounds, inset=0.1, restitution=0.85)
-    seen = experiment_of([Observed(pulse(1.0, f), True, scale=scale) for f in (0.7, 1.5) for scale in (3.0, 6.0, 9.0)])
+    seen = make_experiment([Observation(pulse(1.0, f), True, scale=scale) for f in (0.7, 1.5) for scale in (3.0, 6.0, 9.0)])
     places = np.random.default_rng(1).random((15, 2))
-    shares = shares_of(seen, made, places, np.full(6, 2), (0, 0))
+    shares = outcome_shares(seen, made, places, np.full(6, 2), (0, 0))
     values = made.values(places)
     for k, each in enumerate(seen.outcomes):
         falls = [
-            rock_verdict(from_slenderness(a, p).worn(0.1), each.motion, scale=each.scale, restitution=0.85).overturned
+            rock_verdict(from_slenderness(a, p).with_wear(0.1), each.motion, scale=each.scale, restitution=0.85).overturned
             for a, p in zip(values["alpha"], values["p"], strict=True)
         ]
-        assert (shares[k] == LEVELS * np.array(falls)).all()
+        assert (shares[k] == SHARE_DENOMINATOR * np.array(falls)).all()
     assert 0.1 < (shares > 0).mean() < 0.9
 
 
 def test_the_likelihood_is_the_product():
     """Against the formula, written out outcome by outcome."""
     dice = np.random.default_rng(0)
-    seen = experiment_of([replace(each, weight=float(w)) for each, w in zip(shaken(12, 1), dice.integers(0, 4, 12), strict=True)])
-    shares = dice.integers(0, LEVELS + 1, (12, 5))
-    some = lapses(None)
-    found = log_likelihood(shares, *seen.counted(), some)
+    seen = make_experiment([replace(each, weight=float(w)) for each, w in zip(shaken(12, 1), dice.integers(0, 4, 12), strict=True)])
+    shares = dice.integers(0, SHARE_DENOMINATOR + 1, (12, 5))
+    some = make_lapse_rate(None)
+    found = log_likelihood(shares, *seen.outcome_counts(), some)
     for i, value in enumerate(some.values):
         for j in range(5):
-            chance = value / 2 + (1 - value) * shares[:, j] / LEVELS
+            chance = value / 2 + (1 - value) * shares[:, j] / SHARE_DENOMINATOR
             expected = np.sum(seen.weights * np.log(np.where(seen.happened > 0, chance, 1 - chance)))
             assert found[i, j] == pytest.approx(expected, rel=1e-12)
     # 9 (1 - lambda)^8 in equal parts
@@ -224,7 +224,7 @@ def test_the_likelihood_is_the_product():
 def test_the_density_of_a_cloud_is_its_own():
     """Over the square it adds up to one, and points drawn from it fill it as it says."""
     dice = np.random.default_rng(4)
-    cloud = cloud_around(dice.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, dice)
+    cloud = make_proposal(dice.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, dice)
     middles = (np.arange(150) + 0.5) / 150
     grid = np.stack(np.meshgrid(middles, middles), axis=-1).reshape(-1, 2)
     density = np.exp(cloud.log_density(grid))
@@ -236,21 +236,21 @@ def test_the_density_of_a_cloud_is_its_own():
 
 def test_records_are_dealt_evenly_and_stay_together(experiment):
     """Folds differ by one record at most; outcomes of one record are in one fold."""
-    counts = np.bincount(dealt(23, 5, 0))
+    counts = np.bincount(assign_folds(23, 5, 0))
     assert counts.max() - counts.min() == 1 and counts.sum() == 23
-    seen = experiment_of([replace(each, record=f"r{k % 8}") for k, each in enumerate(experiment)])
+    seen = make_experiment([replace(each, record=f"r{k % 8}") for k, each in enumerate(experiment)])
     assert seen.records == 8
-    folds = dealt(8, 4, 0)[seen.record]
+    folds = assign_folds(8, 4, 0)[seen.record]
     assert all(len(set(folds[np.arange(40) % 8 == k])) == 1 for k in range(8))
 
 
 def test_scores_are_those_of_the_definition(experiment):
     """Accuracy, Brier's score, the share of the others and the best threshold on the peak velocity, by hand."""
-    seen = experiment_of([replace(each, happened=k >= 20, weight=1.0 + (k == 0)) for k, each in enumerate(experiment)])
+    seen = make_experiment([replace(each, happened=k >= 20, weight=1.0 + (k == 0)) for k, each in enumerate(experiment)])
     chance = np.where(np.arange(40) >= 20, 0.8, 0.3)
     chance[5] = 0.9
     folds = np.arange(40) % 4
-    found = scores(seen, chance, np.arange(40.0), folds, 50.0)
+    found = score_predictions(seen, chance, np.arange(40.0), folds, 50.0)
     assert found.accuracy == pytest.approx(40 / 41)
     assert found.brier == pytest.approx((20 * 0.04 + 20 * 0.09 + 0.81) / 41)
     assert found.threshold_accuracy == pytest.approx(40 / 41)  # 19 lies in the middle between its neighbours
@@ -270,14 +270,14 @@ def test_silence_is_not_followed():
     bare, long = pulse(5.0, 1.0), pulse(5.0, 1.0)
     rows = np.concatenate([np.zeros(500), long.horizontal, np.zeros(3000)])
     padded = type(bare).from_arrays(rows, bare.dt)
-    short = without_silence(padded)
+    short = trim_zeros(padded)
     assert short.samples < bare.samples + 3
     for scale in np.linspace(0.5, 2.0, 40):
         assert rock_verdict(TRUTH, short, scale=scale).overturned == rock_verdict(TRUTH, padded, scale=scale).overturned
-    assert without_silence(type(bare).from_arrays(np.zeros(50), 0.01)).samples == 2
+    assert trim_zeros(type(bare).from_arrays(np.zeros(50), 0.01)).samples == 2
 
 
 def test_axes_are_even_in_what_they_say():
     """Half way along p is the geometric mean of its bounds, along alpha the arithmetic one."""
-    assert AXES["p"].value(np.array([0.5]))[0] == pytest.approx(5.0)
-    assert AXES["alpha"].value(np.array([0.5]))[0] == pytest.approx(0.515)
+    assert DEFAULT_PRIORS["p"].value(np.array([0.5]))[0] == pytest.approx(5.0)
+    assert DEFAULT_PRIORS["alpha"].value(np.array([0.5]))[0] == pytest.approx(0.515)

@@ -9,13 +9,13 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.library import friction_of, load_block, restitution_of
+from seisblock.bodies.factory import load_block, table_friction, table_restitution
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.bodies.subjects import subject
-from seisblock.bodies.toml import read_table
+from seisblock.bodies.toml import read_body_toml
 from seisblock.bodies.two_layer import load_contact, load_two_layer
-from seisblock.errors import InputError
+from seisblock.core.errors import InputError
 from seisblock.samples import sample_path
+from seisblock.studies.report.models import body_models
 from tests.fuzz.accidents import spoil
 from tests.fuzz.values import as_toml, mistaken
 
@@ -32,10 +32,10 @@ BODIES = ("gravestone", "chozusha", "wagata", "lantern")
 
 def load(path):
     """Look at a file of a body as every command does."""
-    table = read_table(path)
-    made = [subject(str(path), frequency_vertical=10.0)] if table.get("kind") != "pile" else []
-    restitution_of(table, str(path))
-    friction_of(table, str(path))
+    table = read_body_toml(path)
+    made = [body_models(str(path), frequency_vertical=10.0)] if table.get("kind") != "pile" else []
+    table_restitution(table, str(path))
+    table_friction(table, str(path))
     if table.get("kind") == "two-layer":
         made += [load_two_layer(path, side="long"), load_contact(path)]
     if table.get("kind") == "pile":
@@ -58,7 +58,7 @@ def refused_or(use, path, seed):
 @pytest.mark.parametrize("name", BODIES)
 def test_a_body_with_strange_values_is_a_body_or_one_sentence(name, seeds, tmp_path):
     """Lists, dates, truths, texts and extreme numbers wherever a number, a text or a table belongs; entries lost and invented."""
-    table = read_table(sample_path(f"{name}.toml"))
+    table = read_body_toml(sample_path(f"{name}.toml"))
     path = tmp_path / "body.toml"
     read = 0
     for seed in seeds(EACH):

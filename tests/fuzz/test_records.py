@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from seisblock.errors import InputError
+from seisblock.core.errors import InputError
 from seisblock.readers import read
 from tests.fuzz.accidents import spoil
 from tests.fuzz.formats import FORMATS

@@ -7,14 +7,14 @@ import json
 import numpy as np
 import pytest
 
-from seisblock.bodies.roster import read_bodies
-from seisblock.bodies.scan.directions import scan_azimuths
+from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.scan import scan_body
+from seisblock.bodies.table import read_bodies
 from seisblock.samples import sample_path
-from seisblock.studies.fit.table import read_outcomes
-from seisblock.studies.hazard.given import read_fragility
+from seisblock.studies.fit.outcome_table import read_outcomes
+from seisblock.studies.fragility.io import read_fragility
 from seisblock.studies.hazard.table import read_hazard
-from seisblock.studies.stations.surveys import read_surveys
+from seisblock.studies.map.surveyed_places import read_surveys
 from tests.bodies.meshes import box, write_obj, write_ply, write_stl
 from tests.fuzz.accidents import spoil
 from tests.fuzz.test_batch import LIST
@@ -51,7 +51,7 @@ def scanned(path):
 
 def listed(path):
     """Return whether a list holds bodies told in numbers; what no solver takes, a height of 0, is refused by each in its row."""
-    return all(finite(value) for body in read_bodies(path) for value in body.told.values() if isinstance(value, float))
+    return all(finite(value) for body in read_bodies(path) for value in body.parameters.values() if isinstance(value, float))
 
 
 def surveyed(path):

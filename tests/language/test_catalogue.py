@@ -6,8 +6,8 @@ from string import Formatter
 
 import pytest
 
-from seisblock.words import LANGUAGES, percent, said, tell
-from tests.catalogue import CHECKS, PACKAGE, PLURALS, catalogue, everything_said, key_of, sayings, texts_in
+from seisblock.core.i18n import LANGUAGES, format_percent, gettext, lazy_gettext
+from tests.catalogue import CHECK_FUNCTIONS, PACKAGE, PLURALS, all_messages, message_calls, message_key, message_literals, read_catalogue
 from tests.trees import tree_of
 
 TYPED = "10%"
@@ -19,13 +19,13 @@ SOURCES = sorted(PACKAGE.rglob("*.py"))
 @pytest.fixture(scope="module")
 def every_text():
     """Every text that the source, the help, the samples and click say, and where it stands first."""
-    return everything_said()
+    return all_messages()
 
 
 @pytest.fixture(scope="module", params=LANGUAGES[1:])
 def held(request):
     """A catalogue, by what it translates."""
-    return {key_of(message): message for message in catalogue(request.param) if message.id}
+    return {message_key(message): message for message in read_catalogue(request.param) if message.id}
 
 
 def fields_of(text):
@@ -47,7 +47,7 @@ def test_a_percentage_has_one_form(every_text, held):
     assert not [
         ast.unparse(node) for node in specs if node.format_spec is not None and ast.unparse(node.format_spec).rstrip("'\"").endswith("%")
     ]
-    assert (tell("{share:.0%}", share=0.043), percent(0.043, ".1"), percent(0.05, "g")) == ("4 %", "4.3 %", "5 %")
+    assert (gettext("{share:.0%}", share=0.043), format_percent(0.043, ".1"), format_percent(0.05, "g")) == ("4 %", "4.3 %", "5 %")
 
 
 def test_nothing_that_is_said_lacks_a_translation(every_text, held):
@@ -75,14 +75,14 @@ def test_a_translation_takes_the_same_values(held):
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_a_text_is_a_template_with_its_values(path):
     """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
-    for call, argument in sayings(tree_of(path)):
+    for call, argument in message_calls(tree_of(path)):
         where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
         assert not is_glued(argument), f"{where}: {ast.unparse(argument)} cannot be translated"
         function = getattr(call.func, "attr", getattr(call.func, "id", ""))
         given = {keyword.arg for keyword in call.keywords}
-        if None in given or function in CHECKS | {"map", "noted"} or not given:
+        if None in given or function in CHECK_FUNCTIONS | {"map", "N_"} or not given:
             continue
-        wanted = [{name for name, _, _ in fields_of(text)} for text in texts_in(argument)]
+        wanted = [{name for name, _, _ in fields_of(text)} for text in message_literals(argument)]
         assert all(fields <= given for fields in wanted), f"{where}: a field without a value"
         assert not wanted or given == set().union(*wanted), f"{where}: a value without a field"
 
@@ -91,15 +91,15 @@ def test_the_guards_see_what_they_guard_against():
     """A sentence glued together, a choice, a row and a nested text are found in a source."""
     source = """
 text = "put {first} in a name"
-said(text, first=said("and {second}", second=1))
+lazy_gettext(text, first=lazy_gettext("and {second}", second=1))
 raise BodyError("either" if x else "or")
-map(tell, ("this", "that"))
-tell(f"glued {name}")
-warn("glued " + name)
+map(gettext, ("this", "that"))
+gettext(f"glued {name}")
+warning("glued " + name)
 progress(done + 1, every)
 """
-    found = list(sayings(ast.parse(source)))
-    assert {text for _, argument in found for text in texts_in(argument)} == {"and {second}", "either", "or", "this", "that"}
+    found = list(message_calls(ast.parse(source)))
+    assert {text for _, argument in found for text in message_literals(argument)} == {"and {second}", "either", "or", "this", "that"}
     assert [ast.unparse(argument) for _, argument in found if is_glued(argument)] == ["f'glued {name}'", "'glued ' + name"]
     assert fields_of("{a!r} and {b:.2f}") == {("a", "r", ""), ("b", None, ".2f")}
-    assert said(said("{a}", a=1)).template == "{a}"
+    assert lazy_gettext(lazy_gettext("{a}", a=1)).template == "{a}"

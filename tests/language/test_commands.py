@@ -8,9 +8,9 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po
 from click.testing import CliRunner
 
-from seisblock import words
-from seisblock.cli import COMMANDS, language, main
-from seisblock.present.wrap import columns
+from seisblock.cli import COMMANDS, locale, main
+from seisblock.core import i18n
+from seisblock.report.text.wrap import display_width
 from tests.language.english import english_in
 from tests.lengths import all_but_slow
 
@@ -188,7 +188,7 @@ QUOTING = {"cite", "samples"}
 def spoken(tmp_path_factory):
     """Run command lines in a language, each once; click is told through compiled catalogues, as an installation has them."""
     folder, written = tmp_path_factory.mktemp("locale"), tmp_path_factory.mktemp("written")
-    shutil.copytree(words.LOCALES, folder, dirs_exist_ok=True)
+    shutil.copytree(i18n.LOCALE_DIR, folder, dirs_exist_ok=True)
     for catalogue in folder.rglob("*.po"):
         with catalogue.open("rb") as source, catalogue.with_suffix(".mo").open("wb") as target:
             write_mo(target, read_po(source))
@@ -201,11 +201,11 @@ def spoken(tmp_path_factory):
         return answers[line, lang]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(words, "LOCALES", folder)
-        patch.setattr(language, "LOCALES", folder)
-        words._catalogue.cache_clear()
+        patch.setattr(i18n, "LOCALE_DIR", folder)
+        patch.setattr(locale, "LOCALE_DIR", folder)
+        i18n._load_catalogue.cache_clear()
         yield answer
-    words._catalogue.cache_clear()
+    i18n._load_catalogue.cache_clear()
 
 
 def line_of(parts):
@@ -240,18 +240,18 @@ def test_help_is_in_japanese(command, spoken):
     assert not re.search(r"\[既定|既定値|ます。|です。", answer.stdout), "one bracket and one style for all commands"
 
 
-@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [*TOLD, *((command, "--help") for command in COMMANDS)], ids=line_of)
 def test_an_answer_fits_a_terminal(line, lang, spoken):
     """Wide letters take two columns; a table that does not fit is not readable, whatever its language."""
     answer = spoken(line, lang)
     assert answer.exit_code == 0, answer.output
     examples = "  seisblock "  # to be copied in one piece
-    wide = [text for text in answer.stdout.splitlines() if columns(text.rstrip()) > WIDTH and not text.startswith(examples)]
+    wide = [text for text in answer.stdout.splitlines() if display_width(text.rstrip()) > WIDTH and not text.startswith(examples)]
     assert not wide, "\n".join(wide)
 
 
-@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", TOLD, ids=line_of)
 def test_nothing_is_minus_nothing(line, lang, spoken):
     """F2: what rounds to zero has no sign, on either stream."""
@@ -259,7 +259,7 @@ def test_nothing_is_minus_nothing(line, lang, spoken):
     assert not MINUS_NOTHING.findall(answer.stdout + answer.stderr)
 
 
-@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] not in QUOTING], ids=line_of)
 def test_a_percentage_is_written_one_way(line, lang, spoken):
     """A blank stands before the sign, as before every unit, in both languages and on either stream."""

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from seisblock.cli import main
-from tests.catalogue import catalogue, key_of
+from tests.catalogue import message_key, read_catalogue
 from tests.language.english import english_in
 from tests.language.test_commands import BLOCK, SHORT
 from tests.lengths import all_but_slow
@@ -50,7 +50,7 @@ def drawn(monkeypatch):
 @pytest.fixture(scope="module")
 def translated():
     """What a catalogue translates into something else: it should not be read on a Japanese figure."""
-    return {key_of(message) for message in catalogue("ja") if message.id and message.string != message.id}
+    return {message_key(message) for message in read_catalogue("ja") if message.id and message.string != message.id}
 
 
 @pytest.mark.parametrize("line", all_but_slow(FIGURES, {line for line in FIGURES if line[0] not in {"measure", "stack"}}), ids=" ".join)

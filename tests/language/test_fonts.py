@@ -9,8 +9,8 @@ from click.testing import CliRunner
 from matplotlib.font_manager import FontManager, fontManager
 
 from seisblock.cli import main
-from seisblock.present.figures import canvas, fonts
-from seisblock.words import speaking
+from seisblock.core.i18n import use_locale
+from seisblock.report.figures import fonts, style
 
 SERIF = [entry for entry in fontManager.ttflist if entry.name == "DejaVu Serif" and entry.style == "normal"]
 
@@ -49,13 +49,13 @@ def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(insta
 def test_matplotlib_has_nothing_to_say(weights, installed, caplog, tmp_path):
     """F5: no line "findfont: failed to find font weight" and no warning, whatever weights there are and a text asks for."""
     installed(*(entry("Noto Sans CJK JP", weight) for weight in weights))
-    with speaking("ja"), caplog.at_level(logging.INFO, "matplotlib"), warnings.catch_warnings():
+    with use_locale("ja"), caplog.at_level(logging.INFO, "matplotlib"), warnings.catch_warnings():
         warnings.simplefilter("error")
-        figure, (axis,) = canvas.new_figure(1, title="title")
+        figure, (axis,) = style.new_figure(1, title="title")
         axis.plot([1, 2], [3, 4], label="name")
         axis.set_title("panel", fontweight="bold")
-        canvas.legend(axis)
-        canvas.save(figure, tmp_path / "figure.png")
+        style.add_legend(axis)
+        style.save(figure, tmp_path / "figure.png")
     assert [record.message for record in caplog.records if "findfont" in record.message] == []
     assert {text.get_fontfamily()[0] for text in figure.findobj(fonts.Text)} == {"Noto Sans CJK JP"}
 
@@ -85,16 +85,16 @@ def test_without_a_font_the_figure_is_english_and_one_line_says_so(tmp_path, mon
     assert answer.exit_code == 0 and (tmp_path / "jump.svg").is_file()
     assert sum("fonts-noto-cjk" in line for line in answer.stderr.splitlines()) == 1
     assert "ロッキング" in answer.stdout
-    with speaking("ja"):
-        assert fonts.drawable() == "en"
-        assert fonts.drawn(lambda: canvas.new_figure(1, title=fonts.language())[0]).spoken == "en"
+    with use_locale("ja"):
+        assert fonts.drawable_locale() == "en"
+        assert fonts.build_localized(lambda: style.new_figure(1, title=fonts.get_locale())[0]).locale == "en"
 
 
 def test_a_japanese_name_on_an_english_figure_gets_its_font():
     """Letters that DejaVu lacks are looked for; the others stay as they are."""
     if fonts.japanese_font() is None:
         pytest.skip("no Japanese font is installed")
-    figure, (axis,) = canvas.new_figure(1, title="観測点 熊本")
+    figure, (axis,) = style.new_figure(1, title="観測点 熊本")
     axis.set_xlabel("t (s)")
     figure.canvas.draw()
     assert figure._suptitle.get_fontfamily()[0] == fonts.japanese_font().family
@@ -106,20 +106,20 @@ NAME = r"A$B_{$\frac$C^"
 
 def test_a_dollar_sign_begins_no_formula(tmp_path):
     """R15: station, file and stone names are drawn as they are: in titles, legends, notes and along an axis."""
-    figure, (axis,) = canvas.new_figure(1, title=NAME)
+    figure, (axis,) = style.new_figure(1, title=NAME)
     axis.barh([NAME, "b"], [1.0, 2.0], label=NAME)
     axis.set_title(NAME)
     axis.text(0.5, 0.5, NAME)
     axis.set_xscale("log")
-    canvas.label(axis, NAME, NAME)
-    canvas.legend(axis)
-    canvas.save(figure, tmp_path / "figure.svg")
+    style.label_axes(axis, NAME, NAME)
+    style.add_legend(axis)
+    style.save(figure, tmp_path / "figure.svg")
     assert axis.get_yticklabels()[0].get_text() == NAME
 
 
 def test_powers_of_ten_along_an_axis_stay_formulas():
     """What matplotlib itself writes as mathematics is drawn as mathematics."""
-    figure, (axis,) = canvas.new_figure(1)
+    figure, (axis,) = style.new_figure(1)
     axis.loglog([1, 1e6], [1, 1e6])
     figure.canvas.draw()
     label = axis.get_xticklabels()[0]
@@ -138,7 +138,7 @@ def test_a_file_may_be_called_anything(tmp_path):
 
 def test_names_that_no_font_holds_are_said_in_a_sentence(installed, monkeypatch, tmp_path, recwarn):
     """A figure in English with a Japanese name of a stone: one sentence, and no warning of matplotlib's for each letter."""
-    monkeypatch.setattr(fonts, "PACKAGE", "no_such_package_of_fonts")
+    monkeypatch.setattr(fonts, "FONT_PACKAGE", "no_such_package_of_fonts")
     monkeypatch.setattr(fonts, "FontManager", lambda: fontManager)
     installed()
     pile = tmp_path / "pile.toml"

@@ -11,13 +11,13 @@ from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po
 from click.testing import CliRunner
 
-from seisblock import words
 from seisblock.cli import main
-from seisblock.cli.language import asked_in
-from seisblock.cli.talk import in_this_language
-from seisblock.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
-from seisblock.present.directions import side
-from seisblock.words import Said, language, noted, plain_text, said, speaking, tell
+from seisblock.cli.console import bind_locale
+from seisblock.cli.locale import requested_locale
+from seisblock.core import i18n
+from seisblock.core.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
+from seisblock.core.i18n import N_, Message, escape_control, get_locale, gettext, lazy_gettext, use_locale
+from seisblock.report.directions import direction_label
 
 PO = """
 msgid ""
@@ -51,11 +51,11 @@ def japanese(tmp_path, monkeypatch):
     folder = tmp_path / "ja" / "LC_MESSAGES"
     folder.mkdir(parents=True)
     (folder / "seisblock.po").write_text(PO, encoding="utf-8")
-    monkeypatch.setattr(words, "LOCALES", tmp_path)
-    words._catalogue.cache_clear()
-    with speaking("ja"):
+    monkeypatch.setattr(i18n, "LOCALE_DIR", tmp_path)
+    i18n._load_catalogue.cache_clear()
+    with use_locale("ja"):
         yield folder
-    words._catalogue.cache_clear()
+    i18n._load_catalogue.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -75,9 +75,9 @@ def test_language(environment, asked, expected, monkeypatch):
         monkeypatch.delenv(name, raising=False)
     for name, value in environment.items():
         monkeypatch.setenv(name, value)
-    assert language(asked) == expected
-    with speaking(asked):
-        assert language() == expected
+    assert get_locale(asked) == expected
+    with use_locale(asked):
+        assert get_locale() == expected
 
 
 @pytest.mark.parametrize(
@@ -93,58 +93,58 @@ def test_language(environment, asked, expected, monkeypatch):
 )
 def test_a_command_line_says_its_language_before_it_is_parsed(line, expected):
     """So that its errors are told in it; what click will refuse asks for nothing."""
-    assert asked_in(line) == expected
+    assert requested_locale(line) == expected
 
 
 def test_what_was_said_is_english_until_it_is_told(japanese):
     """The text is a string that documents, comparisons and copies treat like any other, and that goes on knowing its template."""
-    text = said("{name} falls", name="A")
+    text = lazy_gettext("{name} falls", name="A")
     assert text == "A falls" and json.dumps([text]) == '["A falls"]' and str(text) == "A falls"
-    assert tell(text) == tell("{name} falls", name="A") == "Aは転倒"
+    assert gettext(text) == gettext("{name} falls", name="A") == "Aは転倒"
     for twin in (copy.deepcopy(text), pickle.loads(pickle.dumps(text))):
-        assert isinstance(twin, Said) and twin == text and tell(twin) == "Aは転倒"
+        assert isinstance(twin, Message) and twin == text and gettext(twin) == "Aは転倒"
 
 
 def test_a_text_inside_a_text_is_told_along_with_it(japanese):
     """Values keep their format; texts that were said are translated, those that were not stay; lists are listed."""
-    inner = said("{name} falls", name=noted("stone"))
-    assert tell("{name}, after {time:.2f} s: {what}", name=("stone", tell("stone")), time=1.234, what=inner) == (
+    inner = lazy_gettext("{name} falls", name=N_("stone"))
+    assert gettext("{name}, after {time:.2f} s: {what}", name=("stone", gettext("stone")), time=1.234, what=inner) == (
         "1.23 秒後 stone、墓石：stoneは転倒"
     )
 
 
 def test_what_no_catalogue_holds_stays(japanese):
     """An unknown template is filled in all the same; braces without values are no fields; nothing is nothing."""
-    assert tell("{name} stands", name="A") == "A stands" and tell("{x}") == "{x}" and tell("") == ""
-    assert tell("not translated yet") == "not translated yet"
+    assert gettext("{name} stands", name="A") == "A stands" and gettext("{x}") == "{x}" and gettext("") == ""
+    assert gettext("not translated yet") == "not translated yet"
 
 
 def test_compiled_and_written_catalogues_agree(japanese):
     """A tree without compiled catalogues speaks as an installation does; the newer of the two counts."""
     texts = ["{name} falls", "{name}, after {time:.2f} s: {what}", "stone", "not translated yet", "unknown", ""]
-    written = [words._catalogue("ja")(text) for text in texts]
+    written = [i18n._load_catalogue("ja")(text) for text in texts]
     with (japanese / "seisblock.po").open("rb") as source, (japanese / "seisblock.mo").open("wb") as target:
         write_mo(target, read_po(source))
     (japanese / "seisblock.po").unlink()
-    words._catalogue.cache_clear()
-    assert [words._catalogue("ja")(text) for text in texts] == written
+    i18n._load_catalogue.cache_clear()
+    assert [i18n._load_catalogue("ja")(text) for text in texts] == written
 
 
 def test_the_languages_bundled_are_read_alike_by_babel():
     """The small reader of written catalogues finds in ours what babel finds."""
-    path = words.LOCALES / "ja" / "LC_MESSAGES" / "seisblock.po"
+    path = i18n.LOCALE_DIR / "ja" / "LC_MESSAGES" / "seisblock.po"
     with path.open("rb") as stream:
         expected = {m.id: m.string for m in read_po(stream) if m.id and m.string and isinstance(m.id, str)}
-    assert dict(words._read(path)) == expected
+    assert dict(i18n._read_po(path)) == expected
 
 
 def test_errors_remember_what_they_said(japanese):
     """The message is English for a traceback, told by the command line, and survives the way to another process."""
     error = RecordNotFoundError("{name} falls", name="A")
-    assert isinstance(error, FileNotFoundError) and str(error) == "A falls" and tell(error.said) == "Aは転倒"
-    assert tell(pickle.loads(pickle.dumps(error)).said) == "Aは転倒"
-    outer = BodyError("{name}, after {time:.2f} s: {what}", name="B", time=2.0, what=error.said)
-    assert tell(outer.said) == "2.00 秒後 B：Aは転倒" and str(outer) == "B, after 2.00 s: A falls"
+    assert isinstance(error, FileNotFoundError) and str(error) == "A falls" and gettext(error.message) == "Aは転倒"
+    assert gettext(pickle.loads(pickle.dumps(error)).message) == "Aは転倒"
+    outer = BodyError("{name}, after {time:.2f} s: {what}", name="B", time=2.0, what=error.message)
+    assert gettext(outer.message) == "2.00 秒後 B：Aは転倒" and str(outer) == "B, after 2.00 s: A falls"
     assert str(OutputError("a {brace} of a file name")) == "a {brace} of a file name"
     assert all(issubclass(kind, SeisblockError) for kind in (BodyError, OutputError))
 
@@ -152,9 +152,9 @@ def test_errors_remember_what_they_said(japanese):
 def test_texts_of_files_cannot_command_a_terminal():
     """R16: control characters in names and headers are spelt out, wherever such a text is filled in; letters of all scripts stay."""
     hostile = "KMM\x1b]0;owned\x07\x9b31m\r"
-    assert plain_text(hostile) == "KMM\\x1b]0;owned\\x07\\x9b31m\\r"
-    assert plain_text("熊本 μ ² é") == "熊本 μ ² é" and plain_text("two\nlines") == "two\nlines"
-    assert said("{name}: {names}", name=hostile, names=[hostile]).isprintable()
+    assert escape_control(hostile) == "KMM\\x1b]0;owned\\x07\\x9b31m\\r"
+    assert escape_control("熊本 μ ² é") == "熊本 μ ² é" and escape_control("two\nlines") == "two\nlines"
+    assert lazy_gettext("{name}: {names}", name=hostile, names=[hostile]).isprintable()
     assert str(BodyError("{name}", name=hostile)).isprintable()
 
 
@@ -166,10 +166,10 @@ def test_errors_of_a_command_line_are_harmless_on_a_terminal():
 
 def test_english_loads_no_catalogue():
     """The start costs nothing: gettext's catalogues are opened when another language is spoken."""
-    words._catalogue.cache_clear()
-    with speaking("en"):
-        tell("{name} falls", name="A")
-    assert words._catalogue.cache_info().currsize == 0
+    i18n._load_catalogue.cache_clear()
+    with use_locale("en"):
+        gettext("{name} falls", name="A")
+    assert i18n._load_catalogue.cache_info().currsize == 0
 
 
 def test_the_language_ends_with_its_block_and_its_command():
@@ -177,16 +177,16 @@ def test_the_language_ends_with_its_block_and_its_command():
     import gettext
     import os
 
-    before = (language(), gettext.textdomain(), os.environ.get("LANGUAGE"))
+    before = (get_locale(), gettext.textdomain(), os.environ.get("LANGUAGE"))
     assert CliRunner().invoke(main, ["--lang", "ja", "--help"]).exit_code == 0
-    assert (language(), gettext.textdomain(), os.environ.get("LANGUAGE")) == before
+    assert (get_locale(), gettext.textdomain(), os.environ.get("LANGUAGE")) == before
     english = CliRunner().invoke(main, ["slide", "--help"]).stdout
     assert "Show this message and exit." in english
 
 
 def test_the_catalogue_is_where_the_package_says():
     """The file that translators edit."""
-    assert Path(words.LOCALES, "ja", "LC_MESSAGES", "seisblock.po").is_file()
+    assert Path(i18n.LOCALE_DIR, "ja", "LC_MESSAGES", "seisblock.po").is_file()
 
 
 @pytest.mark.parametrize(
@@ -195,10 +195,10 @@ def test_the_catalogue_is_where_the_package_says():
 )
 def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
     """The same template takes an azimuth, whose name is Japanese, without a blank before it, and a component with one."""
-    with speaking("ja"):
-        assert tell("overturns to {side} at {time:.2f} s", side=side(direction, 1.0), time=25.9) == sentence
-        assert tell("{path} to {towards}", path="石", towards=side(direction, 1.0)).endswith("へ石")
-        assert tell("{a} {b}", a="益城", b="宮園") == "益城 宮園", "blanks of a name, and between two values, stay"
+    with use_locale("ja"):
+        assert gettext("overturns to {side} at {time:.2f} s", side=direction_label(direction, 1.0), time=25.9) == sentence
+        assert gettext("{path} to {towards}", path="石", towards=direction_label(direction, 1.0)).endswith("へ石")
+        assert gettext("{a} {b}", a="益城", b="宮園") == "益城 宮園", "blanks of a name, and between two values, stay"
 
 
 @pytest.mark.parametrize(
@@ -211,13 +211,13 @@ def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
 )
 def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):
     """Sliding while it rocks is not part of the flight; how long a corner is in the air is not when it lifts."""
-    with speaking("ja"):
-        assert tell(text, **values) == sentence
+    with use_locale("ja"):
+        assert gettext(text, **values) == sentence
 
 
 def test_what_another_thread_says_is_in_the_language_of_the_command():
     """Kernels are compiled in threads that know nothing of ``--lang``."""
-    with speaking("ja"):
-        told = in_this_language()
+    with use_locale("ja"):
+        told = bind_locale()
     with ThreadPoolExecutor(1) as pool:
-        assert pool.submit(told, said("stands still")).result() == "動かない"
+        assert pool.submit(told, lazy_gettext("stands still")).result() == "動かない"

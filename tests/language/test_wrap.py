@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
-from seisblock.present.text.tables import console, line, table
-from seisblock.present.wrap import _CLOSING, breaks, columns, is_wide, wrapped
+from seisblock.report.text.tables import console, styled_line, table
+from seisblock.report.text.wrap import _CLOSING_PUNCTUATION, break_positions, display_width, is_wide, wrap_text
 
 TEXT = "記録の終了後に、北へ 12.5 cm 移動した（最大 14.0 cm）。計測震度は 6.57、最大加速度は 934 gal であった。"
 
@@ -17,23 +17,23 @@ TEXT = "記録の終了後に、北へ 12.5 cm 移動した（最大 14.0 cm）�
 @given(st.text(alphabet="ab1 .漢字かなー、。（）「」", max_size=60), st.integers(8, 40))
 def test_no_line_is_wider_than_asked(text, width):
     """Nothing is lost but blanks at the ends of lines, and a line is wider only where a single word is."""
-    lines = wrapped(text, width)
+    lines = wrap_text(text, width)
     assert "".join("".join(lines).split()) == "".join(text.split())
     for found in lines:
-        assert columns(found) <= width or not breaks(found.strip(), width)
+        assert display_width(found) <= width or not break_positions(found.strip(), width)
 
 
 @pytest.mark.parametrize("width", range(12, 60))
 def test_no_line_begins_with_a_closing_mark(width):
     """Kinsoku: commas, full stops and closing brackets stay with what they close."""
-    assert all(found[0] not in _CLOSING for found in wrapped(TEXT, width))
+    assert all(found[0] not in _CLOSING_PUNCTUATION for found in wrap_text(TEXT, width))
 
 
 def test_columns_are_those_of_the_terminal_library():
     """The table of wide letters agrees with rich's for everything that a catalogue may hold; it holds no combining marks."""
     for start, end in ((0x20, 0x250), (0x370, 0x400), (0x2000, 0x2070), (0x3000, 0x3100), (0x3200, 0xA000), (0xFF01, 0xFF60)):
         letters = [chr(code) for code in range(start, end) if chr(code).isprintable() and not unicodedata.combining(chr(code))]
-        assert [hex(ord(letter)) for letter in letters if columns(letter) != cell_len(letter)] == []
+        assert [hex(ord(letter)) for letter in letters if display_width(letter) != cell_len(letter)] == []
     assert not is_wide("θ/α ² – ×")
 
 
@@ -48,22 +48,22 @@ def shown(*parts, width=80):
 
 def test_the_console_breaks_japanese_between_letters():
     """A sentence fills its lines, alone or with others, but for what is not broken: at most a number with its unit and what closes it."""
-    lines = shown(line(TEXT * 2), width=40).splitlines()
+    lines = shown(styled_line(TEXT * 2), width=40).splitlines()
     longest = cell_len(" 14.0 cm）。")
     assert all(40 - longest < cell_len(found) <= 40 for found in lines[:-1]), lines
     for width in range(20, 60):
-        assert not any(found.startswith(" ") for found in shown(line(TEXT), width=width).splitlines()), width
+        assert not any(found.startswith(" ") for found in shown(styled_line(TEXT), width=width).splitlines()), width
 
 
 @pytest.mark.parametrize("width", range(30, 60))
 def test_an_indented_sentence_loses_no_letter(width):
     """Blanks at the head of a line take room, too: nothing is cut off at the edge of the terminal."""
-    told = shown(line("  " + TEXT * 2), width=width)
+    told = shown(styled_line("  " + TEXT * 2), width=width)
     assert "".join(told.split()) == "".join((TEXT * 2).split())
 
 
 def test_data_neither_marks_up_nor_commands():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"
-    told = shown(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), line(hostile), width=120)
+    told = shown(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)
     assert told.count("[red]A[/red] :warning: \\x1b[31m") == 5 and "\x1b" not in told

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from seisblock.errors import ParameterError
-from seisblock.measures import duration_above, stretches_above
+from seisblock.core.errors import ParameterError
+from seisblock.measures import duration_above, intervals_above
 
 
 def test_triangle():
     """A triangle of height 2 and base 2 s stands above 1 for 1 s, from 0.5 s."""
-    np.testing.assert_allclose(stretches_above(np.array([0.0, 2.0, 0.0]), 1.0, 1.0), [[0.5, 1.5]])
+    np.testing.assert_allclose(intervals_above(np.array([0.0, 2.0, 0.0]), 1.0, 1.0), [[0.5, 1.5]])
 
 
 def test_both_sides_by_default():
@@ -34,8 +34,8 @@ def test_sine_above_half_its_amplitude():
 
 def test_the_record_may_begin_and_end_above():
     """Stretches open at the ends reach to the first and last sample."""
-    np.testing.assert_allclose(stretches_above(np.array([2.0, 0.0, 0.0, 2.0]), 1.0, 1.0), [[0.0, 0.5], [2.5, 3.0]])
-    np.testing.assert_allclose(stretches_above(np.full(5, 2.0), 1.0, 1.0), [[0.0, 4.0]])
+    np.testing.assert_allclose(intervals_above(np.array([2.0, 0.0, 0.0, 2.0]), 1.0, 1.0), [[0.0, 0.5], [2.5, 3.0]])
+    np.testing.assert_allclose(intervals_above(np.full(5, 2.0), 1.0, 1.0), [[0.0, 4.0]])
 
 
 def test_touching_the_threshold():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import Conventions, dominant_frequency, measure, peak_pulse
 from seisblock.records import Component, Record
 

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import ground_history, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.records import Component, Record
-from seisblock.records.process import towards
+from seisblock.records.process import component_at_azimuth
 
 T = np.arange(0, 20.0005, 0.001)
 OMEGA = 2 * math.pi
@@ -63,9 +63,9 @@ def test_worst_azimuth_beats_every_other():
     rng = np.random.default_rng(3)
     record = Record((Component("NS", rng.standard_normal(500)), Component("EW", rng.standard_normal(500))), 0.01, offset_s=2.0)
     worst = peak_horizontal(record)
-    sweep = [np.abs(towards(record, azimuth).acceleration).max() for azimuth in np.arange(0, 180, 0.25)]
+    sweep = [np.abs(component_at_azimuth(record, azimuth).acceleration).max() for azimuth in np.arange(0, 180, 0.25)]
     assert max(sweep) <= worst.pga_m_s2 * (1 + 1e-14)
-    along = towards(record, worst.azimuth_deg).acceleration
+    along = component_at_azimuth(record, worst.azimuth_deg).acceleration
     assert along.max() == pytest.approx(worst.pga_m_s2, rel=1e-13)
     assert worst.time_s == pytest.approx(2.0 + 0.01 * int(along.argmax()))
 

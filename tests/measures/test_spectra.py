@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import fourier_amplitude, response_spectrum
 
 

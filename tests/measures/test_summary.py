@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 
-from seisblock.errors import ComponentError
+from seisblock.core.errors import ComponentError
 from seisblock.measures import measure
 from seisblock.records import Component, Record
 from seisblock.references import REFERENCES

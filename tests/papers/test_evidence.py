@@ -15,7 +15,7 @@ import seisblock
 from seisblock import validation
 from seisblock.references import REFERENCES
 from seisblock.validation import cases
-from seisblock.validation.case import SAME, WORTHS, Case, counts, counts_by_kind, same
+from seisblock.validation.case import EVIDENCE_KINDS, REPRODUCIBLE, Case, count_verdicts, count_verdicts_by_kind, expected_difference
 
 PACKAGE = Path(seisblock.__file__).parent
 EVIDENCE = str(PACKAGE / "validation")
@@ -63,7 +63,7 @@ def test_every_case_is_one_of_a_kind():
     """Keys are unique, kinds known, papers among the references, tolerances numbers."""
     every = cases()
     assert len({case.key for case in every}) == len(every)
-    assert {case.kind for case in every} == set(WORTHS)
+    assert {case.kind for case in every} == set(EVIDENCE_KINDS)
     assert {case.paper for case in every} <= set(REFERENCES)
     assert all(math.isfinite(case.tolerance) and case.tolerance >= 0.0 for case in every)
     assert all(re.search(r"eq|table|fig|sec|ph|rock|puls|slid|\]_$", case.where) for case in every)
@@ -76,7 +76,7 @@ def test_a_difference_is_held_where_it_is(case):
     expected = case.expected() if callable(case.expected) else case.expected
     assert abs(value - expected) > case.tolerance
     assert (
-        within <= SAME * abs(value)
+        within <= REPRODUCIBLE * abs(value)
         or "rocking-edges" in case.key
         or "pile" in case.key
         or case.key in ("okumura-fig11-corner-4", "fema-p58-constant")
@@ -90,19 +90,31 @@ def test_counts_add_up():
     """By verdict, and by kind and verdict."""
     two = [
         Case("a", "[Tsutsui]_ eq. (1)", "a", "1", 1.0, 0.1, lambda: 1.0),
-        Case("b", "[Tsutsui]_ eq. (2)", "b", "1", lambda: 1.0, 0.1, lambda: 3.0, "differs", "why", kind="print", today=same(3.0)),
+        Case(
+            "b",
+            "[Tsutsui]_ eq. (2)",
+            "b",
+            "1",
+            lambda: 1.0,
+            0.1,
+            lambda: 3.0,
+            "differs",
+            "why",
+            kind="print",
+            today=expected_difference(3.0),
+        ),
     ]
     results = [case.run() for case in two]
     assert [result.expected for result in results] == [1.0, 1.0]
-    assert counts(results) == {"fails": 0, "differs": 1, "holds": 1}
-    assert counts_by_kind(results)["print"] == {"fails": 0, "differs": 1, "holds": 0}
-    assert sum(sum(counted.values()) for counted in counts_by_kind(results).values()) == 2
+    assert count_verdicts(results) == {"fails": 0, "differs": 1, "holds": 1}
+    assert count_verdicts_by_kind(results)["print"] == {"fails": 0, "differs": 1, "holds": 0}
+    assert sum(sum(counted.values()) for counted in count_verdicts_by_kind(results).values()) == 2
 
 
 def test_the_readme_says_what_the_evidence_is_worth():
     """Its table has the four kinds in words, with how many cases each has and how many of them differ."""
     text = (PACKAGE.parent / "README.md").read_text(encoding="utf-8")
-    for kind, words in WORTHS.items():
+    for kind, words in EVIDENCE_KINDS.items():
         mine = [case for case in cases() if case.kind == kind]
         assert f"| {words} | {len(mine)} | {sum(case.status == 'differs' for case in mine)} |" in text
 

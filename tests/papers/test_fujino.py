@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
-from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_limits, steady_slip
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.criteria.sliding import min_friction_to_hold, min_friction_to_stop, pulse_slip, slip_limits, steady_slip
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import scale_to_pga
-from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study
 from seisblock.validation.case import EXACT, Case
 from seisblock.validation.fujino import CASES
@@ -168,9 +168,9 @@ def test_fig_17_friction_that_holds_grows_with_slope_and_acceleration():
     """The critical friction of (15) grows with the slope, with -alpha, and its spread over mu = -1 ... 1 grows with alpha."""
     slopes = np.arange(0.0, 50.0, 5.0)
     for alpha in (-0.2, -0.4):
-        assert (np.diff([friction_that_holds(s, alpha) for s in slopes]) > 0).all()
-    assert friction_that_holds(30.0, -0.4) > friction_that_holds(30.0, -0.2)
-    spread = [np.ptp([friction_that_holds(30.0, a, a * m) for m in (-1.0, 1.0)]) for a in (-0.2, -0.4)]
+        assert (np.diff([min_friction_to_hold(s, alpha) for s in slopes]) > 0).all()
+    assert min_friction_to_hold(30.0, -0.4) > min_friction_to_hold(30.0, -0.2)
+    spread = [np.ptp([min_friction_to_hold(30.0, a, a * m) for m in (-1.0, 1.0)]) for a in (-0.2, -0.4)]
     assert spread[1] > 2 * spread[0]
 
 
@@ -184,6 +184,6 @@ def test_steady_sliding_needs_less_than_0_537():
 
 def test_closed_forms_refuse_what_they_cannot_answer():
     """No friction ratio, no pulse, no frequency: a sentence, not a number."""
-    for call in (lambda: friction_that_stops(10.0, 0.0), lambda: pulse_slip(1.0, 1.0, 0.0), lambda: steady_slip(1.0, 0.0, 0.1)):
+    for call in (lambda: min_friction_to_stop(10.0, 0.0), lambda: pulse_slip(1.0, 1.0, 0.0), lambda: steady_slip(1.0, 0.0, 0.1)):
         with pytest.raises(ParameterError, match="positive"):
             call()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from seisblock.core.errors import ParameterError
 from seisblock.criteria.gravestones import (
     DOWELLED,
     PLAIN,
@@ -12,7 +13,6 @@ from seisblock.criteria.gravestones import (
     overturning_pga,
     overturning_ratio,
 )
-from seisblock.errors import ParameterError
 
 EXACT = 1e-12
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from seisblock.present.figures.field_test import STYLES, figure
-from seisblock.validation.furukawa_field import CASES, MODELS, SURVEYED, bias, rates, rms
+from seisblock.report.figures.field_test import STYLES, figure
+from seisblock.validation.furukawa_field import CASES, MODELS, SURVEYED_RATES, bias, rates, rms
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.key)
@@ -25,7 +25,7 @@ def test_the_figure_shows_every_model_and_the_survey():
     """A bar per station with the surveyed rate, a marker per station and model with its rate."""
     drawn = figure()
     (axis,) = drawn.axes
-    assert [bar.get_height() for bar in axis.patches] == SURVEYED.tolist()
+    assert [bar.get_height() for bar in axis.patches] == SURVEYED_RATES.tolist()
     assert set(STYLES) == {model.key for model in MODELS}
     for model, line in zip(MODELS, axis.lines, strict=True):
         np.testing.assert_array_equal(line.get_ydata(), rates(model.key))

@@ -8,12 +8,12 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from seisblock.bodies.block import Block, from_slenderness
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
-from seisblock.errors import ParameterError
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.units import STANDARD_GRAVITY as G
 from seisblock.validation.housner import CASES
 
 STILL = Motion.from_arrays(np.zeros(2001), 0.01)

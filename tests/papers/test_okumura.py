@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from seisblock.bodies.spring_block import SpringBlock, corner_rows, mass_matrix, stiffness_matrix
+from seisblock.bodies.spring_block import SpringBlock, corner_jacobian, mass_matrix, stiffness_matrix
+from seisblock.core.errors import BodyError, ParameterError
 from seisblock.criteria.uplift import harmonic_uplift_ratio, square_base_modes
-from seisblock.errors import BodyError, ParameterError
-from seisblock.solvers.uplift.harmonic import shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift.minima import least_uplift, uplift_minima
-from seisblock.solvers.uplift.modes import natural_modes
+from seisblock.models.uplift.harmonic import shaking_direction, uplift_thresholds
+from seisblock.models.uplift.minima import lowest_uplift_threshold, uplift_minima
+from seisblock.models.uplift.modes import natural_modes
 from seisblock.validation.case import EXACT, Case
 from seisblock.validation.okumura import CASES
 
@@ -38,7 +38,7 @@ def test_eq_4_couplings_are_alpha_over_two():
 
 def test_eq_23_corner_4():
     """Corner 4 moves up by z + b theta_y / 2 - b theta_x / 2 on a square base."""
-    np.testing.assert_array_equal(corner_rows(SpringBlock.from_ratios(1.0, 1.0))[3, 2], [0, 0, 1, -0.5, 0.5, 0])
+    np.testing.assert_array_equal(corner_jacobian(SpringBlock.from_ratios(1.0, 1.0))[3, 2], [0, 0, 1, -0.5, 0.5, 0])
 
 
 def test_eq_9_modal_matrix():
@@ -110,9 +110,9 @@ def test_undamped_resonance_lifts_at_any_amplitude():
 def test_least_uplift_keeps_to_its_range():
     """Within a range that holds no minimum the least A/g is at one of its ends."""
     body = SpringBlock.from_ratios(1.0, 0.707)
-    inside = least_uplift(body, between=(2.0, 4.0))
+    inside = lowest_uplift_threshold(body, frequency_range=(2.0, 4.0))
     assert inside.acceleration_ratio == pytest.approx(0.6850556, abs=1e-6)
-    at_end = least_uplift(body, between=(1.2, 1.5))
+    at_end = lowest_uplift_threshold(body, frequency_range=(1.2, 1.5))
     assert at_end.frequency_ratio == pytest.approx(1.2)
     assert at_end.mode == ""
 

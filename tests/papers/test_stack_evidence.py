@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.bodies.pile.top import rigid_top
+from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.studies.gravestone_criterion import with_top
 from seisblock.validation import furukawa_dowel, stack_round, stack_steps
 

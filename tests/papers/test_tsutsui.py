@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.core.errors import ParameterError
 from seisblock.criteria.overturning import ishiyama_velocity, tsutsui_sine_velocity, tsutsui_velocity, velocity_step
-from seisblock.errors import ParameterError
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.validation.tsutsui import CASES
 
 

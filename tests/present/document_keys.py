@@ -3,15 +3,15 @@
 import sys
 from pathlib import Path
 
-from seisblock.present.documents.catalogue import KINDS, schema_of
-from seisblock.present.documents.versions import schema_name
+from seisblock.report.json.registry import DOCUMENTS, json_schema
+from seisblock.report.json.versions import schema_name
 
 STORED = Path(__file__).with_name("keys")
 
 
 def lines(command):
     """Return the name of a command's schema, then each key with its type; ``?`` marks one that may be missing."""
-    schema = schema_of(command)
+    schema = json_schema(command)
     roots = schema.get("anyOf", [schema])
     kinds = {}
     for root in roots:
@@ -58,7 +58,7 @@ def gone(command):
 
 def refresh():
     """Write the keys of every command down; refuse where one went or changed without a step of the version."""
-    for command in KINDS:
+    for command in DOCUMENTS:
         if gone(command):
             sys.exit(f"{command}: step its version in versions.py first; these went or changed: {'; '.join(gone(command))}")
         text = "\n".join(lines(command)) + "\n"

@@ -31,9 +31,11 @@ from seisblock import (
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.scan.scan import scan_body
 from seisblock.measures import measure, response_spectrum
-from seisblock.present import figures
-from seisblock.present.faces import FACES, figure_of
-from seisblock.present.figures import (
+from seisblock.records import Component, Preparation, Record, motion_of
+from seisblock.records.process import scale
+from seisblock.records.site import Earthquake
+from seisblock.report import figures
+from seisblock.report.figures import (
     azimuths,
     body,
     cemetery,
@@ -51,28 +53,26 @@ from seisblock.present.figures import (
     stack_criterion,
     uplift_harmonic,
 )
-from seisblock.present.figures import stations as stations_figure
-from seisblock.present.figures.measure import measure_figure
-from seisblock.records import Component, Preparation, Record, motion_of
-from seisblock.records.process import scale
-from seisblock.records.site import Earthquake
-from seisblock.studies.cemetery.judgement import Method, curve_of, judge_cemetery
-from seisblock.studies.cemetery.shaking import shakings_of
-from seisblock.studies.criteria_card import criteria_card
+from seisblock.report.figures import stations as stations_figure
+from seisblock.report.figures.measure import measure_figure
+from seisblock.report.registry import PRESENTERS, response_figure
+from seisblock.studies.criteria_comparison import compare_criteria
+from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.gravestone_criterion import CriterionStudy, GravestoneFit, Threshold
-from seisblock.studies.hazard.given import GivenFragility
-from seisblock.studies.inverse.assumptions import assumptions_for
-from seisblock.studies.inverse.estimate import estimate_shaking
-from seisblock.studies.inverse.factors import scale_factors, slid
-from seisblock.studies.inverse.survey import counted_survey
+from seisblock.studies.map.station_response import StationCemetery, StationResult
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.respond.mode_map import mode_map as map_of_modes
 from seisblock.studies.rocking.azimuths import rock_directions
-from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, rocking_spectrum_around
+from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, rocking_spectrum, rocking_spectrum_all_azimuths
 from seisblock.studies.sliding import slide_study as study_of_sliding
-from seisblock.studies.standing.azimuths import respond_directions
-from seisblock.studies.standing.mode_map import mode_map as map_of_modes
-from seisblock.studies.stations.effects import StandingStones, StationEffect
-from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.survey.assessment import AssessmentMethod, assess_cemetery, overturning_curve
+from seisblock.studies.survey.assumptions import make_assumptions
+from seisblock.studies.survey.estimate import estimate_shaking
+from seisblock.studies.survey.likelihood import counted_survey
+from seisblock.studies.survey.scale_search import scale_factors, slide_displacement
+from seisblock.studies.survey.shaking import component_shakings
 from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 from seisblock.validation.furukawa_surveys import SURVEYS
 from tests.fit.conftest import shaken
@@ -136,7 +136,7 @@ def prepared():
 
 @functools.cache
 def cards():
-    return [criteria_card(record(), motion(name), Block(0.3, 0.9), gravity=9.81) for name in BOTH]
+    return [compare_criteria(record(), motion(name), Block(0.3, 0.9), gravity=9.81) for name in BOTH]
 
 
 @functools.cache
@@ -146,7 +146,7 @@ def spectra():
 
 @functools.cache
 def around():
-    found = rocking_spectrum_around(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
+    found = rocking_spectrum_all_azimuths(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
     return [(replace(motion("NS"), name="all-azimuths"), found)]
 
 
@@ -167,20 +167,20 @@ def maps(*, sizes=(1.0,), ratios=(0.1, 0.2, 0.3, 0.4, 0.5)):
 
 @functools.cache
 def rates(*, after=False):
-    dowelled = AOYAMA.dowelled() if after else None
-    return [judge_cemetery(AOYAMA, each, Method(), after=dowelled) for each in shakings_of(record(), BOTH)]
+    dowelled = AOYAMA.with_dowels() if after else None
+    return [assess_cemetery(AOYAMA, each, AssessmentMethod(), reinforced_cemetery=dowelled) for each in component_shakings(record(), BOTH)]
 
 
 @functools.cache
 def estimated():
-    survey, assumptions = counted_survey(AOYAMA, 35, 100), assumptions_for(None)
+    survey, assumptions = counted_survey(AOYAMA, 35, 100), make_assumptions(None)
     return "aoyama", survey, assumptions, [estimate_shaking(survey, f, assumptions) for f in (0.5, 1.0, 2.0, 3.0)]
 
 
 @functools.cache
 def risks():
     hazard = read_hazard("synthetic_hazard.csv")
-    given = [GivenFragility("stone", limit, "pgv", "m/s", Lognormal(median, 0.4)) for limit, median in (("rock", 0.3), ("overturn", 0.7))]
+    given = [FragilityCurve("stone", limit, "pgv", "m/s", Lognormal(median, 0.4)) for limit, median in (("rock", 0.3), ("overturn", 0.7))]
     return [(each, find_risk(each.curve, hazard)) for each in given], hazard
 
 
@@ -191,7 +191,7 @@ NAMES = tuple(f"益城町宮園中央小学校の長い名前の墓石その{i}"
 def many_risks():
     """Return what becomes of nine bodies with long names."""
     hazard = read_hazard("synthetic_hazard.csv")
-    given = [GivenFragility(name, "overturn", "pgv", "m/s", Lognormal(0.2 + 0.1 * i, 0.3)) for i, name in enumerate(NAMES)]
+    given = [FragilityCurve(name, "overturn", "pgv", "m/s", Lognormal(0.2 + 0.1 * i, 0.3)) for i, name in enumerate(NAMES)]
     return [(each, find_risk(each.curve, hazard)) for each in given], hazard
 
 
@@ -206,7 +206,7 @@ def fragilities(*, names=("stone",), limits=("rock", "overturn")):
 @functools.cache
 def factors():
     base = SlidingBase(0.15)
-    return [(record(), scale_factors(slid(base, motion(c)), 0.05, motion(c), limit=2.0, steps=20)) for c in BOTH]
+    return [(record(), scale_factors(slide_displacement(base, motion(c)), 0.05, motion(c), limit=2.0, steps=20)) for c in BOTH]
 
 
 @functools.cache
@@ -230,10 +230,10 @@ def stations(subject=None):
     answers = []
     for number in range(12):
         north, east = 35.0 + 0.05 * np.sin(2.4 * number) * number, 139.0 + 0.4 * np.cos(2.4 * number)
-        effect = StationEffect(90.0, max(1.0 - 0.12 * number, 0.0))
+        effect = StationResult(90.0, max(1.0 - 0.12 * number, 0.0))
         code, pga = f"X{number:03d}", 8.0 / (1 + number)
-        answers.append(StationAnswer(f"{code}.NS", code, "小さな町", north, east, pga_m_s2=pga, effect=effect))
-    nowhere = [StationAnswer("a.csv", pga_m_s2=1.0), StationAnswer("b.csv", failure="cut short")]
+        answers.append(StationReport(f"{code}.NS", code, "小さな町", north, east, pga_m_s2=pga, effect=effect))
+    nowhere = [StationReport("a.csv", pga_m_s2=1.0), StationReport("b.csv", failure="cut short")]
     return Stations((*answers, *nowhere), Earthquake(None, 35.0, 139.0, 10.0, 6.8, "test"), "2024-01-01 16:10:00 JST"), subject
 
 
@@ -244,11 +244,11 @@ def fitted_block():
 
 def of_models():
     """Yield the figure of each model, of one direction and of two."""
-    for model in FACES:
+    for model in PRESENTERS:
         function = getattr(import_module(f"{figures.__name__}.{model}"), "record_figure" if model == "uplift" else "figure")
-        yield model, (function, lambda gal, model=model: figure_of([response(model)], gal=gal))
+        yield model, (function, lambda gal, model=model: response_figure([response(model)], gal=gal))
         if model != "stack":
-            yield f"{model}, two", (function, lambda gal, model=model: figure_of([response(model, c) for c in BOTH], gal=gal))
+            yield f"{model}, two", (function, lambda gal, model=model: response_figure([response(model, c) for c in BOTH], gal=gal))
 
 
 PLANE = {"mu": tuple(np.linspace(0.1, 0.6, 9)), "slope_deg": tuple(np.linspace(0.0, 16.0, 9)), "kappa": (0.75, 1.0)}
@@ -269,11 +269,13 @@ OF_THE_RECORD = dict(of_models()) | {
     "modes of sizes": (mode_map.figure, lambda _: mode_map.figure(maps(sizes=(0.5, 1.0, 2.0), ratios=(1 / 3,)))),
     "rate": (
         cemetery.overturn_rate_figure,
-        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [(record(), rates())], curve_of(AOYAMA, Method()), gal=gal),
+        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [(record(), rates())], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal),
     ),
     "rate with dowels": (
         cemetery.overturn_rate_figure,
-        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [(record(), rates(after=True))], curve_of(AOYAMA, Method()), gal=gal),
+        lambda gal: cemetery.overturn_rate_figure(
+            AOYAMA, [(record(), rates(after=True))], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal
+        ),
     ),
     "factors": (infer.factor_figure, lambda _: infer.factor_figure(factors())),
     "rock, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rock")], [every_azimuth("rock")])),
@@ -288,7 +290,7 @@ OF_NO_RECORD = {
     "estimate": (infer.estimate_figure, lambda gal: infer.estimate_figure(*estimated(), gal=gal)),
     "rate, curves": (
         cemetery.overturn_rate_figure,
-        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [], curve_of(AOYAMA, Method()), gal=gal),
+        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal),
     ),
     "as fig. 14": (cemetery.figure_14, lambda _: cemetery.figure_14(AOYAMA)),
     "as fig. 16": (cemetery.figure_16, lambda _: cemetery.figure_16(AOYAMA, surveys=SURVEYS)),
@@ -310,7 +312,7 @@ OF_NO_RECORD = {
     "fragility of nine": (fragility.figure, lambda gal: fragility.figure(fragilities(names=NAMES, limits=("overturn",)), gal=gal)),
     "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
     "fit": (fit.fit_figure, lambda gal: fit.fit_figure(fitted_block(), "shaken.csv", gal=gal)),
-    "stations": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(StandingStones(AOYAMA)), gal=gal)),
+    "stations": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(StationCemetery(AOYAMA)), gal=gal)),
     "stations, their shaking": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(), gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
     "response spectrum": (
@@ -323,7 +325,7 @@ OF_NO_RECORD = {
 
 EVERY = OF_THE_RECORD | OF_NO_RECORD
 
-NOT_A_KIND = {"canvas", "embed", "fonts", "size"}
+NOT_A_KIND = {"style", "svg", "fonts", "fit_size"}
 """Modules that help to draw, and draw nothing themselves."""
 
 
@@ -337,5 +339,5 @@ def drawing_functions():
         for name, function in inspect.getmembers(module, inspect.isfunction)
         if function.__module__ == module.__name__
         and not name.startswith("_")
-        and function.__annotations__.get("return") in ("Figure", "Sheet")
+        and function.__annotations__.get("return") in ("Figure", "StyledFigure")
     }

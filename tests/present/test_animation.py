@@ -9,13 +9,13 @@ import pytest
 from PIL import Image
 
 from seisblock.bodies.block import Block
-from seisblock.errors import OutputError
-from seisblock.present import files
-from seisblock.present.files import ffmpeg
-from seisblock.present.films.animation import MOST_FRAMES, animate, frame_times
-from seisblock.present.films.rock import animate_rocking, centre_of, corners, to_the_end
+from seisblock.core.errors import OutputError
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
+from seisblock.report.animation.render import MAX_FRAMES, frame_times, write_frames
+from seisblock.report.animation.rock import animate_rocking, centroid_position, corners, extend_to_fall
+from seisblock.report.io import atomic
+from seisblock.report.io.atomic import find_ffmpeg
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def pictures(count):
 
 def test_gif_holds_every_picture_at_true_speed(tmp_path):
     """Twenty pictures a second are 50 ms each."""
-    animate(pictures(12), tmp_path / "a.gif")
+    write_frames(pictures(12), tmp_path / "a.gif")
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 12
         assert image.info["duration"] == 50
@@ -51,8 +51,8 @@ def test_gif_holds_of_each_picture_what_is_new(tmp_path):
         picture[:, 4 * i : 4 * i + 3] = (255, 0, 0)
         picture[i, :] = (0, 0, 255)
         shown.append(Image.fromarray(picture))
-    animate(shown[:1] * 2, tmp_path / "still.gif")
-    animate(shown, tmp_path / "moves.gif")
+    write_frames(shown[:1] * 2, tmp_path / "still.gif")
+    write_frames(shown, tmp_path / "moves.gif")
     with Image.open(tmp_path / "moves.gif") as image:
         assert image.n_frames == 20
         for index, picture in enumerate(shown):
@@ -62,35 +62,35 @@ def test_gif_holds_of_each_picture_what_is_new(tmp_path):
     assert moves < 10 * still
 
 
-@pytest.mark.skipif(ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
+@pytest.mark.skipif(find_ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
 def test_mp4_is_a_film(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""
-    animate(pictures(9), tmp_path / "a.mp4")
+    write_frames(pictures(9), tmp_path / "a.mp4")
     assert b"ftyp" in (tmp_path / "a.mp4").read_bytes()[:16]
-    assert subprocess.run([ffmpeg(), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
+    assert subprocess.run([find_ffmpeg(), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
 
 
 def test_an_mp4_needs_no_ffmpeg_of_the_system(tmp_path, monkeypatch):
     """The package imageio-ffmpeg brings one along; where it lacks its program, it is as if it were not there."""
     package = types.SimpleNamespace(get_ffmpeg_exe=lambda: "its-own-ffmpeg")
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr(files, "find_spec", lambda name: package)
+    monkeypatch.setattr(atomic, "find_spec", lambda name: package)
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", package)
-    assert ffmpeg() == "its-own-ffmpeg"
+    assert find_ffmpeg() == "its-own-ffmpeg"
 
     def missing():
         raise RuntimeError("No ffmpeg exe could be found")
 
     package.get_ffmpeg_exe = missing
-    assert ffmpeg() is None
+    assert find_ffmpeg() is None
 
 
 def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
     """It says what is missing and what works instead, and leaves no file."""
     monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.setattr(files, "find_spec", lambda name: None)
+    monkeypatch.setattr(atomic, "find_spec", lambda name: None)
     with pytest.raises(OutputError, match="ffmpeg is not installed"):
-        animate(pictures(3), tmp_path / "a.mp4")
+        write_frames(pictures(3), tmp_path / "a.mp4")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -98,7 +98,7 @@ def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
 def test_impossible_names_are_refused(tmp_path, name):
     """Other suffixes and missing directories are errors of the user."""
     with pytest.raises(OutputError):
-        animate(pictures(3), tmp_path / name)
+        write_frames(pictures(3), tmp_path / name)
 
 
 def test_interruption_leaves_the_old_file(tmp_path):
@@ -110,7 +110,7 @@ def test_interruption_leaves_the_old_file(tmp_path):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        animate(broken(), tmp_path / "a.gif")
+        write_frames(broken(), tmp_path / "a.gif")
     assert [path.name for path in tmp_path.iterdir()] == ["a.gif"]
     assert (tmp_path / "a.gif").read_bytes() == b"old"
 
@@ -129,7 +129,7 @@ def test_five_seconds_of_rocking_are_a_hundred_pictures_that_move(tmp_path, resp
 def test_long_answers_play_faster():
     """An hour is shown in at most 1200 pictures, and the speed is said."""
     times, speed = frame_times(0.0, 3600.0)
-    assert len(times) <= MOST_FRAMES
+    assert len(times) <= MAX_FRAMES
     assert speed == 64
     assert times[-1] == 3600.0
 
@@ -140,8 +140,8 @@ def test_block_turns_about_the_corner_in_contact():
     right, left = block.slendernesses
     np.testing.assert_allclose(corners(block, 0.2)[1], [0.2, 0.0], atol=1e-15)
     np.testing.assert_allclose(corners(block, -0.2)[0], [-0.2, 0.0], atol=1e-15)
-    assert centre_of(block, right)[0] == pytest.approx(0.2)
-    assert centre_of(block, -left)[0] == pytest.approx(-0.2)
+    assert centroid_position(block, right)[0] == pytest.approx(0.2)
+    assert centroid_position(block, -left)[0] == pytest.approx(-0.2)
     assert corners(block, 0.2)[:, 1].min() > -1e-15
 
 
@@ -151,6 +151,6 @@ def test_fall_after_the_record_is_shown_to_its_end():
     short = solve_rock(Block(0.24, 0.8), Motion.from_arrays(1.4 * pulse, 0.01))
     assert short.outcome.overturned
     assert short.outcome.decided_after_record
-    whole = to_the_end(short)
+    whole = extend_to_fall(short)
     assert abs(whole["rotation"][-1]) == pytest.approx(np.pi / 2)
     assert whole.time[-1] == pytest.approx(short.outcome.overturning_time_s, abs=2e-2)

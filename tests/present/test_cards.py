@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from seisblock.present.pages.report_words import card, level, rank, scatter, worth
-from seisblock.studies.assessment import Effect
-from seisblock.studies.standing.governing import Governing
-from seisblock.studies.standing.probability import Probability, Versions
+from seisblock.report.html.report_text import card_text, rank, scatter_text, severity_class, share_caveat
+from seisblock.studies.assessment import ModelResponse
+from seisblock.studies.respond.best_estimate import BestEstimate
+from seisblock.studies.respond.probability import ParameterVariation, Probability
 from tests.present.long_record import response
 
 ENDS = dict.fromkeys(("q05", "q25", "q50", "q75", "q95"), 0.0)
@@ -20,15 +20,15 @@ def effect(name, fell_at, share):
     fell = {"overturned": fell_at is not None, "overturning_time_s": fell_at, "overturned_towards": None if fell_at is None else "+x"}
     outcome = replace(found.outcome, outcome="moves" if fell_at is None else "overturns", sensitive=False, **fell)
     told = replace(found, outcome=outcome, motion=replace(found.motion, name=name))
-    known = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, Versions(), 1)
-    return Effect("respond", told, None, None, Governing(told, known, True))
+    known = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, ParameterVariation(), 1)
+    return ModelResponse("respond", told, None, None, BestEstimate(told, known, True))
 
 
 def test_the_direction_in_which_most_versions_fall_is_the_worst():
     """NS falls later than EW, and in half of the versions, not in an eighth: the card opens with NS, and tells of EW, too."""
     north, east = effect("NS", 49.66, 0.46), effect("EW", 47.52, 0.12)
     for both in ([north, east], [east, north]):
-        head, text = card(both)
+        head, text = card_text(both)
         assert head.startswith("NS: overturns to +NS at 49.66 s")
         assert text[0].startswith("92 of 200") and text[1].startswith("EW: overturns to +EW at 47.52 s") and text[2].startswith("24 of 200")
         assert max(both, key=rank) is north
@@ -38,21 +38,21 @@ def test_the_share_goes_before_the_verdict_as_given():
     """Where more versions fall is worse, whatever the object does as it was given; then how soon it falls. All that fall are told."""
     falls, stands, soon = effect("NS", 49.0, 0.1), effect("EW", None, 0.4), effect("UP", 40.0, 0.1)
     assert sorted([falls, soon, stands], key=rank, reverse=True) == [stands, soon, falls]
-    head, text = card([falls, stands])
+    head, text = card_text([falls, stands])
     assert head.startswith("EW:") and text[0].startswith("80 of 200") and "NS: overturns" in " ".join(text)
-    assert "UP:" not in " ".join(card([falls, effect("UP", None, 0.0)])[1])
-    assert level([stands]) == "mild" and level([stands, falls]) == "bad"
+    assert "UP:" not in " ".join(card_text([falls, effect("UP", None, 0.0)])[1])
+    assert severity_class([stands]) == "mild" and severity_class([stands, falls]) == "bad"
 
 
 @pytest.mark.parametrize(("share", "said"), [(0.0, "3 % fell where"), (0.5, ""), (1.0, "2 % stood where")])
 def test_none_and_all_are_told_with_what_they_are_worth(share, said):
     """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
     found = effect("NS", None if share == 0.0 else 40.0, share)
-    assert said in "".join(worth(found)) and bool(said) == any("shaking tables" in text for text in card([found])[1])
-    assert "scatter alone" in scatter([found]) and "fell where none of 20 versions did" in scatter([found])
+    assert said in "".join(share_caveat(found)) and bool(said) == any("shaking tables" in text for text in card_text([found])[1])
+    assert "scatter alone" in scatter_text([found]) and "fell where none of 20 versions did" in scatter_text([found])
 
 
 def test_a_body_that_nobody_varied_is_told_without_shares():
     """Neither a caveat nor what was varied."""
     found = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
-    assert not list(worth(found)) and scatter([found]) == ""
+    assert not list(share_caveat(found)) and scatter_text([found]) == ""

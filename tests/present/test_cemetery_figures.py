@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.present.figures.cemetery import figure_14, figure_16, figure_20, overturn_rate_figure
-from seisblock.studies.cemetery.judgement import Method, curve_of, judge_cemetery
-from seisblock.studies.cemetery.rate import overturning_rate
-from seisblock.studies.cemetery.shaking import Shaking
+from seisblock.report.figures.cemetery import figure_14, figure_16, figure_20, overturn_rate_figure
+from seisblock.studies.survey.assessment import AssessmentMethod, assess_cemetery, overturning_curve
+from seisblock.studies.survey.overturning_rate import overturning_rate
+from seisblock.studies.survey.shaking import Shaking
 from seisblock.validation.furukawa_surveys import SURVEYS
 
 AOYAMA = read_cemetery("aoyama.csv")
@@ -30,7 +30,7 @@ def test_figs_16_to_19_draw_the_rates(reinforced):
     """Six curves hold the rate at each PGA; the surveyed rates stand at their PGA."""
     figure = figure_16(AOYAMA, reinforced=reinforced, surveys=SURVEYS)
     (axis,) = figure.axes
-    stones = AOYAMA.dowelled() if reinforced else AOYAMA
+    stones = AOYAMA.with_dowels() if reinforced else AOYAMA
     curves = {line.get_label(): line for line in axis.get_lines()}
     assert list(curves) == ["0.5 Hz", "1 Hz", "1.5 Hz", "2 Hz", "2.5 Hz", "3 Hz"]
     for label, line in curves.items():
@@ -50,9 +50,9 @@ def test_fig_20_sets_surveys_against_curves():
 @pytest.mark.parametrize(("compared", "panels"), [(False, 2), (True, 3)])
 def test_the_figure_of_a_shaking(compared, panels):
     """Stones, curves and the point of a shaking; a further panel where dowels are compared."""
-    method, shaking = Method(), Shaking(7.25, 2.75)
-    found = judge_cemetery(AOYAMA, shaking, method, after=AOYAMA.dowelled() if compared else None)
-    figure = overturn_rate_figure(AOYAMA, [(None, [found])], curve_of(AOYAMA, method))
+    method, shaking = AssessmentMethod(), Shaking(7.25, 2.75)
+    found = assess_cemetery(AOYAMA, shaking, method, reinforced_cemetery=AOYAMA.with_dowels() if compared else None)
+    figure = overturn_rate_figure(AOYAMA, [(None, [found])], overturning_curve(AOYAMA, method))
     assert len(figure.axes) == panels
     legend = [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
     assert legend[-1] == "2.75 Hz"
@@ -61,8 +61,8 @@ def test_the_figure_of_a_shaking(compared, panels):
 @pytest.mark.parametrize("criterion", ["furukawa", "simulate"])
 def test_the_point_of_a_shaking_is_in_view(criterion):
     """However strong the shaking and whatever is drawn beside it, its point lies within the panel."""
-    method, shaking = Method(criterion), Shaking(30.0, 2.0)
-    found = judge_cemetery(AOYAMA, shaking, method)
+    method, shaking = AssessmentMethod(criterion), Shaking(30.0, 2.0)
+    found = assess_cemetery(AOYAMA, shaking, method)
     low, high = overturn_rate_figure(AOYAMA, [(None, [found])], ()).axes[1].get_xlim()
     assert low == 0.0
     assert high > 3000.0

@@ -9,9 +9,9 @@ import re
 import numpy as np
 import pytest
 
-from seisblock.present.coast import coast_within
-from seisblock.present.figures.stations import figure
-from seisblock.present.pages.map import map_page
+from seisblock.report.coastline import coastlines
+from seisblock.report.figures.stations import figure
+from seisblock.report.html.map import map_page
 from tests.present.long_record import stations
 
 ISLAND = [(139.0, 34.9), (139.1, 34.9), (139.1, 35.0), (139.0, 35.0), (139.0, 34.9)]
@@ -42,15 +42,15 @@ def installed(tmp_path, monkeypatch):
 
 def test_the_stretches_of_a_part(installed):
     """What lies inside, each with its neighbours; of lakes nothing; places beyond 180 degrees by either of their names."""
-    island, cape = coast_within(138.5, 139.5, 34.5, 35.5)
+    island, cape = coastlines(138.5, 139.5, 34.5, 35.5)
     np.testing.assert_allclose(island, ISLAND, atol=1e-4)
     np.testing.assert_allclose(cape, CAPE, atol=1e-4)
-    (corner,) = coast_within(139.05, 139.5, 34.5, 34.95)
+    (corner,) = coastlines(139.05, 139.5, 34.5, 34.95)
     np.testing.assert_allclose(corner, ISLAND[:3], atol=1e-4)
     for west in (-170.5, 189.5):
-        (east,) = coast_within(west, west + 1.0, -21.0, -19.0)
+        (east,) = coastlines(west, west + 1.0, -21.0, -19.0)
         assert west <= east[0, 0] <= west + 1.0
-    assert coast_within(0.0, 1.0, 0.0, 1.0) == []
+    assert coastlines(0.0, 1.0, 0.0, 1.0) == []
 
 
 def test_figure_and_page_draw_it(installed):

@@ -6,25 +6,26 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from seisblock.present.directions import moved, phase, side, towards
-from seisblock.present.faces import FACES, figure_of, verdict_of
-from seisblock.present.films.animation import REAL_TIME
-from seisblock.present.films.jump import jump_film
-from seisblock.present.films.page import film_page
-from seisblock.present.films.respond import respond_film
-from seisblock.present.films.rock import rocking_film
-from seisblock.present.films.slide import slide_film
-from seisblock.present.films.stack import stack_film
-from seisblock.present.films.uplift import uplift_film
-from seisblock.present.pages.report_words import sentences, verdict
+from seisblock.core.i18n import use_locale
 from seisblock.records import Component, Motion, Record, motion_of
-from seisblock.studies.assessment import Effect
-from seisblock.words import speaking
+from seisblock.report.animation.html import animation_html
+from seisblock.report.animation.jump import jump_animation
+from seisblock.report.animation.render import REAL_TIME
+from seisblock.report.animation.respond import respond_animation
+from seisblock.report.animation.rock import rocking_animation
+from seisblock.report.animation.slide import slide_animation
+from seisblock.report.animation.stack import stack_animation
+from seisblock.report.animation.uplift import uplift_animation
+from seisblock.report.directions import direction_in_plane, direction_label, phase_label, with_direction
+from seisblock.report.html.report_text import sentences, verdict
+from seisblock.report.registry import PRESENTERS, response_figure, verdict_text
+from seisblock.studies.assessment import ModelResponse
 from tests.lengths import all_but_slow
 from tests.present.long_record import response
 
 FILMS = {
-    "respond": respond_film, "rock": rocking_film, "slide": slide_film, "jump": jump_film, "uplift": uplift_film, "stack": stack_film,
+    "respond": respond_animation, "rock": rocking_animation, "slide": slide_animation, "jump": jump_animation,
+    "uplift": uplift_animation, "stack": stack_animation,
 }  # fmt: skip
 
 NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-alpha")
@@ -32,18 +33,22 @@ NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("model", all_but_slow(FACES, set(FACES) - {"stack"}))
+@pytest.mark.parametrize("model", all_but_slow(PRESENTERS, set(PRESENTERS) - {"stack"}))
 def test_a_model_names_directions_after_the_record(model, lang):
     """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
     found = response(model)
-    with speaking(lang):
-        figure = figure_of([found])
+    with use_locale(lang):
+        figure = response_figure([found])
         film = FILMS[model](found, np.linspace(52.0, 70.0, 50))
-        page = film_page(film, REAL_TIME)
-        told = [verdict_of(found), *(text.get_text() for text in figure.findobj(Text)), *(film.called(p.name) for p in film.seen)]
+        page = animation_html(film, REAL_TIME)
+        told = [
+            verdict_text(found),
+            *(text.get_text() for text in figure.findobj(Text)),
+            *(film.called(p.name) for p in film.visible_phases),
+        ]
         told += [film.title, film.note, film.heading, page.split("application/json")[0]]
         if model in ("rock", "slide", "jump", "uplift"):
-            effect = Effect(model, found, None, None)
+            effect = ModelResponse(model, found, None, None)
             told += [verdict(effect), *sentences(effect)]
     assert not [text for text in told if NAMELESS.search(text)]
     if model in ("rock", "slide", "jump"):
@@ -52,14 +57,14 @@ def test_a_model_names_directions_after_the_record(model, lang):
 
 def test_a_side_is_a_component_or_an_azimuth():
     """The sign, or a document's word for it; an azimuth is turned round; nothing has no side."""
-    assert [side("EW", sign) for sign in (1.0, -1.0, "+x", "-x", "+", "-")] == ["+EW", "-EW"] * 3
-    assert [side("37", sign) for sign in (1, -1)] == ["azimuth 37", "azimuth 217"]
-    assert [side("", sign) for sign in (1, -1)] == ["+x", "-x"]
-    assert moved("448 mm", "NS", -0.448) == "448 mm to -NS"
-    assert moved("0.0 mm", "NS", -1e-6) == "0.0 mm"
-    with speaking("ja"):
-        assert moved("448 mm", "NS", -0.448) == "-NS へ 448 mm"
-        assert (phase("slip backward", "EW"), phase("rocks to +x", "127")) == ("-EW へすべる", "方位 127° へ傾斜")
+    assert [direction_label("EW", sign) for sign in (1.0, -1.0, "+x", "-x", "+", "-")] == ["+EW", "-EW"] * 3
+    assert [direction_label("37", sign) for sign in (1, -1)] == ["azimuth 37", "azimuth 217"]
+    assert [direction_label("", sign) for sign in (1, -1)] == ["+x", "-x"]
+    assert with_direction("448 mm", "NS", -0.448) == "448 mm to -NS"
+    assert with_direction("0.0 mm", "NS", -1e-6) == "0.0 mm"
+    with use_locale("ja"):
+        assert with_direction("448 mm", "NS", -0.448) == "-NS へ 448 mm"
+        assert (phase_label("slip backward", "EW"), phase_label("rocks to +x", "127")) == ("-EW へすべる", "方位 127° へ傾斜")
 
 
 def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():
@@ -67,7 +72,9 @@ def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():
     row = np.array([0.0, 1.0])
     record = Record((Component("NS", row, 0.0), Component("EW", row, 90.0), Component("UD", row)), 0.01)
     north, east = (motion_of(record, name) for name in ("NS", "EW"))
-    assert [towards(angle, north) for angle in (0.0, 50.0, 90.0, 180.0, -90.0)] == [f"azimuth {angle}" for angle in (0, 310, 270, 180, 90)]
-    assert [towards(angle, east) for angle in (0.0, 90.0, -135.0)] == ["azimuth 90", "azimuth 0", "azimuth 225"]
-    assert towards(30.0, motion_of(record, "37")) == "azimuth 7"
-    assert towards(-45.0, Motion.from_arrays(row, 0.01)) == "+x-y"
+    assert [direction_in_plane(angle, north) for angle in (0.0, 50.0, 90.0, 180.0, -90.0)] == [
+        f"azimuth {angle}" for angle in (0, 310, 270, 180, 90)
+    ]
+    assert [direction_in_plane(angle, east) for angle in (0.0, 90.0, -135.0)] == ["azimuth 90", "azimuth 0", "azimuth 225"]
+    assert direction_in_plane(30.0, motion_of(record, "37")) == "azimuth 7"
+    assert direction_in_plane(-45.0, Motion.from_arrays(row, 0.01)) == "+x-y"

@@ -10,12 +10,12 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
-from seisblock.present.documents.catalogue import KINDS, kinds_of, schema_of
-from seisblock.present.documents.units import unit_of
-from seisblock.present.documents.versions import VERSIONS
-from seisblock.present.documents.write import plain
-from seisblock.references import CITED, REFERENCES
-from seisblock.words import said
+from seisblock.core.i18n import lazy_gettext
+from seisblock.references import COMMAND_PAPERS, REFERENCES
+from seisblock.report.json.encode import to_builtins
+from seisblock.report.json.registry import DOCUMENTS, document_schemas, json_schema
+from seisblock.report.json.units import split_unit
+from seisblock.report.json.versions import VERSIONS
 from tests.present.document_keys import gone, lines, stored
 
 WITHOUT_DOCUMENT = {"report", "completion", "schema"}
@@ -110,7 +110,7 @@ def documents(tmp_path_factory):
 @pytest.mark.parametrize("line", EVERY)
 def test_a_document_is_what_its_schema_says(line, documents):
     """Types, required keys, and the name of the schema; null only where the schema admits it; and no key that the schema does not know."""
-    schema = schema_of(line.split()[0])
+    schema = json_schema(line.split()[0])
     jsonschema.Draft202012Validator.check_schema(schema)
     for definition in schema["$defs"].values():
         if "properties" in definition:
@@ -124,20 +124,20 @@ def test_an_answer_cites_what_its_command_relies_on(line, documents):
     """The papers of a document are among those that `cite COMMAND` prints; ``validate`` those of its cases."""
     command, cited = line.split()[0], documents(line)["citations"]
     assert len(set(cited)) == len(cited)
-    assert set(cited) <= set(CITED.get(command, REFERENCES))
+    assert set(cited) <= set(COMMAND_PAPERS.get(command, REFERENCES))
     assert bool(cited) is (command not in {"samples"})
 
 
 def test_every_command_has_a_schema_and_every_kind_an_example(documents):
     """A command without schema writes no document; each kind of document is among those validated."""
-    assert set(COMMANDS) - WITHOUT_DOCUMENT == set(KINDS) == set(VERSIONS)
-    for command in KINDS:
+    assert set(COMMANDS) - WITHOUT_DOCUMENT == set(DOCUMENTS) == set(VERSIONS)
+    for command in DOCUMENTS:
         told = [set(documents(line)["parameters"]) for line in EVERY if line.split()[0] == command]
-        for kind in kinds_of(command):
+        for kind in document_schemas(command):
             assert set(kind.parameters.__struct_fields__) in told, f"{command}: no example of {kind.name or 'its document'}"
 
 
-@pytest.mark.parametrize("command", list(KINDS))
+@pytest.mark.parametrize("command", list(DOCUMENTS))
 def test_no_key_changes_unless_the_version_does(command):
     """What is written down in ``keys`` still holds, or the version was stepped; what is new is written down too."""
     assert gone(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
@@ -157,7 +157,7 @@ def test_a_key_that_changes_is_noticed(monkeypatch):
     assert gone("slide") == []
 
 
-@pytest.mark.parametrize("command", list(KINDS))
+@pytest.mark.parametrize("command", list(DOCUMENTS))
 def test_every_number_names_its_unit(command):
     """In its own key, in a key above it, in a key ``unit`` beside it; or it is a pure number."""
     paths = dict(line.rsplit(" ", 1) for line in lines(command)[1:])
@@ -165,7 +165,7 @@ def test_every_number_names_its_unit(command):
     for path, kind in paths.items():
         names = re.sub(r"\[\]|\{\}|\?", "", path).split(".")[1:]
         beside = path.rpartition(".")[0] + ".unit" in paths
-        if {"number", "integer"} & set(kind.split("|")) and not (beside or any(unit_of(name)[1] for name in names)):
+        if {"number", "integer"} & set(kind.split("|")) and not (beside or any(split_unit(name)[1] for name in names)):
             silent += [] if PURE_NUMBERS.match(names[-1]) else [path]
     assert silent == []
 
@@ -173,7 +173,7 @@ def test_every_number_names_its_unit(command):
 @pytest.mark.parametrize("command", ["rock", "slide", "jump", "uplift", "stack", "measure"])
 def test_keys_say_what_they_mean(command):
     """Results carry the docstrings of the library: most keys have a description, none is left as markup."""
-    definitions = schema_of(command)["$defs"]
+    definitions = json_schema(command)["$defs"]
     shapes = [shape for definition in definitions.values() for shape in definition.get("properties", {}).values()]
     told = [shape["description"] for shape in shapes if "description" in shape]
     assert len(told) > 0.4 * len(shapes)
@@ -185,17 +185,22 @@ def test_keys_say_what_they_mean(command):
 def test_the_schema_is_printed_and_the_list_costs_nothing():
     """`seisblock schema rock` prints JSON; without a command the names and versions; an unknown command is a usage error."""
     printed = CliRunner().invoke(main, ["schema", "rock"])
-    assert json.loads(printed.stdout) == schema_of("rock")
+    assert json.loads(printed.stdout) == json_schema("rock")
     assert CliRunner().invoke(main, ["schema"]).stdout.split() == [f"seisblock/{name}/{version}" for name, version in VERSIONS.items()]
     assert CliRunner().invoke(main, ["schema", "report"]).exit_code == 2
 
 
 def test_values_of_other_kinds_are_written_plainly():
     """Texts that remember their template, paths, and numpy's numbers and arrays; what is not a number is null; anything else is refused."""
-    values = {"text": said("{name} falls", name="A"), "path": Path("a/b"), "numbers": np.array([1.5, np.nan]), "flag": np.bool_(True)}
-    assert plain(values) == {"text": "A falls", "path": "a/b", "numbers": [1.5, None], "flag": True}
+    values = {
+        "text": lazy_gettext("{name} falls", name="A"),
+        "path": Path("a/b"),
+        "numbers": np.array([1.5, np.nan]),
+        "flag": np.bool_(True),
+    }
+    assert to_builtins(values) == {"text": "A falls", "path": "a/b", "numbers": [1.5, None], "flag": True}
     with pytest.raises(NotImplementedError, match="no JSON form for complex"):
-        plain(1j)
+        to_builtins(1j)
 
 
 def test_several_records_are_a_list_and_each_result_says_which(documents):

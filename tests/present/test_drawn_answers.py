@@ -7,20 +7,20 @@ import pytest
 from matplotlib.lines import Line2D
 
 from seisblock import Block, solve_rock
-from seisblock.bodies.scan.directions import scan_azimuths
+from seisblock.bodies.scan.azimuths import scan_azimuths
 from seisblock.bodies.scan.scan import scan_body
-from seisblock.present.figures.azimuths import figure as azimuths_figure
-from seisblock.present.figures.criteria import figure as criteria_figure
-from seisblock.present.figures.fragility import figure as fragility_figure
-from seisblock.present.figures.rock import figure as rock_figure
-from seisblock.present.text.fragility import verdict
+from seisblock.core.i18n import use_locale
 from seisblock.records import Motion
-from seisblock.studies.cemetery.rate import overturning_rate
+from seisblock.report.figures.azimuths import figure as azimuths_figure
+from seisblock.report.figures.criteria import figure as criteria_figure
+from seisblock.report.figures.fragility import figure as fragility_figure
+from seisblock.report.figures.rock import figure as rock_figure
+from seisblock.report.text.fragility import verdict
 from seisblock.studies.rocking.azimuths import RockAzimuth
-from seisblock.validation.furukawa_field import MODELS, SURVEYED
+from seisblock.studies.survey.overturning_rate import overturning_rate
+from seisblock.validation.furukawa_field import MODELS, SURVEYED_RATES
 from seisblock.validation.furukawa_field import rates as field_rates
 from seisblock.validation.furukawa_surveys import SURVEYS
-from seisblock.words import speaking
 from tests.present.long_record import (
     AOYAMA,
     EVERY,
@@ -144,7 +144,7 @@ def test_a_rose_names_the_side_to_which_the_worst_falls():
     assert worst.outcome.overturned
     for towards, azimuth in (("-x", 330), ("+x", 150)):
         found = [RockAzimuth(90.0, False, None, None, 0.4, 0.3), RockAzimuth(150.0, True, towards, 1.0, 5.2, 0.3)]
-        with speaking("en"):
+        with use_locale("en"):
             drawn_rose = azimuths_figure([worst], [found])
         (rose,) = drawn_rose.axes
         assert drawn_rose.get_suptitle() == "all azimuths", "not that of the worst alone"
@@ -209,7 +209,7 @@ def test_a_scan_is_its_plan_and_its_azimuths():
     body = scan_body("boulder.ply", inset=0.1).body
     plan, alpha, p = axes_of("a scan")
     areas = [polygon_area(patch.get_xy()[:-1]) for patch in plan.patches]
-    assert areas[1] == pytest.approx(polygon_area(body.corners)) and areas[2] == pytest.approx(polygon_area(body.carrying))
+    assert areas[1] == pytest.approx(polygon_area(body.corners)) and areas[2] == pytest.approx(polygon_area(body.support_polygon))
     around = scan_azimuths(body, step_deg=1.0)
     angles = np.radians([each.azimuth_deg for each in (*around, around[0])])
     for panel, values in (
@@ -258,7 +258,7 @@ def test_a_criterion_is_its_thresholds_and_its_levels():
 def test_a_field_test_is_its_rates():
     """A bar per survey, and a marker per model and survey, at the rate that the model gives."""
     (axis,) = axes_of("field test")
-    assert [bar.get_height() for bar in axis.patches] == list(SURVEYED)
+    assert [bar.get_height() for bar in axis.patches] == list(SURVEYED_RATES)
     shown = [curve[:, 1] for curve in drawn(axis)]
     for model in MODELS:
         assert sum(np.allclose(values, field_rates(model.key)) for values in shown) == 1

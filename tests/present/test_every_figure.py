@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from seisblock.errors import OutputError
-from seisblock.present.figures import least
-from seisblock.present.figures.canvas import SMALLEST_LETTERS
-from seisblock.present.figures.embed import picture
-from seisblock.present.figures.size import fitted
-from seisblock.units import Size
-from seisblock.words import speaking
+from seisblock.core.errors import OutputError
+from seisblock.core.i18n import use_locale
+from seisblock.core.units import FigureSize
+from seisblock.report.figures import min_size
+from seisblock.report.figures.fit_size import fit_figure_size
+from seisblock.report.figures.style import MIN_FONT_SCALE
+from seisblock.report.figures.svg import embed_figure
 from tests.language.test_commands import MINUS_NOTHING
 from tests.lengths import all_but_slow
 from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
@@ -50,7 +50,7 @@ def test_every_kind_of_figure_is_looked_at():
 @functools.cache
 def drawn(name, lang):
     """Return a figure, drawn once in a language: every test looks at the same one."""
-    with speaking(lang):
+    with use_locale(lang):
         figure = EVERY[name][1](True)
         figure.draw_without_rendering()
     return figure
@@ -66,7 +66,7 @@ def letters(name, *, gal):
     """Return what a figure says in a unit; its words are settled before it is drawn."""
     if gal:
         return [text.get_text() for text in read(name, "en")]
-    with speaking("en"):
+    with use_locale("en"):
         return [text.get_text() for text in EVERY[name][1](False).findobj(Text)]
 
 
@@ -82,13 +82,13 @@ def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_a_journals_column_holds_it(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
-    with speaking("ja"):
+    with use_locale("ja"):
         figure = EVERY[name][1](True)
-        figure = fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
+        figure = fit_figure_size(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
     assert crowded(figure, texts) == []
-    assert min(text.get_fontsize() for text in texts) >= 6.5 * SMALLEST_LETTERS
+    assert min(text.get_fontsize() for text in texts) >= 6.5 * MIN_FONT_SCALE
 
 
 TOO_SMALL = {
@@ -102,23 +102,23 @@ TOO_SMALL = {
 @pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
 def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatch):
     """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
-    monkeypatch.setattr(least, "FINE", 0.5)  # the first size that will do, not the least
-    with speaking("en"):
+    monkeypatch.setattr(min_size, "RELATIVE_TOLERANCE", 0.5)  # the first size that will do, not the least
+    with use_locale("en"):
         figure = EVERY[name][1](True)
         try:
-            figure = fitted(figure, size=Size(COLUMN, 0.06, "mm"))
+            figure = fit_figure_size(figure, size=FigureSize(COLUMN, 0.06, "mm"))
         except OutputError as error:
             assert name in TOO_SMALL
             figure = EVERY[name][1](True)
             told = [float(side) / 1000 for side in re.findall(r"(\d+) mm", str(error).rpartition(": ")[2])]
-            figure = fitted(figure, size=Size(*([COLUMN, *told] if len(told) == 1 else told), "mm"))
+            figure = fit_figure_size(figure, size=FigureSize(*([COLUMN, *told] if len(told) == 1 else told), "mm"))
         else:
             assert name not in TOO_SMALL
             assert tuple(figure.get_size_inches()) == pytest.approx((COLUMN / 0.0254, 0.06 / 0.0254))
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
     assert crowded(figure, texts) == []
-    assert min(text.get_fontsize() for text in texts) >= 6.5 * SMALLEST_LETTERS
+    assert min(text.get_fontsize() for text in texts) >= 6.5 * MIN_FONT_SCALE
 
 
 @pytest.mark.slow
@@ -126,9 +126,9 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
 @pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift", "uplift, two"])
 def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):
     """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
-    with speaking(lang):
+    with use_locale(lang):
         high = 0.4 if name == "uplift, two" else 0.235  # that one has twelve panels
-        figure = fitted(EVERY[name][1](True), size=(COLUMN, high), title="as asked")
+        figure = fit_figure_size(EVERY[name][1](True), size=(COLUMN, high), title="as asked")
         figure.draw_without_rendering()
     assert crowded(figure, tuple(visible_texts(figure))) == []
     assert figure.get_size_inches() == pytest.approx((COLUMN / 0.0254, high / 0.0254))
@@ -139,20 +139,20 @@ def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name
 @pytest.mark.parametrize("number", [3, 4])
 def test_a_key_does_not_lie_on_a_curve_of_a_small_figure(number, lang):
     """Letters shrink less than a figure: a key that had room among the curves goes above them."""
-    with speaking(lang):
+    with use_locale(lang):
         figure = EVERY[f"as fig. {number} of Okumura"][1](True)
         figure.draw_without_rendering()
-        assert not figure.hides_a_curve(figure.axes[0].get_legend())
-        figure = fitted(figure, size=Size(COLUMN, 0.06, "mm"))
+        assert not figure.legend_covers_curve(figure.axes[0].get_legend())
+        figure = fit_figure_size(figure, size=FigureSize(COLUMN, 0.06, "mm"))
         figure.draw_without_rendering()
-    assert not figure.hides_a_curve(figure.axes[0].get_legend())
+    assert not figure.legend_covers_curve(figure.axes[0].get_legend())
 
 
 @pytest.mark.parametrize("name", ["fragility", "fragility of nine"])
 def test_the_key_of_a_fragility_hides_no_curve(name):
     """Curves rise to the right: the key stands in the corner that they leave."""
     figure = drawn(name, "en")
-    assert [axis for axis in figure.axes if axis.get_legend() and figure.hides_a_curve(axis.get_legend())] == []
+    assert [axis for axis in figure.axes if axis.get_legend() and figure.legend_covers_curve(axis.get_legend())] == []
 
 
 def test_nine_risks_differ_and_are_all_named():
@@ -166,9 +166,9 @@ def test_nine_risks_differ_and_are_all_named():
 @pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
 def test_no_key_covers_a_title_within_a_page(lang):
     """A figure that is narrowed for a page lifts its titles over the keys, with the tails of their letters."""
-    with speaking(lang):
+    with use_locale(lang):
         figure = EVERY["measure"][1](True)
-        picture(figure, "")
+        embed_figure(figure, "")
         figure.draw_without_rendering()
     keyed = [axis for axis in figure.axes if axis.get_legend() and axis.get_title(loc="left")]
     assert len(keyed) >= 2

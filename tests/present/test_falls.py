@@ -5,13 +5,13 @@ import pytest
 from rich.cells import cell_len
 
 from seisblock import Motion, load_pile
-from seisblock.present.directions import pointed
-from seisblock.present.text.falls import told_falls
-from seisblock.present.text.stack import tables
-from seisblock.present.text.tables import console
-from seisblock.results import Response
-from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
-from seisblock.words import speaking
+from seisblock.core.i18n import use_locale
+from seisblock.core.results import Response
+from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
+from seisblock.report.directions import direction_with_compass
+from seisblock.report.text.stack import tables
+from seisblock.report.text.stone_falls import describe_falls
+from seisblock.report.text.tables import console
 
 STILL = np.zeros((3, 200))
 RIGID = {"points": 2, "law": "rigid", "contact": None, "restitution": None, "gravity_m_s2": 9.80665}
@@ -31,7 +31,7 @@ def fell(pile, *falls, azimuth=0.0):
         at, to = told.get(name, (None, None))
         side = None if to is None or azimuth is None else (azimuth - to) % 360.0
         state = "standing" if at is None else "fallen"
-        stones.append(StoneFate(name, state, 1.0, 1.0, 0.01, 0.01, 0.0, 0.0, at, to, side, None if at is None else "ground"))
+        stones.append(StoneOutcome(name, state, 1.0, 1.0, 0.01, 0.01, 0.0, 0.0, at, to, side, None if at is None else "ground"))
     names = tuple(stone.name for stone in stones if stone.state == "fallen")
     first = min((at for _, at, _ in falls), default=None)
     outcome = StackOutcome(names, bool(names), first, {}, {}, tuple(stones), 0.0, 0.0, 0.0, 0.0, 1e-3)
@@ -69,7 +69,7 @@ def lantern(*names, each=0.05, azimuth=0.0):
 )
 def test_falls_are_one_sentence(answer, sentence):
     """Together within half a second and to one side, or one after the other in the order of time."""
-    assert told_falls(answer) == sentence
+    assert describe_falls(answer) == sentence
 
 
 def test_a_pile_of_many_stones_is_one_short_sentence(tmp_path):
@@ -78,7 +78,7 @@ def test_a_pile_of_many_stones_is_one_short_sentence(tmp_path):
     stone = '[[stone]]\nname = "s{}"\nwidth = 0.5\ndepth = 0.5\nheight = 0.1\n'
     file.write_text('kind = "pile"\n' + "".join(stone.format(rank) for rank in range(20)))
     answer = fell(file, *((f"s{rank}", 4.0 - 0.1 * rank, 90.0) for rank in range(20)))
-    assert told_falls(answer) == "s19 fell first, at 2.10 s to azimuth 90 (E); then 19 stones, the last at 4.00 s."
+    assert describe_falls(answer) == "s19 fell first, at 2.10 s to azimuth 90 (E); then 19 stones, the last at 4.00 s."
 
 
 @pytest.mark.parametrize(
@@ -86,10 +86,12 @@ def test_a_pile_of_many_stones_is_one_short_sentence(tmp_path):
 )
 def test_an_azimuth_has_its_point_of_the_compass(azimuth, point):
     """The nearest of sixteen, whatever +x is; in Japanese, too."""
-    assert [pointed(plus_x - azimuth, motion_towards(plus_x)) for plus_x in (0.0, 117.0)] == [f"azimuth {azimuth} ({point})"] * 2
-    with speaking("ja"):
+    assert [direction_with_compass(plus_x - azimuth, motion_towards(plus_x)) for plus_x in (0.0, 117.0)] == [
+        f"azimuth {azimuth} ({point})"
+    ] * 2
+    with use_locale("ja"):
         kanji = point.translate(str.maketrans("NESW", "北東南西"))
-        assert pointed(-azimuth, motion_towards(0.0)) == f"方位 {azimuth}°（{kanji}）"
+        assert direction_with_compass(-azimuth, motion_towards(0.0)) == f"方位 {azimuth}°（{kanji}）"
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
@@ -100,7 +102,7 @@ def test_the_table_has_the_side_of_each_fall_in_80_columns(pile, lang, monkeypat
     names = load_pile(pile).names[1:]
     falls = [(name, 1000.0 + rank, 260.0 + rank) for rank, name in enumerate(names)]
     for azimuth, side in ((0.0, "260"), (None, "+y")):
-        with speaking(lang):
+        with use_locale(lang):
             screen = console()
             with screen.capture() as shown:
                 screen.print(*tables([fell(pile, *falls, azimuth=azimuth)], [{"agreement": None}]))

@@ -11,21 +11,21 @@ import pytest
 from PIL import Image
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.toml import read_table
-from seisblock.bodies.two_layer import Contact, contact, two_layer_block
+from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.two_layer import Contact, contact_from_table, two_layer_from_table
 from seisblock.measures import ground_history
-from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Film, Line, Strip
-from seisblock.present.films.frames import pace
-from seisblock.present.films.jump import animate_jump, jump_film
-from seisblock.present.films.page import film_page
-from seisblock.present.films.plane import Body, Piece, Plane, rectangle, turned
-from seisblock.present.films.rock import animate_rocking, rocking_film
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.rock.solve import solve_rock
+from seisblock.report.animation.animation import Animation, Line, Strip
+from seisblock.report.animation.frames import format_speed
+from seisblock.report.animation.html import animation_html
+from seisblock.report.animation.jump import animate_jump, jump_animation
+from seisblock.report.animation.render import AnimationOptions
+from seisblock.report.animation.rock import animate_rocking, rocking_animation
+from seisblock.report.animation.scene2d import Body, Piece, Scene2D, rectangle, rotate
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -33,15 +33,15 @@ CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 @pytest.fixture(scope="module")
 def jumped():
     """The bundled record's jump off a floor 30 cm above the ground."""
-    body = read_table("chozusha")
+    body = read_body_toml("chozusha")
     motion = motion_of(crop(read("synthetic_jma.csv"), 26.1, 27.6), "EW")
-    return solve_jump(two_layer_block(body, "short"), motion, contact=Contact(**contact(body)), drop=0.3)
+    return solve_jump(two_layer_from_table(body, "short"), motion, contact=Contact(**contact_from_table(body)), drop=0.3)
 
 
 @pytest.fixture(scope="module")
 def film(jumped):
     """Its film at 500 moments."""
-    return jump_film(jumped, np.linspace(jumped.time[0], jumped.time[-1], 500))
+    return jump_animation(jumped, np.linspace(jumped.time[0], jumped.time[-1], 500))
 
 
 def during(film, name):
@@ -56,7 +56,7 @@ def during(film, name):
 
 def test_a_turn_to_plus_x_moves_the_top_to_plus_x():
     """Positive is clockwise, seen with x to the right and z up."""
-    np.testing.assert_allclose(turned(np.array([[0.0, 1.0]]), 0.1), [[np.sin(0.1), np.cos(0.1)]], atol=1e-15)
+    np.testing.assert_allclose(rotate(np.array([[0.0, 1.0]]), 0.1), [[np.sin(0.1), np.cos(0.1)]], atol=1e-15)
 
 
 def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
@@ -89,13 +89,13 @@ def test_everything_stays_in_the_picture(film):
     for index in range(0, film.time.size, 7):
         for body in film.scene.bodies:
             for piece in body.pieces:
-                corners = body.placed(piece.corners, index) + np.array([film.scene.shift[index], 0.0])
+                corners = body.corners_at(piece.corners, index) + np.array([film.scene.shift[index], 0.0])
                 assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
 
 
 def test_a_page_holds_the_film_and_fetches_nothing(film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
-    page = film_page(film, Filming(slow=4.0))
+    page = animation_html(film, AnimationOptions(slow=4.0))
     data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
     drawn = data["scene"]["trails"][1]
     path = film.scene.trails[1]
@@ -108,8 +108,10 @@ def test_a_page_holds_the_film_and_fetches_nothing(film):
 def test_titles_are_text_and_not_markup():
     """A body named like a tag cannot break the page."""
     body = Body((Piece(rectangle(0, 1, 0, 1)),), *np.zeros((3, 2)))
-    film = Film("</script><b>", np.array([0.0, 1.0]), Plane(np.zeros(2), (body,), (rectangle(-1, 1, -1, 0),)), heading="<b>", note="<b>")
-    page = film_page(film, Filming())
+    film = Animation(
+        "</script><b>", np.array([0.0, 1.0]), Scene2D(np.zeros(2), (body,), (rectangle(-1, 1, -1, 0),)), heading="<b>", note="<b>"
+    )
+    page = animation_html(film, AnimationOptions())
     assert "<b>" not in page and page.count("</script>") == 2
 
 
@@ -117,11 +119,11 @@ def test_titles_are_text_and_not_markup():
 def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
     """--slow 4 takes four times the pictures, of which each stands as long."""
     for slow in (1.0, 4.0):
-        animate_jump(jumped, tmp_path / f"{slow:g}.gif", Filming(slow=slow))
+        animate_jump(jumped, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
     with Image.open(tmp_path / "1.gif") as fast, Image.open(tmp_path / "4.gif") as slow:
         assert slow.n_frames == pytest.approx(4 * fast.n_frames, abs=4)
         assert fast.info["duration"] == slow.info["duration"] == 50
-    assert [pace(1.0), pace(0.25), pace(2.0)] == ["real time", "4 x slower", "2 x real time"]
+    assert [format_speed(1.0), format_speed(0.25), format_speed(2.0)] == ["real time", "4 x slower", "2 x real time"]
 
 
 def test_drawing_tells_how_far_it_is(tmp_path):
@@ -129,7 +131,7 @@ def test_drawing_tells_how_far_it_is(tmp_path):
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
     told = []
-    animate_rocking(response, tmp_path / "rock.gif", Filming(progress=lambda done, total: told.append((done, total))))
+    animate_rocking(response, tmp_path / "rock.gif", AnimationOptions(progress=lambda done, total: told.append((done, total))))
     assert told[-1][0] == told[-1][1] > 50
 
 
@@ -137,7 +139,7 @@ def test_the_rocking_block_stands_on_its_pivot():
     """Leaning to +x the right foot is on the ground and the left one above it."""
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
-    film = rocking_film(response, response.time)
+    film = rocking_animation(response, response.time)
     corners = film.scene.bodies[0].pieces[0].corners
     feet = [film.scene.bodies[0].path(corners[i])[1] for i in (0, 1)]
     np.testing.assert_allclose(np.minimum(*feet), 0.0, atol=1e-12)
@@ -150,7 +152,7 @@ def test_the_rocking_block_stands_on_its_pivot():
 def test_a_browser_draws_the_page(film, tmp_path, width):
     """The script runs: the clock shows the time, and the scene is not empty."""
     path = tmp_path / "film.html"
-    path.write_text(film_page(film, Filming()) + "<script>document.title = String(byId('scene').width > 300)</script>")
+    path.write_text(animation_html(film, AnimationOptions()) + "<script>document.title = String(byId('scene').width > 300)</script>")
     shown = browsed(path, tmp_path, width)
     assert re.search(r'id="clock">2[67]\.\d{3} s<', shown)
     assert "<title>true</title>" in shown
@@ -166,7 +168,7 @@ def test_the_longest_number_beside_a_strip_is_not_cut(film, tmp_path):
         told.push([text, this.textAlign === "right" ? x - this.measureText(text).width : x]); };
       draw(); document.title = JSON.stringify(told.filter(each => each[0].includes("0.000602")).map(each => each[1] >= 0));
     </script>"""
-    path.write_text(film_page(tiny, Filming()) + seen)
+    path.write_text(animation_html(tiny, AnimationOptions()) + seen)
     assert "<title>[true]</title>" in browsed(path, tmp_path, 390)
 
 

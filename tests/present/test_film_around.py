@@ -7,17 +7,19 @@ import re
 import numpy as np
 import pytest
 
-from seisblock.present.films.animation import Filming
-from seisblock.present.films.page import WAYS, film_page
-from seisblock.present.films.space import AZIMUTH, ELEVATION, view_axes
+from seisblock.report.animation.html import VIEW_AZIMUTHS, animation_html
+from seisblock.report.animation.render import AnimationOptions
+from seisblock.report.animation.scene3d import AZIMUTH, ELEVATION, view_axes
 from tests.present.test_films import film
 
-WHERE = AZIMUTH + 2.0 * math.pi * np.arange(WAYS) / WAYS
+WHERE = AZIMUTH + 2.0 * math.pi * np.arange(VIEW_AZIMUTHS) / VIEW_AZIMUTHS
 
 
 def boxes(model):
     """Return what the page of a film knows: how much of the picture is taken, seen from each direction."""
-    told = re.search(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', film_page(film(model, 100), Filming()), re.DOTALL)
+    told = re.search(
+        r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', animation_html(film(model, 100), AnimationOptions()), re.DOTALL
+    )
     return np.array(json.loads(told.group(1))["scene"]["extents"])
 
 
@@ -32,13 +34,13 @@ def seen_from(azimuth, points):
 def test_all_that_lies_on_the_ground_is_in_the_picture_from_each_side(model, between):
     """Ground and stones on it are in the box of each direction and between two; the box of the first view was taken for all."""
     scene, known = film(model, 100).scene, boxes(model)
-    lying = [solid.placed(-1) for solid in scene.solids]
+    lying = [solid.corners_at(-1) for solid in scene.solids]
     low, high = scene.patch[0, :2], scene.patch[2, :2]
     on_ground = [corners for corners in lying if (low <= corners[:, :2]).all() and (corners[:, :2] <= high).all()]
     points = np.concatenate([scene.patch, *on_ground]) + scene.moved[-1]
     for k, azimuth in enumerate(WHERE):
-        left, end, bottom, top = (1.0 - between) * known[k] + between * known[(k + 1) % WAYS]
-        across, rise = seen_from(azimuth + between * 2.0 * math.pi / WAYS, points)
+        left, end, bottom, top = (1.0 - between) * known[k] + between * known[(k + 1) % VIEW_AZIMUTHS]
+        across, rise = seen_from(azimuth + between * 2.0 * math.pi / VIEW_AZIMUTHS, points)
         assert left < across.min() and across.max() < end and bottom < rise.min() and rise.max() < top
 
 

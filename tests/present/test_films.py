@@ -13,36 +13,36 @@ import pytest
 from PIL import Image
 
 from seisblock import Block, crop, load_pile, motion_of, read, scale, solve_respond, solve_rock, solve_stack
-from seisblock.bodies.spring_block import CORNERS
+from seisblock.bodies.spring_block import CORNER_SIGNS
+from seisblock.core.i18n import use_locale
 from seisblock.measures import ground_history
-from seisblock.present.faces import FACES
-from seisblock.present.films import jump, respond, rock, slide, stack, uplift
-from seisblock.present.films.animation import MOST_FRAMES, Filming, frame_times
-from seisblock.present.films.frames import film_frames, set_up
-from seisblock.present.films.page import film_page
-from seisblock.present.films.space import on_picture, view_axes
-from seisblock.solvers.stack.outcome import rotated
-from seisblock.words import speaking
+from seisblock.models.stack.outcome import rotate_vectors
+from seisblock.report.animation import jump, respond, rock, slide, stack, uplift
+from seisblock.report.animation.frames import animation_frames, build_figure
+from seisblock.report.animation.html import animation_html
+from seisblock.report.animation.render import MAX_FRAMES, AnimationOptions, frame_times
+from seisblock.report.animation.scene3d import project, view_axes
+from seisblock.report.registry import PRESENTERS
 from tests.language.english import english_in, seen_in
 from tests.present.long_record import motion, response
 from tests.present.test_every_figure import shared, visible_texts
 from tests.present.test_histories import deviation, until_it_falls
 
 FILMS = {
-    "respond": respond.respond_film,
-    "rock": rock.rocking_film,
-    "slide": slide.slide_film,
-    "jump": jump.jump_film,
-    "uplift": uplift.uplift_film,
-    "stack": stack.stack_film,
+    "respond": respond.respond_animation,
+    "rock": rock.rocking_animation,
+    "slide": slide.slide_animation,
+    "jump": jump.jump_animation,
+    "uplift": uplift.uplift_animation,
+    "stack": stack.stack_animation,
 }
 SPANS = {
-    "respond": respond.stretch,
-    "rock": rock.stretch,
-    "slide": lambda r: slide.stretch(r.phases, slide.COLOURS, 0.0, 300.0),
-    "jump": lambda r: jump.stretch(r.phases, jump.COLOURS, 0.0, 300.0),
-    "uplift": uplift.stretch,
-    "stack": lambda r: stack.stretch(r, margin=1.5),
+    "respond": respond.motion_interval,
+    "rock": rock.motion_interval,
+    "slide": lambda r: slide.motion_interval(r.phases, slide.COLOURS, 0.0, 300.0),
+    "jump": lambda r: jump.motion_interval(r.phases, jump.COLOURS, 0.0, 300.0),
+    "uplift": uplift.motion_interval,
+    "stack": lambda r: stack.motion_interval(r, margin=1.5),
 }
 CURVES = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ (deg)": np.degrees(r["rotation"])},
@@ -65,15 +65,15 @@ def film(model, pictures=200, **options):
 
 def test_each_model_has_a_film():
     """What moves is seen moving, and each film is under test here."""
-    assert [name for name, face in FACES.items() if face.film is not None] == list(FACES)
-    assert set(FILMS) == set(FACES)
+    assert [name for name, face in PRESENTERS.items() if face.film is not None] == list(PRESENTERS)
+    assert set(FILMS) == set(PRESENTERS)
 
 
 @pytest.mark.parametrize("model", FILMS)
 def test_pictures_draw_the_true_curve(model):
     """F1: the curves in .gif and .mp4 hold every point of the response in view."""
-    found, stage = response(model), set_up(film(model))
-    stage.sheet.canvas.draw()
+    found, stage = response(model), build_figure(film(model))
+    stage.fig.canvas.draw()
     for label, values in CURVES[model](found).items():
         (axis,) = [axis for axis in stage.panels if " ".join(axis.get_ylabel().split("\n")) == label]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
@@ -85,7 +85,7 @@ def test_pictures_draw_the_true_curve(model):
 def test_pages_draw_the_true_curve(model):
     """F1: so do the curves of a page; each point of the response in view lies on the line, to a 300th of the strip's height."""
     found = response(model)
-    data = data_of(film_page(film(model), Filming()))
+    data = data_of(animation_html(film(model), AnimationOptions()))
     first, last = data["first"], data["last"]
     for label, values in CURVES[model](found).items():
         inside = (found.time > first) & (found.time < last) & np.isfinite(values)
@@ -116,8 +116,8 @@ def data_of(page):
 def test_a_film_says_which_record_it_shows(model):
     """Station, local time and direction stand above pictures and pages as above figures."""
     shown = film(model)
-    assert set_up(shown).sheet.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
-    page = film_page(shown, Filming())
+    assert build_figure(shown).fig.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
+    page = animation_html(shown, AnimationOptions())
     assert '<p class="soft">X012 小さな町 $a_b$ · 2024-01-01 16:10:00 JST · NS' in page
     assert ("scaled by 1.6" in page) == (model == "jump")
 
@@ -126,13 +126,13 @@ def test_a_film_says_which_record_it_shows(model):
 @pytest.mark.parametrize("model", FILMS)
 def test_no_text_of_a_picture_lies_on_another(model, lang):
     """Titles, clock, legends and labels stand by themselves, within the picture."""
-    with speaking(lang):
-        stage = set_up(film(model))
+    with use_locale(lang):
+        stage = build_figure(film(model))
         stage.show(100, "real time")
-        stage.sheet.canvas.draw()
-    renderer = stage.sheet.canvas.get_renderer()
-    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(stage.sheet) if text.get_text().strip()]
-    width, height = stage.sheet.bbox.width, stage.sheet.bbox.height
+        stage.fig.canvas.draw()
+    renderer = stage.fig.canvas.get_renderer()
+    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(stage.fig) if text.get_text().strip()]
+    width, height = stage.fig.bbox.width, stage.fig.bbox.height
     assert not [told for told, box in boxes if box.x0 < -2 or box.y0 < -2 or box.x1 > width + 2 or box.y1 > height + 2]
     assert not [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if shared(one, other) > 0.05]
 
@@ -140,8 +140,8 @@ def test_no_text_of_a_picture_lies_on_another(model, lang):
 @pytest.mark.parametrize("model", FILMS)
 def test_pages_are_told_in_the_language_spoken(model):
     """Title, notes, legends and labels of the player; and a page of a long record stays small enough to send."""
-    with speaking("ja"):
-        page = film_page(film(model, 3000), Filming())
+    with use_locale("ja"):
+        page = animation_html(film(model, 3000), AnimationOptions())
     assert not english_in(seen_in(page).replace("$a_b$", "")) and "再生" in page
     assert not english_in(" ".join(strip["label"] for strip in data_of(page)["strips"]))
     assert len(page.encode()) < 1_000_000
@@ -160,23 +160,23 @@ def test_accelerations_are_in_the_unit_asked_for(model):
 def test_the_enlarged_window_tells_places_in_the_unit_asked_for(gal, unit, size):
     """cm, or with --si m, in pictures; a page's bar of scale knows which, too."""
     shown = film("jump", 40)
-    stage = set_up(shown, gal=gal)
-    stage.sheet.canvas.draw()
+    stage = build_figure(shown, gal=gal)
+    stage.fig.canvas.draw()
     axis = stage.actors[1].trails[0][1].axes
     assert (axis.get_xlabel(), axis.get_ylabel()) == (f"x ({unit})", f"z ({unit})")
     for ruler in (axis.xaxis, axis.yaxis):
         told = [float(label.get_text().replace("\N{MINUS SIGN}", "-")) for label in ruler.get_ticklabels()]
         np.testing.assert_allclose(np.multiply(told, size), ruler.get_ticklocs(), atol=1e-9)
-    assert data_of(film_page(shown, Filming(gal=gal)))["si"] is not gal
+    assert data_of(animation_html(shown, AnimationOptions(gal=gal)))["si"] is not gal
 
 
 @pytest.mark.parametrize("model", FILMS)
 def test_the_cursor_is_whole_in_the_first_and_in_the_last_picture(model):
     """It stands on the edge of its strips there: every row of them has it, and it has a head."""
     shown = film(model, 3)
-    first, middle, last = (np.asarray(picture, dtype=int) for picture in film_frames(shown, 1.0, Filming()))
-    stage = set_up(shown)
-    stage.sheet.canvas.draw()
+    first, middle, last = (np.asarray(picture, dtype=int) for picture in animation_frames(shown, 1.0, AnimationOptions()))
+    stage = build_figure(shown)
+    stage.fig.canvas.draw()
     for axis in stage.panels:
         box = axis.get_window_extent()
         rows = slice(round(first.shape[0] - box.y1) + 2, round(first.shape[0] - box.y0) - 2)
@@ -193,8 +193,8 @@ def test_the_cursor_is_whole_in_the_first_and_in_the_last_picture(model):
 def test_a_bar_tells_the_scale_of_the_scene(model, gal):
     """As in the page: a round length, drawn as long as its text says, in each picture, within the scene."""
     shown = film(model, 3, gal=gal)
-    stage = set_up(shown, gal=gal)
-    stage.sheet.canvas.draw()
+    stage = build_figure(shown, gal=gal)
+    stage.fig.canvas.draw()
     line, text = stage.actors[0].bar
     number, unit = text.get_text().split()
     left, right = line.get_xdata()
@@ -205,15 +205,15 @@ def test_a_bar_tells_the_scale_of_the_scene(model, gal):
     assert 0.1 < (right - left) / (view[1] - view[0]) < 0.34 and view[0] < left and right < view[1]
     if ticks := getattr(stage.actors[0], "ticks", None):  # the marks on the ground stay clear of it
         ground = line.axes.transData.transform((0.0, stage.actors[0].level))[1]
-        assert text.get_window_extent().y1 < ground - ticks.get_markersize() * stage.sheet.dpi / 72.0 / 2.0
+        assert text.get_window_extent().y1 < ground - ticks.get_markersize() * stage.fig.dpi / 72.0 / 2.0
 
 
 @pytest.mark.parametrize("model", FILMS)
 def test_a_key_names_the_bands_of_the_strips(model):
     """Whatever is shaded in a picture is named in it, once."""
     shown = film(model, 2)
-    wanted = {shown.called(phase.name) for phase in shown.seen if phase.name in shown.colours}
-    key = set_up(shown).panels[0].get_legend()
+    wanted = {shown.called(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
+    key = build_figure(shown).panels[0].get_legend()
     named = [text.get_text() for text in key.get_texts()] if key else []
     assert sorted(named) == sorted(wanted)
 
@@ -224,8 +224,8 @@ def test_the_path_on_a_page_keeps_its_furthest_points(model, monkeypatch):
     shown = film(model, 40)
     (path, *_) = shown.scene.trails
     inside = (path.time >= shown.time[0]) & (path.time <= shown.time[-1])
-    monkeypatch.setattr("seisblock.present.films.page.MOST_ON_PATH", 60)
-    drawn = data_of(film_page(shown, Filming()))["scene"]["trails"][0]
+    monkeypatch.setattr("seisblock.report.animation.html.MAX_PATH_POINTS", 60)
+    drawn = data_of(animation_html(shown, AnimationOptions()))["scene"]["trails"][0]
     assert len(drawn["time"]) < 0.1 * np.count_nonzero(inside)
     assert drawn["time"] == sorted(drawn["time"])
     for axis in "xz":
@@ -236,9 +236,9 @@ def test_the_path_on_a_page_keeps_its_furthest_points(model, monkeypatch):
 def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
     """It plays faster and says so."""
     times, speed = frame_times(0.0, 300.0)
-    assert len(times) <= MOST_FRAMES and speed == 8.0
+    assert len(times) <= MAX_FRAMES and speed == 8.0
     shown = FILMS["slide"](response("slide"), np.asarray(times))
-    pictures = list(itertools.islice(film_frames(shown, speed, Filming()), 3))
+    pictures = list(itertools.islice(animation_frames(shown, speed, AnimationOptions()), 3))
     assert all(isinstance(picture, Image.Image) for picture in pictures) and pictures[0].size == pictures[-1].size
 
 
@@ -260,8 +260,8 @@ def test_stones_are_where_the_response_has_them():
         index = 40
         near = int(np.argmin(np.abs(found.time - shown.time[index])))
         turn = np.array([found[f"{stone.name}_q{axis}"][near] for axis in "wxyz"])
-        corner = np.array([found[f"{stone.name}_{axis}"][near] for axis in "xyz"]) + rotated(turn, 0.5 * np.array(stone.size))
-        assert np.linalg.norm(solid.placed(index)[7] - corner) < 0.05 * max(stone.size)
+        corner = np.array([found[f"{stone.name}_{axis}"][near] for axis in "xyz"]) + rotate_vectors(turn, 0.5 * np.array(stone.size))
+        assert np.linalg.norm(solid.corners_at(index)[7] - corner) < 0.05 * max(stone.size)
 
 
 @pytest.mark.parametrize("model", ["stack", "uplift"])
@@ -270,7 +270,7 @@ def test_the_ground_stays_in_the_picture(model):
     scene = film(model, 100).scene
     left, right, bottom, _ = scene.extent()
     for index in range(100):
-        x, z = on_picture(scene.floor(index)).T
+        x, z = project(scene.floor(index)).T
         assert left <= x.min() and x.max() <= right and bottom <= z.min()
 
 
@@ -278,7 +278,9 @@ def test_no_stone_in_sight_comes_to_lie_beside_the_ground():
     """The patch of ground is as wide as what has fallen; it was as wide as the foot alone, and stones hung in the air beside it."""
     scene = film("stack", 20).scene
     (left, front), (right, back) = scene.patch[[0, 2], :2]
-    beside = np.array([solid.placed(-1)[:, :2] for solid in scene.solids if np.abs(on_picture(solid.placed(-1))).max() < scene.sight])
+    beside = np.array(
+        [solid.corners_at(-1)[:, :2] for solid in scene.solids if np.abs(project(solid.corners_at(-1))).max() < scene.visible_radius]
+    )
     assert np.abs(beside).max() > scene.half
     assert left < beside[..., 0].min() and beside[..., 0].max() < right and front < beside[..., 1].min() and beside[..., 1].max() < back
 
@@ -296,7 +298,7 @@ def test_the_path_of_a_foot_is_that_of_the_answer_however_few_the_pictures():
     found, shown = response("jump"), film("jump", 40)
     scene, body = shown.scene, shown.scene.bodies[0]
     corner = np.array([body.pieces[0].corners[:, 0].max(), body.pieces[0].corners[:, 1].min()])
-    stage = set_up(shown)
+    stage = build_figure(shown)
     stage.show(30, "")
     (drawn,) = [line for trail, line in stage.actors[0].trails if trail is scene.trails[1]]
     past, come = found.time <= shown.time[30], scene.trails[1].time <= shown.time[30]
@@ -304,7 +306,7 @@ def test_the_path_of_a_foot_is_that_of_the_answer_however_few_the_pictures():
     np.testing.assert_array_equal(x[:-1] - scene.shift[30], scene.trails[1].x[come])
     turn, own = found["rotation"][past], np.isin(scene.trails[1].time[come], found.time)  # between them lie points of flights
     np.testing.assert_allclose(z[:-1][own], found["height"][past] + corner[1] * np.cos(turn) - corner[0] * np.sin(turn), atol=1e-12)
-    np.testing.assert_allclose([x[-1], z[-1]], body.placed(corner[None], 30)[0] + [scene.shift[30], 0.0], atol=1e-4)
+    np.testing.assert_allclose([x[-1], z[-1]], body.corners_at(corner[None], 30)[0] + [scene.shift[30], 0.0], atol=1e-4)
 
 
 def test_a_fallen_stone_is_marked_from_its_fall_on():
@@ -322,7 +324,7 @@ def test_a_drum_that_rolls_on_is_not_followed():
     last = max(stone.fell_at_s for stone in found.outcome.stones)
     where = np.stack([found[f"{name}_{axis}"] for name in found.body.names for axis in "xy"])
     assert np.abs(where[:, -1] - where[:, found.time < last + 5.0][:, -1]).max() > 1.0
-    assert last < stack.stretch(found, margin=1.5)[1] <= last + 3.5
+    assert last < stack.motion_interval(found, margin=1.5)[1] <= last + 3.5
 
 
 def test_a_corner_is_drawn_in_the_air_when_it_is():
@@ -340,8 +342,8 @@ def test_the_block_on_springs_leans_as_its_corners_rise():
     """The turn of the cuboid and the heights of its corners, found independently, agree to the curvature of the turn."""
     shown = film("uplift", 100)
     (block,), springs = shown.scene.solids, shown.scene.springs
-    for (x, y), spring in zip(CORNERS, springs, strict=True):
-        corner = block.centre + rotated(block.turn, 0.5 * np.array(block.size) * np.array([x, y, -1.0]))
+    for (x, y), spring in zip(CORNER_SIGNS, springs, strict=True):
+        corner = block.centre + rotate_vectors(block.turn, 0.5 * np.array(block.size) * np.array([x, y, -1.0]))
         assert np.abs(corner - spring.top).max() < 0.02 * block.size[2]
 
 
@@ -356,9 +358,9 @@ def test_small_motion_is_magnified_by_a_round_factor():
     digits = factor / 10.0 ** math.floor(math.log10(factor) + 1e-9)
     assert min(abs(digits - step) for step in (1.0, 2.0, 5.0)) < 1e-9
     rise = max(float(np.abs(found[f"uplift_{i}"]).max()) for i in (1, 2, 3, 4))
-    fill = factor * max(found.outcome.max_rotation_rad / uplift.MOST_LEAN, rise / (uplift.MOST_RISE * found.body.height))
+    fill = factor * max(found.outcome.max_rotation_rad / uplift.MAX_LEAN, rise / (uplift.MAX_RISE * found.body.height))
     assert 0.39 < fill <= 1.0
-    assert f"drawn {factor:g} times as large" in film_page(film("uplift"), Filming())
+    assert f"drawn {factor:g} times as large" in animation_html(film("uplift"), AnimationOptions())
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
@@ -371,7 +373,7 @@ def test_a_browser_draws_a_scene_in_space(model, tmp_path):
     document.title = [inked("scene"), inked("strip1"), document.documentElement.scrollWidth <= innerWidth].join();
     </script>"""
     path = tmp_path / "film.html"
-    path.write_text(film_page(film(model), Filming()) + probe, encoding="utf-8")
+    path.write_text(animation_html(film(model), AnimationOptions()) + probe, encoding="utf-8")
     options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=390,900", "--virtual-time-budget=300"]
     command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", f"{path.as_uri()}#t=56.25"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
@@ -390,7 +392,7 @@ def test_a_worn_block_that_falls_lies_on_the_ground():
     for found in worn_block_that_falls():
         assert found.outcome.overturned
         (body,) = FILMS[found.model](found, found.time).scene.bodies
-        lowest = np.array([body.placed(body.pieces[0].corners, i)[:, 1].min() for i in range(found.time.size)])
+        lowest = np.array([body.corners_at(body.pieces[0].corners, i)[:, 1].min() for i in range(found.time.size)])
         leaning = np.abs(found["rotation"]) < math.radians(44.0)
         assert lowest.min() >= -1e-9 and lowest[~leaning].max() < 1e-9 and np.abs(found["rotation"]).max() > math.radians(80.0)
 
@@ -399,9 +401,9 @@ def test_a_worn_block_that_falls_lies_on_the_ground():
 @pytest.mark.parametrize("model", FILMS)
 def test_no_label_is_higher_than_its_strip(model, lang):
     """Labels of strips below each other do not run into one another; a foot that is nowhere in the window is not in its key."""
-    with speaking(lang):
-        stage = set_up(film(model, pictures=2))
-        stage.sheet.canvas.draw()
+    with use_locale(lang):
+        stage = build_figure(film(model, pictures=2))
+        stage.fig.canvas.draw()
     assert all(axis.yaxis.label.get_window_extent().height <= 1.12 * axis.get_window_extent().height for axis in stage.panels)
     for actor in (actor for actor in stage.actors if getattr(actor, "key", None)):
         left, right, bottom, top = actor.scene.close

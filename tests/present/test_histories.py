@@ -8,13 +8,13 @@ from scipy.integrate import cumulative_simpson
 
 from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.measures import measure
-from seisblock.present.faces import figure_of
-from seisblock.present.figures.between import POINTS, with_points_between
-from seisblock.present.figures.curves import MOST_POINTS, thin
-from seisblock.present.figures.measure import measure_figure
+from seisblock.models.jump.chain import FLIGHT, ROCKING
 from seisblock.records import Motion, Preparation, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump.chain import FLIGHT, ROCKING
+from seisblock.report.figures.curves import MAX_POINTS, decimate
+from seisblock.report.figures.interpolate import POINTS_PER_PHASE, interpolate_phases
+from seisblock.report.figures.measure import measure_figure
+from seisblock.report.registry import response_figure
 from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
 VERTICES = 5
@@ -45,7 +45,7 @@ def deviation(axis, line, time, values):
     inside = (time >= first) & (time <= last)
     assert inside.sum() > 50
     low, high = axis.get_ylim()
-    if inside.sum() <= MOST_POINTS:
+    if inside.sum() <= MAX_POINTS:
         shown = (x >= first) & (x <= last) & ~np.isnan(y)
         shown &= np.isin(x, time)  # between them a flight has more points than the response
         if not np.array_equal(x[shown], time[inside]):
@@ -67,7 +67,7 @@ def deviation(axis, line, time, values):
 def test_each_point_in_view_is_drawn(model):
     """F1: no curve is thinned before it is cut to what is shown; what was computed and what the artists hold are compared."""
     found = response(model)
-    figure = figure_of([found])
+    figure = response_figure([found])
     figure.canvas.draw()
     for text, values in DRAWN[model](found).items():
         (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == text]
@@ -79,7 +79,7 @@ def test_each_point_in_view_is_drawn(model):
 def test_the_drawing_on_file_is_the_response(tmp_path):
     """F1: the path in an .svg, taken back to seconds and degrees, is nowhere half a pixel from the response."""
     found = response("jump")
-    figure = figure_of([found])
+    figure = response_figure([found])
     (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == "θ (deg)"]
     (line,) = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
     line.set_gid("tilt")
@@ -99,12 +99,12 @@ def test_the_drawing_on_file_is_the_response(tmp_path):
 def test_a_flight_is_drawn_as_its_parabola():
     """Between two samples a body in the air is where gravity and the ground, as straight as its samples, bring it."""
     found = response("jump")
-    time, drawn = with_points_between(found)
+    time, drawn = interpolate_phases(found)
     flights = [phase for phase in found.phases if phase.name == FLIGHT]
     assert len(flights) > 2
     for flight in flights:
         seen = (time > flight.start_s) & (time < flight.end_s)
-        assert seen.sum() >= POINTS[FLIGHT] - 1
+        assert seen.sum() >= POINTS_PER_PHASE[FLIGHT] - 1
         steps = np.append(flight.start_s, time[seen]) - flight.start_s
         low, high = found["height"][np.searchsorted(found.time, flight.start_s)], found["height"][np.searchsorted(found.time, flight.end_s)]
         long = flight.end_s - flight.start_s
@@ -128,7 +128,7 @@ def test_short_rocking_is_drawn_as_its_arc():
     often = Motion.from_arrays(np.interp(np.arange(601) * 0.001, time, push), 0.001)
     found, truth = (solve_jump(PAVILION, each, contact=Contact(mu=0.18), first=True) for each in (shaken, often))
     (rocking,) = [phase for phase in found.phases if phase.name == ROCKING]
-    drawn_at, drawn = with_points_between(found)
+    drawn_at, drawn = interpolate_phases(found)
     for name, values in drawn.items():
         inside, seen = ((each >= rocking.start_s) & (each <= rocking.end_s) for each in (truth.time, drawn_at))
         true, high = truth[name][inside], np.ptp(truth[name][inside])
@@ -141,7 +141,7 @@ def test_a_closer_look_draws_more():
     figure = measure_figure(record(), measure(record()))
     axis = next(axis for axis in figure.axes if axis.get_title(loc="left").startswith("NS   PGV"))
     axis.set_xlim(0.0, 300.0)
-    assert len(axis.get_lines()[0].get_xdata()) <= MOST_POINTS + 4
+    assert len(axis.get_lines()[0].get_xdata()) <= MAX_POINTS + 4
     axis.set_xlim(55.0, 56.0)
     assert len(axis.get_lines()[0].get_xdata()) == 101 + 2
 
@@ -151,7 +151,7 @@ def test_thinning_keeps_extremes_and_gaps():
     rng = np.random.default_rng(4)
     time, values = np.arange(50_000.0), rng.standard_normal(50_000)
     values[20_000:20_400] = np.nan
-    x, y = thin(time, values, 1000)
+    x, y = decimate(time, values, 1000)
     assert x.size < 1100 and np.all(np.diff(x) > 0)
     wide = 100
     for start in range(0, 50_000, wide):
@@ -165,7 +165,7 @@ def test_a_quiet_stretch_keeps_its_points_beside_a_crowd():
     """Where ten thousand hops share a second, the minute before it is drawn as finely as ever; every point of a bin in time counts."""
     quiet, crowd = np.arange(0.0, 60.0, 0.02), np.linspace(60.0, 61.0, 300_000)
     time, values = np.concatenate([quiet, crowd]), np.sin(np.concatenate([quiet, 500.0 * crowd]))
-    x, y = thin(time, values, 4000)
+    x, y = decimate(time, values, 4000)
     assert x.size < 4100
     np.testing.assert_array_equal(x[x < 60.0 - 61.0 / 2000], quiet[: np.count_nonzero(x < 60.0 - 61.0 / 2000)])
     assert np.interp(quiet, x, y) == pytest.approx(np.sin(quiet), abs=1e-3)
@@ -174,9 +174,9 @@ def test_a_quiet_stretch_keeps_its_points_beside_a_crowd():
 def test_the_title_says_what_was_done():
     """What was done to the samples is named, without its particulars; a title that is too long is cut, and ends in the figure."""
     prepared = Preparation(highpass_hz=0.1, scale=1.23456789).apply(record())
-    figure = figure_of([solve_slide(SlidingBase(0.15), motion_of(prepared, "37"))])
+    figure = response_figure([solve_slide(SlidingBase(0.15), motion_of(prepared, "37"))])
     assert figure.heading.get_text().endswith("37°   high-pass 0.1 Hz; scaled by 1.235")
-    figure.entitle("a long name " * 40)
+    figure.set_title("a long name " * 40)
     figure.canvas.draw()
     assert figure.heading.get_text().endswith("…")
     assert figure.heading.get_window_extent().x1 <= figure.bbox.width
@@ -185,27 +185,27 @@ def test_the_title_says_what_was_done():
 def test_a_long_record_opens_on_what_matters():
     """The view holds all motion; the whole record stands as a strip above it, and not where the view shows all of it."""
     found = response("slide")
-    figure = figure_of([found])
+    figure = response_figure([found])
     strip, *panels = figure.axes
     assert strip.get_xlim() == (0.0, pytest.approx(DT * (SAMPLES - 1)))
     first, last = panels[0].get_xlim()
     slips = [phase for phase in found.phases if phase.name.startswith("slip")]
     assert first <= slips[0].start_s and slips[-1].end_s <= last and last - first < 100.0
     short = motion_of(crop(record(), first, last), "NS")
-    assert len(figure_of([solve_slide(SlidingBase(0.15), short)]).axes) == 3
+    assert len(response_figure([solve_slide(SlidingBase(0.15), short)]).axes) == 3
 
 
 def test_the_strip_of_a_window_is_not_the_whole_record():
     """What was cut out of a record is said to be that, in the strip above its strong part."""
     for shown, told in ((record(), "NS, the whole record"), (crop(record(), 40.0, 200.0), "NS, all that was cut out")):
-        strip, *_ = figure_of([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
+        strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
         assert strip.get_title(loc="left").startswith(told)
 
 
 def test_each_phase_that_can_be_seen_is_shaded():
     """F1: what is too short for a band is so in what is shown, not in the whole of a long record."""
     found = response("rock")
-    (axis,) = [axis for axis in figure_of([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
+    (axis,) = [axis for axis in response_figure([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
     first, last = axis.get_xlim()
     shaded = [phase for phase in found.phases if phase.name != "rest" and phase.duration_s > (last - first) / 2000]
     bands = [band for patch in axis.patches for band in patch.get_path().vertices[:, 0].reshape(-1, VERTICES)]
@@ -217,7 +217,7 @@ def test_each_phase_that_can_be_seen_is_shaded():
 def test_what_did_not_happen_has_no_panel():
     """F3: a block at rest has its ground motion and nothing empty beside it."""
     at_rest = solve_rock(Block(0.8, 1.0), motion())
-    axes = figure_of([at_rest]).axes
+    axes = response_figure([at_rest]).axes
     assert [axis.get_ylabel() for axis in axes] == ["", "a (gal)"]
     with_names = [text.get_text() for axis in axes if axis.get_legend() for text in axis.get_legend().get_texts()]
     assert with_names == ["rests within ± g tan α"]
@@ -236,7 +236,7 @@ def test_what_did_not_happen_has_no_panel():
 def test_a_faint_record_fills_its_panel(solve, told):
     """A record of 3 gal is no line between limits of 300: the panel is as high as what shakes, and its key says where the limits are."""
     faint = motion("NS", 0.007)
-    _, axis = figure_of([solve(faint)]).axes
+    _, axis = response_figure([solve(faint)]).axes
     peak = 100.0 * np.abs(faint.horizontal).max()
     assert axis.get_ylim() == pytest.approx((-1.15 * peak, 1.15 * peak))
     assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"out of sight: {told}"]
@@ -246,7 +246,7 @@ def test_a_faint_record_fills_its_panel(solve, told):
 @pytest.mark.parametrize("height", [0.7, 0.74, 0.78, 0.82, 0.9, 2.4])
 def test_the_edge_of_falling_is_named_where_it_is_in_sight(height):
     """F3: the phase plane of a block that leans a little shows no edge, and its legend names none."""
-    figure = figure_of([solve_rock(Block(0.3, height), motion())])
+    figure = response_figure([solve_rock(Block(0.3, height), motion())])
     plane = next(axis for axis in figure.axes if axis.get_ylabel() == "θ'/(p α)")
     named = [line for line in plane.get_lines() if not line.get_label().startswith("_")]
     assert all(line.get_path().transformed(line.get_transform()).intersects_bbox(plane.bbox, filled=False) for line in named)

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from seisblock.present.pages.map import map_page
+from seisblock.core.i18n import use_locale
 from seisblock.records.site import great_circle_km
-from seisblock.studies.stations.effects import StandingStones
-from seisblock.words import speaking
+from seisblock.report.html.map import map_page
+from seisblock.studies.map.station_response import StationCemetery
 from tests.present.long_record import AOYAMA, stations
 from tests.present.test_stations_figure import across_the_date_line
 
@@ -21,7 +21,7 @@ def data_of(page):
 
 def test_every_station_is_where_it_is():
     """Kilometres from the middle, as far from the epicentre as on the sphere, north above; a row for each that has an answer."""
-    found, subject = stations(StandingStones(AOYAMA))
+    found, subject = stations(StationCemetery(AOYAMA))
     page = map_page(found, subject)
     told = data_of(page)
     assert [point["name"] for point in told["points"]] == [answer.label for answer in found.mapped]
@@ -44,7 +44,7 @@ def test_the_date_line_is_no_edge():
 
 def test_an_epicentre_on_the_other_side_of_the_earth_is_off_the_map():
     """The stations fill the page as without one; one near by is on it."""
-    found, subject = stations(StandingStones(AOYAMA))
+    found, subject = stations(StationCemetery(AOYAMA))
     far = replace(found, earthquake=replace(found.earthquake, latitude_deg=-30.0, longitude_deg=-70.0))
     for each, beside in ((found, 1), (far, 0)):
         page = data_of(map_page(each, subject))
@@ -69,8 +69,8 @@ def test_names_are_text():
 
 def test_japanese_and_nowhere():
     """In Japanese its own words are; without a place there is a table and no map."""
-    found, subject = stations(StandingStones(AOYAMA))
-    with speaking("ja"):
+    found, subject = stations(StationCemetery(AOYAMA))
+    with use_locale("ja"):
         page = map_page(found, subject)
     assert "観測点（ひどい順）" in page and "Stations, the worst first" not in page and 'lang="ja"' in page
     nowhere = map_page(replace(found, answers=found.answers[-2:]), subject)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from seisblock.measures import Conventions, measure
-from seisblock.present.figures.measure import measure_figure
 from seisblock.records import Component, Record
+from seisblock.report.figures.measure import measure_figure
 
 
 @pytest.mark.parametrize("codes", [("NS",), ("NS", "EW", "UD")])

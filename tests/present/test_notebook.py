@@ -8,10 +8,10 @@ import pytest
 from matplotlib.figure import Figure
 
 import seisblock
-from seisblock.errors import ParameterError
-from seisblock.present.faces import verdict_of
+from seisblock.core.errors import ParameterError
+from seisblock.core.results import Response
 from seisblock.records import Motion
-from seisblock.results import Response
+from seisblock.report.registry import verdict_text
 
 MOTION = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * np.arange(401) * 0.01), 0.01, name="EW")
 BLOCK, SPRINGS = seisblock.Block(0.3, 0.9), seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7)
@@ -37,7 +37,7 @@ def test_it_shows_its_outcome_and_its_figure(response):
     text = response._repr_html_()
     assert "data:image/" in text and "<script" not in text
     # the sentence with which the command begins, too
-    assert verdict_of(response) in html.unescape(text).replace("\xa0", " ") and verdict_of(response).startswith("EW: ")
+    assert verdict_text(response) in html.unescape(text).replace("\xa0", " ") and verdict_text(response).startswith("EW: ")
     rows = re.findall(r"<tr><td[^>]*>([^<]*)</td>", text)
     plain = [key for key, value in vars(response.outcome).items() if isinstance(value, (int, float, str, type(None)))]
     assert len(rows) >= len(plain)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.rulers import MOST_TICKS, round_ticks
+from seisblock.report.figures.log_ticks import MAX_TICKS, round_ticks
 
 
 @pytest.mark.parametrize(
@@ -35,4 +35,4 @@ def test_there_are_always_some_and_never_too_many():
         low = 10.0 ** dice.uniform(-4, 4)
         axis.set_ylim(low, low * 10.0 ** dice.uniform(0.01, 5.0))
         round_ticks(axis.yaxis)
-        assert 2 <= len(axis.get_yticks()) <= MOST_TICKS
+        assert 2 <= len(axis.get_yticks()) <= MAX_TICKS

@@ -7,20 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.present import scales
-from seisblock.present.faces import FACES, figure_of
-from seisblock.present.scales import IN_WORDS, length_cell, length_unit, told_length
-from seisblock.results import Histories
+from seisblock.core.results import Histories
+from seisblock.report import units_display
+from seisblock.report.registry import PRESENTERS, response_figure
+from seisblock.report.units_display import TEXT_DECIMALS, format_length, length_cell, length_unit
 from tests.lengths import all_but_slow
 from tests.present.long_record import response
 from tests.present.test_every_figure import visible_texts
 from tests.present.test_films import film
 
-ROOM = Path(scales.__file__).parent
+ROOM = Path(units_display.__file__).parent
 WRITTEN = re.compile(r"(?:\((?:mm|cm|gal|kine|m/s²)\)|\} ?(?:mm|cm|gal|kine|m/s²)(?![\w/]))")
 """A unit written out behind a number or in a heading."""
 
-AS_GIVEN = {"text/samples.py", "documents/infer.py", "figures/canvas.py", "pages/report.py"}
+AS_GIVEN = {"text/samples.py", "json/infer.py", "figures/style.py", "html/report.py"}
 """Peaks in the unit of a list, a formula as a paper prints it, the example of a doctest, gravity in SI as it is given."""
 
 
@@ -28,7 +28,7 @@ def test_no_unit_is_written_elsewhere():
     """Every other text of this room takes its unit from there."""
     found = {str(path.relative_to(ROOM)) for path in ROOM.rglob("*.py") if WRITTEN.search(path.read_text(encoding="utf-8"))}
     shown = {name for name in found if not name.startswith("exports/")}  # files in the layouts of others have their units
-    assert shown - {"scales.py"} <= AS_GIVEN
+    assert shown - {"units_display.py"} <= AS_GIVEN
 
 
 @pytest.mark.parametrize(
@@ -51,17 +51,17 @@ def test_millimetres_are_for_what_is_small_throughout(lengths, unit):
 
 def test_a_length_is_written_to_what_can_be_read_off():
     """Each unit has its decimals, a tape's in words; nothing has no sign, and what is not known is a dash."""
-    assert [told_length(each) for each in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
+    assert [format_length(each) for each in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
     unit = length_unit([0.2], gal=True)
     assert [length_cell(each, unit) for each in (0.21534, -1e-9, None)] == ["21.53", "0.00", "-"]
-    assert told_length(0.21534, gal=False) == "0.215 m" and set(IN_WORDS) == {"mm", "cm", "m"}
+    assert format_length(0.21534, gal=False) == "0.215 m" and set(TEXT_DECIMALS) == {"mm", "cm", "m"}
 
 
-@pytest.mark.parametrize("model", all_but_slow(FACES, {"slide", "rock", "jump"}))
+@pytest.mark.parametrize("model", all_but_slow(PRESENTERS, {"slide", "rock", "jump"}))
 def test_figure_and_film_speak_of_the_same_units(model):
     """What the panels of a figure are in, the strips of its film are in, too; in SI nothing else is left."""
     for gal, wanted in ((True, {"gal", "kine", "cm", "mm"}), (False, {"m/s²", "m/s", "m"})):
-        drawn = figure_of([response(model)], gal=gal)
+        drawn = response_figure([response(model)], gal=gal)
         panels = units_in(text.get_text() for text in visible_texts(drawn))
         strips = units_in(strip.label for strip in film(model, 2, gal=gal).strips)
         assert strips <= panels | {"gal", "m/s²"} and strips <= wanted and panels <= wanted | {"m"}
@@ -81,6 +81,6 @@ def test_a_figure_of_small_slips_is_in_millimetres():
         make_histories=lambda: Histories(found.time, tuple(scaled)),
         outcome=replace(found.outcome, max_slip_m=0.01 * found.outcome.max_slip_m),
     )
-    (axis,) = [axis for axis in figure_of([small]).axes if axis.get_ylabel() == "x − z (mm)"]
+    (axis,) = [axis for axis in response_figure([small]).axes if axis.get_ylabel() == "x − z (mm)"]
     highest = max(np.nanmax(np.abs(line.get_ydata())) for line in axis.get_lines())
     assert highest == pytest.approx(1e3 * np.abs(small["displacement"]).max(), rel=1e-6)

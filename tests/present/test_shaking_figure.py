@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.present.figures.infer import estimate_figure
-from seisblock.studies.inverse.assumptions import Assumptions
-from seisblock.studies.inverse.estimate import estimate_shaking
-from seisblock.studies.inverse.survey import counted_survey
-from seisblock.units import GAL
+from seisblock.core.units import GAL
+from seisblock.report.figures.infer import estimate_figure
+from seisblock.studies.survey.assumptions import Assumptions
+from seisblock.studies.survey.estimate import estimate_shaking
+from seisblock.studies.survey.likelihood import counted_survey
 from tests.lengths import all_but_slow
 
 

@@ -7,11 +7,11 @@ import pytest
 from PIL import Image
 
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.present.films.animation import Filming
-from seisblock.present.films.slide import animate_slide, place, slide_film
+from seisblock.core.i18n import use_locale
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.words import speaking
+from seisblock.report.animation.render import AnimationOptions
+from seisblock.report.animation.slide import animate_slide, position_on_base, slide_animation
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def response():
 def test_the_way_along_the_base_is_as_long_as_the_slip(slope):
     """Along a slope the distance from the start is the slip, downhill on both sides."""
     slip = np.linspace(-0.4, 0.9, 27)
-    x, z, turn = place(SlidingBase(0.8, 0.8, slope), slip)
+    x, z, turn = position_on_base(SlidingBase(0.8, 0.8, slope), slip)
     np.testing.assert_allclose(np.hypot(x, z), np.abs(slip), atol=1e-15)
     np.testing.assert_allclose(z, -slip * math.sin(math.radians(slope)), atol=1e-15)
     np.testing.assert_allclose(turn, math.radians(slope))
@@ -35,7 +35,7 @@ def test_beyond_the_foot_the_way_is_level():
     """The path is continuous at the foot, and level behind it."""
     base = SlidingBase(0.8, 0.8, 30.0, slope_length=0.5)
     slip = np.array([0.5 - 1e-9, 0.5, 0.5 + 1e-9, 2.0])
-    x, z, turn = place(base, slip)
+    x, z, turn = position_on_base(base, slip)
     assert np.abs(np.diff(x[:3])).max() < 2e-9 and z[1] == pytest.approx(-0.25) and z[3] == z[1]
     assert x[3] == pytest.approx(0.5 * math.cos(math.radians(30.0)) + 1.5)
     assert list(turn[2:]) == [0.0, 0.0]
@@ -43,7 +43,7 @@ def test_beyond_the_foot_the_way_is_level():
 
 def test_the_object_is_where_the_answer_has_it(response):
     """On level ground x is the relative displacement, the base is under it at every picture."""
-    film = slide_film(response, response.time)
+    film = slide_animation(response, response.time)
     np.testing.assert_array_equal(film.scene.bodies[0].x, response["displacement"])
     left, right, _, _ = film.scene.extent
     floor = film.scene.floors[0][:, 0]
@@ -53,9 +53,9 @@ def test_the_object_is_where_the_answer_has_it(response):
 @pytest.mark.slow
 def test_it_is_written(response, tmp_path):
     """As a .gif and as a page."""
-    animate_slide(response, tmp_path / "slide.gif", Filming())
-    with speaking("ja"):
-        animate_slide(response, tmp_path / "slide.html", Filming())
+    animate_slide(response, tmp_path / "slide.gif", AnimationOptions())
+    with use_locale("ja"):
+        animate_slide(response, tmp_path / "slide.html", AnimationOptions())
     with Image.open(tmp_path / "slide.gif") as image:
         assert image.n_frames > 40
     assert "相対変位" in (tmp_path / "slide.html").read_text(encoding="utf-8")

@@ -6,19 +6,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from seisblock.bodies.library import load_block
-from seisblock.present.figures.place_names import overlap
-from seisblock.present.figures.stations import figure
+from seisblock.bodies.factory import load_block
 from seisblock.records.site import great_circle_km
-from seisblock.studies.stations.effects import StandingBody, StandingStones, StationEffect
-from seisblock.studies.stations.survey import Stations
-from seisblock.studies.stations.surveys import SurveyAnswer, SurveyedPlace
+from seisblock.report.figures.label_placement import overlap_area
+from seisblock.report.figures.stations import figure
+from seisblock.studies.map.station_response import StationBody, StationCemetery, StationResult
+from seisblock.studies.map.stations import Stations
+from seisblock.studies.map.surveyed_places import SurveyComparison, SurveyedPlace
 from tests.present.long_record import AOYAMA, stations
 
 
 def test_points_are_the_stations():
     """Longitudes, latitudes and rates of all that have a place, the worst drawn last; the epicentre is the star."""
-    found, subject = stations(StandingStones(AOYAMA))
+    found, subject = stations(StationCemetery(AOYAMA))
     axis = figure(found, subject).axes[0]
     points, star, *_ = axis.collections
     drawn = {(*place, value) for place, value in zip(points.get_offsets().data.tolist(), points.get_array().tolist(), strict=True)}
@@ -80,23 +80,23 @@ def test_without_a_subject_the_colours_are_the_shaking():
 @pytest.mark.parametrize(("west", "south"), [(0.0, 0.02), (0.02, 0.0), (-0.02, -0.01), (0.0, 0.0)])
 def test_the_worst_station_has_its_name_however_near_the_epicentre(west, south):
     """The answer names it first; surveyed places have theirs, and no name stands on another."""
-    found, subject = stations(StandingStones(AOYAMA))
+    found, subject = stations(StationCemetery(AOYAMA))
     worst = replace(found.answers[0], latitude=35.0 - south, longitude=139.0 - west)
     near = Stations((worst, *found.answers[1:]), found.earthquake, found.origin_told)
     places = [SurveyedPlace(name, 35.01 + north, 139.0 + 0.2 * east, 80, 52) for name, north, east in (("北", 0.1, 0), ("East", 0.0, 1))]
-    made = figure(near, subject, surveys=[SurveyAnswer(place, SimpleNamespace(), (), None, None) for place in places])
+    made = figure(near, subject, surveys=[SurveyComparison(place, SimpleNamespace(), (), None, None) for place in places])
     made.draw_without_rendering()
     named = {text.get_text(): text.get_window_extent() for text in made.axes[0].texts if text.get_text()}
     assert {"X000", "北", "East"} <= set(named)
     boxes = [box.extents for name, box in named.items() if name != "N"]
-    assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if overlap(tuple(one), tuple(other)) > 0.0]
+    assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if overlap_area(tuple(one), tuple(other)) > 0.0]
 
 
 def test_where_it_falls_as_given_the_rim_is_thick():
     """A station at which no version falls, and the body itself does, is told from one at which it stands; the label says how."""
-    subject = StandingBody(load_block("gravestone"), {"mu": 0.6}, runs=20)
+    subject = StationBody(load_block("gravestone"), {"mu": 0.6}, runs=20)
     found, _ = stations()
-    effects = [StationEffect(0.0, happened=fell, overturned=fell, probability=0.0) for fell in (True, False)]
+    effects = [StationResult(0.0, happened=fell, overturned=fell, probability=0.0) for fell in (True, False)]
     two = [replace(answer, effect=effect) for answer, effect in zip(found.answers, effects, strict=False)]
     made = figure(Stations(tuple(two), None, ""), subject)
     stands, falls = made.axes[0].collections[0].get_linewidths()  # the worst on top
@@ -108,7 +108,7 @@ def test_where_it_falls_as_given_the_rim_is_thick():
 @pytest.mark.parametrize(("corner", "expected"), [((0, 0), 0.68), ((1, 0), 0.03)])
 def test_the_scale_hides_no_station(corner, expected):
     """It stands in a corner that is free: a station in the southwest, or in the southeast, stays in sight, with its name."""
-    found, subject = stations(StandingStones(AOYAMA))
+    found, subject = stations(StationCemetery(AOYAMA))
     kept = [(139.0, 35.0), (139.36, 35.3)] if corner == (0, 0) else [(139.36, 35.0), (139.0, 35.3)]
     answers = [replace(found.answers[0], station=f"S{i}", longitude=east, latitude=north) for i, (east, north) in enumerate(kept)]
     axis = figure(Stations(tuple(answers), None, ""), subject).axes[0]

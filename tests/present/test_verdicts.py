@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from seisblock import Block, Contact, SlidingBase, motion_of, read, solve_jump, solve_respond, solve_rock, solve_slide
-from seisblock.criteria.card import Row
-from seisblock.present.text.criteria import ratio
-from seisblock.present.text.jump import verdict as jump_verdict
-from seisblock.present.text.onset import SLIDES, onset
-from seisblock.present.text.respond import verdict as respond_verdict
-from seisblock.present.text.rock import first_line
-from seisblock.present.text.slide import sentence as slide_sentence
+from seisblock.criteria.compare import CriterionResult
+from seisblock.report.text.criteria import format_ratio
+from seisblock.report.text.jump import verdict as jump_verdict
+from seisblock.report.text.respond import verdict as respond_verdict
+from seisblock.report.text.rock import first_line
+from seisblock.report.text.slide import sentence as slide_sentence
+from seisblock.report.text.threshold import SLIDES, threshold_text
 from tests.present.long_record import PAVILION, motion
 
 
@@ -31,7 +31,7 @@ def test_what_keeps_still_says_what_it_would_take():
         acceleration, times = map(float, re.search(r"from (\S+) gal on, (\S+) times this record's PGA", told).groups())
         assert acceleration == pytest.approx(100.0 * level, abs=0.06) and times == pytest.approx(level / peak, rel=6e-3)
     above = replace(still, rows=40.0 * still.rows)
-    assert onset(SLIDES, (0.2, 0.2), above, gravity=10.0, gal=False) == "slides from 2.0000 m/s² on"
+    assert threshold_text(SLIDES, (0.2, 0.2), above, gravity=10.0, gal=False) == "slides from 2.0000 m/s² on"
 
 
 def _told(sentence):
@@ -69,4 +69,4 @@ def test_a_block_with_a_weaker_side_is_told_the_factor_of_the_peak_that_pushes_i
 def test_a_ratio_of_all_but_one_shows_on_which_side_it_is():
     """1.00 stands and 1.00 falls are not told apart: there are as many digits as it takes."""
     for demand, told in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
-        assert ratio(Row("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == told
+        assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == told

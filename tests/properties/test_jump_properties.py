@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.models.jump.chain import JUMPED, NO_JUMP
+from seisblock.models.jump.solve import DID_NOT_ROCK, solve_jump
 from seisblock.records import Motion
-from seisblock.solvers.jump.chain import JUMPED, NO_JUMP
-from seisblock.solvers.jump.solve import DID_NOT_ROCK, solve_jump
 from tests.motions import half_sine
 
 G = 9.8

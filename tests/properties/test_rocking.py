@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.bodies.block import Block, resized
+from seisblock.bodies.block import Block, scale_block
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.units import STANDARD_GRAVITY as G
 
 pytestmark = pytest.mark.kernel
 
@@ -46,7 +46,7 @@ def test_mirror(a, block, linear):
 def test_similarity(a, block, length):
     """Length L and time sqrt(L): the same angles at the same samples, and the same forces per weight."""
     small = solve_rock(block, Motion.from_arrays(a, 0.03))
-    large = solve_rock(resized(block, size=length), Motion.from_arrays(a, 0.03 * math.sqrt(length)))
+    large = solve_rock(scale_block(block, size=length), Motion.from_arrays(a, 0.03 * math.sqrt(length)))
     assert small.outcome.overturned == large.outcome.overturned
     assert large.outcome.max_rotation_rad == pytest.approx(small.outcome.max_rotation_rad, rel=1e-7, abs=1e-12)
     if small.outcome.overturned:

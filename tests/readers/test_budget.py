@@ -16,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import ParameterError, RecordError, RecordFormatError
+from seisblock.core.errors import ParameterError, RecordError, RecordFormatError
 from seisblock.readers import read, read_all
 from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
 

@@ -9,12 +9,12 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import InputError, RecordFormatError, UnitError
+from seisblock.core.errors import InputError, RecordFormatError, UnitError
 from seisblock.readers import read
-from seisblock.readers.clock import even_dt
-from seisblock.readers.columns import columns_of_header
 from seisblock.readers.formats.knet_csv import read_knet_csv
-from seisblock.readers.source import Blob
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.columns import parse_header
+from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import motion_of
 from tests.readers.files import JMA_BODY, JMA_HEADER, KNET_CSV
 
@@ -181,7 +181,7 @@ def test_other_formats_lose_no_column_either(tmp_path):
             read(path)
     for old, new in (("E-W(gal),U-D(gal)\n2019", "N-S(gal),U-D(gal)\n2019"), ("U-D(gal)\n2019", "W-D(gal)\n2019")):
         with pytest.raises(RecordFormatError, match="is none of N-S, E-W, U-D"):
-            read_knet_csv(Blob("k.csv", KNET_CSV.replace(old, new).encode()))
+            read_knet_csv(RawFile("k.csv", KNET_CSV.replace(old, new).encode()))
 
 
 def test_plot_names_are_time_and_units(table):
@@ -196,7 +196,7 @@ def test_plot_names_are_time_and_units(table):
 def test_times_printed_to_few_digits_are_even(dt, form, first):
     """Six significant digits, or four decimals, hide a clock of 800 Hz after 100 s; within the digits printed it is even."""
     written = [form.format(first + i * dt) for i in range(120_000)]
-    assert even_dt("t", np.array([float(text) for text in written]), lambda: written) == pytest.approx(dt, rel=1e-12)
+    assert sampling_interval("t", np.array([float(text) for text in written]), lambda: written) == pytest.approx(dt, rel=1e-12)
 
 
 @pytest.mark.parametrize("form", ["{:.2f}", "{:.3f}", "{:.6g}"])
@@ -207,7 +207,7 @@ def test_a_missing_or_repeated_line_does_not_hide_in_the_digits(form, spoil, row
     written = [form.format(i * 0.01) for i in range(6000)]
     written[row : row + 1] = [] if spoil == "missing" else [written[row]] * 2
     with pytest.raises(InputError, match="a line is missing or stands twice"):
-        even_dt("t", np.array([float(text) for text in written]), lambda: written)
+        sampling_interval("t", np.array([float(text) for text in written]), lambda: written)
 
 
 @pytest.mark.parametrize("separator", [",", "\t", " "])
@@ -236,8 +236,8 @@ def test_a_letter_or_a_number_is_a_direction_in_company_alone(names, codes):
     """``D`` is down beside two horizontals without a vertical, and else a channel; ``成分1`` is the first, and not one degree."""
     if codes is None:
         with pytest.raises(RecordFormatError, match="several columns mean UD"):
-            columns_of_header("table", names)
+            parse_header("table", names)
         return
-    read = columns_of_header("table", names).read
+    read = parse_header("table", names).columns
     assert [column.code for column in read] == codes
     assert all(column.azimuth_deg is None for column in read if column.code in ("D", "成分1", "成分2"))

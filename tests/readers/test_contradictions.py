@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordError, RecordFormatError, UnitError
+from seisblock.core.errors import RecordError, RecordFormatError, UnitError
 from seisblock.readers import read
 from tests.fuzz.formats import FORMATS, MM, ROWS, WRITERS
 from tests.readers.files import JMA_HEADER, KNET_CSV, knet

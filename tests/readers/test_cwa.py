@@ -7,10 +7,10 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
-from seisblock.errors import InputError, ParameterError, RecordError, UnitError
+from seisblock.core.errors import InputError, ParameterError, RecordError, UnitError
 from seisblock.measures.intensity import jma_intensity
 from seisblock.readers import read
-from seisblock.records.site import earthquake_of, site_of, told_time
+from seisblock.records.site import format_local_time, get_earthquake, get_site
 from tests.fuzz.formats import ROWS
 from tests.readers import layouts
 
@@ -39,14 +39,14 @@ def test_both_headers_are_read(file, event):
         np.testing.assert_array_equal(component.acceleration, np.rint(row * 1e3) / 1e5)
     assert (record.station, record.start) == ("SYN1", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))
     assert jma_intensity(record) > 3.0
-    assert told_time(record, record.start) == ("2020-01-02 11:04:05 GMT+08" if event else "2020-01-02 03:04:05 UTC")
+    assert format_local_time(record, record.start) == ("2020-01-02 11:04:05 GMT+08" if event else "2020-01-02 03:04:05 UTC")
     if event:
-        assert (site_of(record).name, site_of(record).place) == ("Test Town Hall", (22.86, 121.092))
-        earthquake = earthquake_of(record)
+        assert (get_site(record).name, get_site(record).place) == ("Test Town Hall", (22.86, 121.092))
+        earthquake = get_earthquake(record)
         assert (earthquake.place, earthquake.depth_km, earthquake.magnitude) == ((24.14, 121.69), 10.0, 6.1)
         assert earthquake.origin_time == datetime(2020, 1, 2, 3, 4, tzinfo=UTC)
     else:
-        assert earthquake_of(record) is None
+        assert get_earthquake(record) is None
 
 
 def test_columns_come_in_the_sequence_that_is_told(file):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from seisblock.errors import InputError
+from seisblock.core.errors import InputError
 from seisblock.readers import read
 from tests.readers.files import JMA_BODY, JMA_HEADER, KIK_CSV, KNET_CSV, KOBE, knet, tar
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.errors import InputError
+from seisblock.core.errors import InputError
 from seisblock.readers import read
 from tests.fuzz.formats import OPTIONS, ROWS, WRITERS
 

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordFormatError, UnitError
+from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.readers import read, sample_path
 from tests.readers.files import JMA_BODY, JMA_HEADER, KOBE
 

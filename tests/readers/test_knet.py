@@ -9,7 +9,7 @@ import numpy as np
 import obspy
 import pytest
 
-from seisblock.errors import ComponentError, RecordError, RecordFormatError, UnitError
+from seisblock.core.errors import ComponentError, RecordError, RecordFormatError, UnitError
 from seisblock.readers import read, read_all, sample_path
 from tests.readers.files import KIK_CSV, KNET_CSV, kik_net, knet
 

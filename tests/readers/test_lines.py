@@ -8,12 +8,12 @@ from dataclasses import astuple
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordError, RecordFormatError
+from seisblock.core.errors import RecordError, RecordFormatError
 from seisblock.readers import lines as pieces
 from seisblock.readers import read, sample_path, source
-from seisblock.readers.budget import budget
-from seisblock.readers.lines import Lines, lines_of, mapped
-from seisblock.readers.source import Blob, FileBytes, decode, digest, fetch
+from seisblock.readers.limits import new_budget
+from seisblock.readers.lines import LazyLines, map_lines, read_lines
+from seisblock.readers.source import FileBytes, RawFile, decode_text, open_source, sha256_digest
 
 TEXTS = {
     "no end": "a\nb\nc",
@@ -28,22 +28,22 @@ TEXTS = {
 @pytest.fixture(params=[1, 3, 7])
 def small_pieces(request, monkeypatch):
     """Let every text count as large, and a piece be so many lines."""
-    monkeypatch.setattr(source, "LARGE", 4)
-    monkeypatch.setattr(pieces, "PIECE", request.param)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
+    monkeypatch.setattr(pieces, "CHUNK_LINES", request.param)
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932"])
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
 def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
     """All of them, one by one, from both ends, in slices of slices, and changed."""
-    blob = Blob("x", text.encode(encoding))
-    whole, found = decode(blob).split("\n"), lines_of(blob)
-    assert isinstance(found, Lines) and len(found) == len(whole) and list(found) == whole
+    blob = RawFile("x", text.encode(encoding))
+    whole, found = decode_text(blob).split("\n"), read_lines(blob)
+    assert isinstance(found, LazyLines) and len(found) == len(whole) and list(found) == whole
     assert [found[i] for i in range(-len(whole), len(whole))] == whole * 2
     for begin in range(len(whole)):
         assert list(found[begin:]) == whole[begin:]
         assert list(found[begin : len(whole) - 1][1:]) == whole[begin : len(whole) - 1][1:]
-    assert list(mapped(mapped(found, str.strip), lambda line: line + "!")) == [line.strip() + "!" for line in whole]
+    assert list(map_lines(map_lines(found, str.strip), lambda line: line + "!")) == [line.strip() + "!" for line in whole]
     with pytest.raises(IndexError):
         found[len(whole)]
 
@@ -51,7 +51,7 @@ def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
 def test_what_is_no_text_is_refused(small_pieces):
     """A byte that neither encoding knows, however late it comes."""
     with pytest.raises(RecordFormatError, match="neither UTF-8, Shift-JIS nor EUC-JP"):
-        lines_of(Blob("x", b"1,2\n" * 20 + b"\x81 \n"))
+        read_lines(RawFile("x", b"1,2\n" * 20 + b"\x81 \n"))
 
 
 @pytest.mark.parametrize(
@@ -73,8 +73,8 @@ def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
     options = {} if "gal" in text else {"units": "gal"}
     options |= {} if "time" in text else {"dt": 0.01}
     whole = read(path, **options)
-    monkeypatch.setattr(source, "LARGE", 4)
-    monkeypatch.setattr(pieces, "PIECE", 7)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
+    monkeypatch.setattr(pieces, "CHUNK_LINES", 7)
     same(read(path, **options), whole)
 
 
@@ -82,11 +82,11 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
     """A table is gone through some ten times, from piece to piece, and never line by line from the beginning of a piece."""
     path = tmp_path / "record.csv"
     path.write_text("NS (gal)\n" + "".join(f"{k % 7}.5\n" for k in range(1000)), encoding="utf-8")
-    monkeypatch.setattr(source, "LARGE", 4)
-    monkeypatch.setattr(pieces, "PIECE", 100)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
+    monkeypatch.setattr(pieces, "CHUNK_LINES", 100)
     made = []
-    original = Lines._piece
-    monkeypatch.setattr(Lines, "_piece", lambda self, number: made.append(number) or original(self, number))
+    original = LazyLines._chunk
+    monkeypatch.setattr(LazyLines, "_chunk", lambda self, number: made.append(number) or original(self, number))
     read(path, dt=0.01)
     assert len(made) < 20 * 11
 
@@ -95,8 +95,8 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
 def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
     """Samples, header and doubts."""
     whole = read(sample_path("synthetic_jma.csv"))
-    monkeypatch.setattr(source, "LARGE", 4)
-    monkeypatch.setattr(pieces, "PIECE", 999)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
+    monkeypatch.setattr(pieces, "CHUNK_LINES", 999)
     same(read(sample_path("synthetic_jma.csv")), whole)
 
 
@@ -132,32 +132,32 @@ def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path):
 
 def test_bytes_of_a_large_file_stay_in_it(tmp_path, monkeypatch):
     """Read where they are looked at: all of them, parts of them, their digest; counted by the budget like any others."""
-    monkeypatch.setattr(source, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_bytes(bytes(range(32, 59)))
-    spent = budget()
-    blob = fetch(path, spent)
-    assert isinstance(blob.held, FileBytes) and spent.bytes_spent == 27
-    assert blob.data == path.read_bytes() and blob.held[3:9] == path.read_bytes()[3:9] and blob.held[-2:] == path.read_bytes()[-2:]
-    assert digest([blob]) == hashlib.sha256(path.read_bytes()).hexdigest()
+    spent = new_budget()
+    blob = open_source(path, spent)
+    assert isinstance(blob.content, FileBytes) and spent.bytes_read == 27
+    assert blob.data == path.read_bytes() and blob.content[3:9] == path.read_bytes()[3:9] and blob.content[-2:] == path.read_bytes()[-2:]
+    assert sha256_digest([blob]) == hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @pytest.mark.parametrize("spoil", [lambda path: path.write_bytes(b"NS (gal)\n"), lambda path: path.unlink()], ids=["written", "gone"])
 def test_a_large_file_that_changes_while_it_is_read_is_refused(spoil, tmp_path, monkeypatch):
     """A download that goes on, another file in its place: no record of two halves."""
-    monkeypatch.setattr(source, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_text("NS (gal)\n1\n2\n")
-    blob = fetch(path, budget())
+    blob = open_source(path, new_budget())
     spoil(path)
     with pytest.raises(RecordError, match=r"changed while it was read|cannot be read"):
-        lines_of(blob)
+        read_lines(blob)
 
 
 def test_a_large_file_of_blanks_is_empty(tmp_path, monkeypatch):
     """As a small one is."""
-    monkeypatch.setattr(source, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_text(" \n" * 20)
     with pytest.raises(RecordError, match="is empty"):
-        fetch(path, budget())
+        open_source(path, new_budget())

@@ -13,7 +13,7 @@ import numpy as np
 import obspy
 import pytest
 
-from seisblock.errors import ComponentError, InputError, ParameterError, RecordError, RecordFormatError, RecordNotFoundError, UnitError
+from seisblock.core.errors import ComponentError, InputError, ParameterError, RecordError, RecordFormatError, RecordNotFoundError, UnitError
 from seisblock.readers import read, read_all, sample_path
 from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
 

@@ -7,12 +7,12 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 
-from seisblock.errors import ComponentError, RecordError, RecordFormatError, UnitError
+from seisblock.core.errors import ComponentError, RecordError, RecordFormatError, UnitError
 from seisblock.readers import list_samples, read, read_all
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
+from seisblock.readers.discover import iter_records
+from seisblock.readers.dispatch import ReadOptions
 from seisblock.records import motion_of
-from seisblock.records.site import earthquake_of, site_of, told_time
+from seisblock.records.site import format_local_time, get_earthquake, get_site
 from tests.fuzz.formats import ROWS, WRITERS
 from tests.readers import layouts
 
@@ -81,7 +81,7 @@ def test_station_and_earthquake(kind, tmp_path):
     path = tmp_path / "record"
     path.write_bytes(WRITERS[kind](ROWS))
     record = read(path)
-    site, earthquake = site_of(record), earthquake_of(record)
+    site, earthquake = get_site(record), get_earthquake(record)
     assert site.name == {"esm": "Δοκιμή", "smc": "Synthetic, 1 Test Street", "cosmos": "Test Town - City Hall"}.get(
         kind, "TEST TOWN - CITY HALL" if kind.startswith("csmip") else "Test Town Hall"
     )
@@ -90,7 +90,7 @@ def test_station_and_earthquake(kind, tmp_path):
     assert earthquake.depth_km in (9.0, 10.0, 12.0, 15.0)
     assert earthquake.origin_time in (datetime(2020, 1, 2, 3, 4, tzinfo=UTC), datetime(2020, 1, 2, 3, 4, 0, 500_000, tzinfo=UTC))
     if kind.startswith("csmip"):
-        assert told_time(record, record.start) == "2020-01-01 19:04:05 PST"
+        assert format_local_time(record, record.start) == "2020-01-01 19:04:05 PST"
         assert (site.latitude_deg, site.longitude_deg) == (35.908, -120.458)
     if kind.startswith("geonet"):
         assert (site.latitude_deg, site.longitude_deg) == (-42.52, 172.83)
@@ -141,7 +141,7 @@ def test_files_of_one_channel_find_their_siblings(tmp_path):
     for seed, azimuth, row in (("HNN", 360, ROWS[0]), ("HNE", 90, ROWS[1]), ("HNZ", 400, ROWS[2])):
         written(tmp_path, layouts.cosmos(row, azimuth=azimuth), f"SYN1--n.1.{seed}.--.acc.V2c")
     assert read(tmp_path / "SYN1--n.1.HNZ.--.acc.V2c").codes == ("NS", "EW", "UD")
-    assert [len(recording.files) for recording in gather([str(tmp_path)], Options())] == [3, 4, 3]
+    assert [len(recording.files) for recording in iter_records([str(tmp_path)], ReadOptions())] == [3, 4, 3]
     assert len(read_all(sorted(tmp_path.glob("*.smc")))) == 1
 
 
@@ -164,7 +164,7 @@ def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
     ground, roof = read(path, station=f"{code} free field"), read(path, station=f"{code} Roof, west")
     assert (ground.codes, roof.codes) == (("NS", "EW", "UD"), ("NS", "EW"))
     np.testing.assert_allclose(roof.component("NS").acceleration, 2.0 * ground.component("NS").acceleration, atol=1e-4)
-    assert site_of(roof).name.endswith("Roof, west")
+    assert get_site(roof).name.endswith("Roof, west")
     assert [record.station for record in read_all([path], station="all")] == [f"{code} Free field", f"{code} Roof, west"]
 
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.errors import InputError, ParameterError, RecordError, RecordFormatError, UnitError
+from seisblock.core.errors import InputError, ParameterError, RecordError, RecordFormatError, UnitError
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers import read
 from seisblock.records import motion_of
-from seisblock.units import STANDARD_GRAVITY
 
 ROWS = "0.00{0}1{0}2{0}3\n0.01{0}4{0}5{0}6\n0.02{0}7{0}8{0}9\n"
 

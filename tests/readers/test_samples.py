@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordNotFoundError
+from seisblock.core.errors import RecordNotFoundError
 from seisblock.readers import DEFAULT_SAMPLE, list_samples, read, sample_path
 from tests import make_sample_records as maker
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from seisblock.errors import ComponentError
+from seisblock.core.errors import ComponentError
 from seisblock.records import Component, Record, motion_of
-from seisblock.records.process import pick
+from seisblock.records.process import select_component
 
 ONE, OTHER = np.array([1.0, -2.0, 3.0]), np.array([0.5, 0.25, -4.0])
 
@@ -25,7 +25,7 @@ def test_one_horizontal_is_enough_for_its_own_azimuth(asked):
 def test_an_azimuth_beyond_a_turn_is_none(asked):
     """It is a slip of the hand, or no direction at all: the sine of 1e300 degrees is what rounding leaves of it."""
     both = record(("NS", ONE, 0.0), ("EW", OTHER, 90.0))
-    for take in (motion_of, pick):
+    for take in (motion_of, select_component):
         with pytest.raises(ComponentError, match=r"the azimuth must lie in \[-360, 360\]"):
             take(both, asked)
     assert motion_of(record(("700", ONE, None)), "700").horizontal.tolist() == ONE.tolist()

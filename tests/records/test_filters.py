@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.cli import main
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import ground_history, peak_velocity
 from seisblock.readers import read
 from seisblock.records.filters import BASELINE_PERIODS, causal_highpass_samples, end_line, highpass_samples

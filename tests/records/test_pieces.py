@@ -18,13 +18,13 @@ ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
 def small_pieces(monkeypatch):
     """Let a piece be some dozens of samples, which divide no length here."""
     for module in (butterworth, filters, integrals, frequency):
-        monkeypatch.setattr(module, "AT_A_TIME", 77)
+        monkeypatch.setattr(module, "CHUNK_SIZE", 77)
 
 
 def test_integrals_to_the_bit(small_pieces, monkeypatch):
     """Sums go on from piece to piece in the same order."""
     found = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
-    monkeypatch.setattr(integrals, "AT_A_TIME", 10**6)
+    monkeypatch.setattr(integrals, "CHUNK_SIZE", 10**6)
     at_once = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
     for one, other in zip(found, at_once, strict=True):
         np.testing.assert_array_equal(one, other)
@@ -39,7 +39,7 @@ SAME = 1e-12
 def extended(row, before, after):
     """Return a row with its mirror images."""
     longer = np.concatenate((np.full(before, np.nan), row, np.full(after, np.nan)))
-    filters._mirror(longer, before, row.size)
+    filters._fill_mirror_image(longer, before, row.size)
     return longer
 
 
@@ -82,7 +82,7 @@ def test_the_peak_between_samples(small_pieces, monkeypatch):
     """Zeros of the acceleration at the seams are met once; the velocity in pieces is the one that is looked at whole."""
     history = ground_history(ROW, DT, highpass_hz=0.5)
     found = peaks.peak_velocity(history, DT)
-    monkeypatch.setattr(integrals, "AT_A_TIME", 10**6)
+    monkeypatch.setattr(integrals, "CHUNK_SIZE", 10**6)
     assert found == peaks.peak_velocity(history, DT) > np.abs(history.velocity).max()
 
 
@@ -93,7 +93,7 @@ def test_the_pulse_of_the_peak(top, sign, small_pieces, monkeypatch):
     place = np.arange(ROW.size)
     row = sign * (np.cos(np.pi * (place - top) / 400.0) * np.exp(-(((place - top) / 900.0) ** 2)))
     found = frequency.peak_pulse(row, DT)
-    monkeypatch.setattr(frequency, "AT_A_TIME", 10**6)
+    monkeypatch.setattr(frequency, "CHUNK_SIZE", 10**6)
     assert found == frequency.peak_pulse(row, DT)
     assert found.ambiguous == (top != 2500)
     assert found.start_s == pytest.approx(DT * max(top - 200, 0), abs=1e-12)
@@ -103,7 +103,7 @@ def test_the_pulse_of_the_peak(top, sign, small_pieces, monkeypatch):
 def test_the_smoothed_spectrum_of_a_long_record(monkeypatch):
     """The lag window ends after nine seconds: pieces with that much of what follows give the same energies, on a coarser grid."""
     fine = spectra.fourier_amplitude(ROW, DT)
-    monkeypatch.setattr(spectra, "LONG", 1000)
+    monkeypatch.setattr(spectra, "LONG_TRANSFORM", 1000)
     frequency, amplitude = spectra.fourier_amplitude(ROW, DT)
     assert frequency.size < fine[0].size
     np.testing.assert_allclose(amplitude, np.interp(frequency, *fine), rtol=0.0, atol=1e-12 * fine[1].max())

@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 import seisblock
 from seisblock.cli import main
-from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.core.errors import ComponentError, ParameterError, RecordError
 from seisblock.records import Component, Preparation, Record, process
 
 RNG = np.random.default_rng(3)
@@ -27,7 +27,7 @@ def test_steps_come_in_the_order_that_is_told():
     prepared = Preparation(True, 0.2, 1.5, 4.0, ("NS", "37"), (5.0, 15.0)).apply(RECORD)
     by_hand = process.scale(process.highpass(process.demean(RECORD), 0.2), 1.5)
     same(prepared, process.crop(process.scale_to_pga(by_hand, 4.0, ("NS", "37")), 5.0, 15.0))
-    assert max(np.abs(process.pick(prepared, name).acceleration).max() for name in ("NS", "37")) <= 4.0
+    assert max(np.abs(process.select_component(prepared, name).acceleration).max() for name in ("NS", "37")) <= 4.0
     assert len(prepared.history) == 5
 
 

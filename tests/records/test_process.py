@@ -5,19 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.core.errors import ComponentError, ParameterError, RecordError
 from seisblock.records import Component, Record
 from seisblock.records.integrals import integrate, integrate_twice
-from seisblock.records.process import (
-    crop,
-    demean,
-    highpass,
-    largest_horizontal,
-    rotate,
-    scale,
-    scale_to_pga,
-    towards,
-)
+from seisblock.records.process import component_at_azimuth, crop, demean, highpass, largest_horizontal, rotate, scale, scale_to_pga
 
 T = np.arange(2001) * 0.01
 PARTS = {"NS": np.sin(T) + 0.3, "EW": 2 * np.cos(3 * T), "UD": 5 * np.sin(5 * T)}
@@ -90,7 +81,7 @@ def test_scale_to_pga_of_named_components():
     """The component asked for reaches the target, the largest of several, or an azimuth."""
     assert np.abs(scale_to_pga(RECORD, 1.0, "ud").component("UD").acceleration).max() == pytest.approx(1.0, rel=1e-14)
     assert np.abs(scale_to_pga(RECORD, 1.0, ("NS", "UD")).component("UD").acceleration).max() == pytest.approx(1.0, rel=1e-14)
-    assert np.abs(towards(scale_to_pga(RECORD, 1.0, ("30",)), 30.0).acceleration).max() == pytest.approx(1.0, rel=1e-14)
+    assert np.abs(component_at_azimuth(scale_to_pga(RECORD, 1.0, ("30",)), 30.0).acceleration).max() == pytest.approx(1.0, rel=1e-14)
 
 
 def test_nonsense_is_refused():
@@ -105,7 +96,11 @@ def test_nonsense_is_refused():
     ):
         with pytest.raises(ParameterError):
             attempt()
-    for attempt in (lambda: rotate(still, 30.0), lambda: scale_to_pga(RECORD, 1.0, "XX"), lambda: towards(RECORD, float("inf"))):
+    for attempt in (
+        lambda: rotate(still, 30.0),
+        lambda: scale_to_pga(RECORD, 1.0, "XX"),
+        lambda: component_at_azimuth(RECORD, float("inf")),
+    ):
         with pytest.raises(ComponentError):
             attempt()
     with pytest.raises(ComponentError, match="no horizontal"):
@@ -145,7 +140,7 @@ def test_rotation_to_the_axes_returns_the_samples():
     north, east = rotate(RECORD, 0.0).components[:2]
     np.testing.assert_array_equal(north.acceleration, RECORD.component("NS").acceleration)
     np.testing.assert_array_equal(east.acceleration, RECORD.component("EW").acceleration)
-    np.testing.assert_allclose(towards(RECORD, 180.0).acceleration, -RECORD.component("NS").acceleration, atol=1e-15)
+    np.testing.assert_allclose(component_at_azimuth(RECORD, 180.0).acceleration, -RECORD.component("NS").acceleration, atol=1e-15)
 
 
 def test_integration_is_exact_for_straight_lines():

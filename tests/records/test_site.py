@@ -8,11 +8,11 @@ from click.testing import CliRunner
 from obspy.geodetics import gps2dist_azimuth
 
 from seisblock.cli import main
-from seisblock.present.figures.heading import heading
-from seisblock.present.text.whereabouts import whereabouts
 from seisblock.readers import read
 from seisblock.records import Component, Record
-from seisblock.records.site import Earthquake, Site, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
+from seisblock.records.site import Earthquake, Site, epicentral_distance_km, format_local_time, get_earthquake, get_site, great_circle_km
+from seisblock.report.figures.heading import heading
+from seisblock.report.text.record_info import record_info
 
 JMA = """SITE CODE=  47772大阪市中央区,32.7417,130.8083,12,7.3,42476.0593171296,2.1,3.4
 LAT.=   34.6819
@@ -35,22 +35,22 @@ def jma(tmp_path):
 def test_what_a_file_says(jma):
     """Station with its name and place, and the earthquake; JST is the network's clock."""
     record = read(jma)
-    assert site_of(record) == Site("47772", "大阪市中央区", 34.6819, 135.5183)
-    found = earthquake_of(record)
+    assert get_site(record) == Site("47772", "大阪市中央区", 34.6819, 135.5183)
+    found = get_earthquake(record)
     assert (found.latitude_deg, found.longitude_deg, found.depth_km, found.magnitude) == (32.7417, 130.8083, 12.0, 7.3)
-    assert told_time(record, found.origin_time) == "2016-04-16 01:25:25 JST"
-    assert told_time(record, record.start) == "2016-04-16 01:25:00 JST"
+    assert format_local_time(record, found.origin_time) == "2016-04-16 01:25:25 JST"
+    assert format_local_time(record, record.start) == "2016-04-16 01:25:00 JST"
 
 
 def test_what_is_not_said_is_none():
     """An array has no place, no time and no earthquake; zeros for all of it are none either."""
     bare = Record((Component("NS", [0.0, 1.0]),), 0.01)
-    assert (site_of(bare), earthquake_of(bare), told_time(bare, bare.start)) == (Site(), None, "")
+    assert (get_site(bare), get_earthquake(bare), format_local_time(bare, bare.start)) == (Site(), None, "")
     zeros = {"magnitude": 0.0, "event_latitude_deg": 0.0, "event_longitude_deg": 0.0, "event_depth_km": 0.0}
-    assert earthquake_of(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata=zeros)) is None
+    assert get_earthquake(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata=zeros)) is None
     other = Record((Component("NS", [0.0, 1.0]),), 0.01, start=datetime(2020, 1, 2, 3, 4, 5, tzinfo=UTC))
-    assert told_time(other, other.start) == "2020-01-02 03:04:05 UTC"
-    assert earthquake_of(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata={"magnitude": 6.1})) == Earthquake(magnitude=6.1)
+    assert format_local_time(other, other.start) == "2020-01-02 03:04:05 UTC"
+    assert get_earthquake(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata={"magnitude": 6.1})) == Earthquake(magnitude=6.1)
 
 
 def test_tables_and_documents_tell_it(jma):
@@ -78,7 +78,7 @@ def test_a_real_record_tells_where_and_of_what_earthquake_everywhere(tmp_path):
     assert "earthquake of magnitude 7.82, 5 km south-west of Waiau, 15 km deep, 42.6925 S 173.022 E, 25 km away" in shown
     record = read("hanmer_springs_2016")
     assert "M 7.8, 25 km" in heading(record)
-    assert whereabouts(record)[0] == "station at 42.5233 S 172.831 E"
+    assert record_info(record)[0] == "station at 42.5233 S 172.831 E"
 
 
 def test_distances_on_the_sphere():
@@ -88,5 +88,5 @@ def test_distances_on_the_sphere():
     nowhere = Record(
         (Component("NS", [0.0, 1.0]),), 0.01, metadata={"station_latitude_deg": 0.0, "station_longitude_deg": 0.0, "magnitude": 6.0}
     )
-    assert site_of(nowhere).latitude_deg is None
+    assert get_site(nowhere).latitude_deg is None
     assert epicentral_distance_km(nowhere) is None

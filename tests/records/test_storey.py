@@ -11,10 +11,10 @@ from scipy.signal import StateSpace, lsim
 
 import seisblock
 from seisblock.cli import COMMANDS, main
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import response_spectrum
 from seisblock.records import Component, Preparation, Record, motion_of, process
-from seisblock.records.storey import DIED, Storey, on_storey, parse_storey
+from seisblock.records.floor_motion import RINGDOWN_RATIO, Storey, floor_motion, parse_storey
 from seisblock.references import papers
 
 RNG = np.random.default_rng(7)
@@ -32,7 +32,7 @@ def absolute_by_scipy(ground, dt, omega, damping):
 @pytest.mark.parametrize("storey", [Storey(0.6), Storey(2.0, 0.02), Storey(0.5, 0.2, 1.0), Storey(1.1, 0.05, 0.3)])
 def test_a_storey_moves_as_scipy_says(storey):
     """At every sample, the free swing after the record included; the vertical component is that of the ground."""
-    floor = on_storey(SHAKING, storey)
+    floor = floor_motion(SHAKING, storey)
     more = floor.samples - SHAKING.samples
     for component in SHAKING.horizontals:
         ground = np.append(component.acceleration, np.zeros(more))
@@ -46,22 +46,22 @@ def test_a_storey_moves_as_scipy_says(storey):
 def test_the_swing_is_followed_until_it_has_died():
     """The last swing is a thousandth of the peak, and no sooner: a quarter of the added samples less would cut off more."""
     storey = Storey(1.0, 0.03)
-    floor = on_storey(SHAKING, storey)
+    floor = floor_motion(SHAKING, storey)
     for component in floor.horizontals:
         a = np.abs(component.acceleration)
         period = round(storey.period_s / floor.dt)
-        assert a[-period:].max() < 1.4 * DIED * a.max()
+        assert a[-period:].max() < 1.4 * RINGDOWN_RATIO * a.max()
     more = floor.samples - SHAKING.samples
     assert more * floor.dt > 5.0
     later = [np.abs(c.acceleration[-more // 4 - period :][:period]).max() / np.abs(c.acceleration).max() for c in floor.horizontals]
-    assert max(later) > DIED
+    assert max(later) > RINGDOWN_RATIO
 
 
 def test_what_is_at_rest_at_its_end_is_not_made_longer():
     """A record that ends with a long silence keeps its samples."""
     pulse = np.zeros(6000)
     pulse[100:150] = 1.0
-    assert on_storey(Record((Component("NS", pulse),), 0.01), Storey(0.5)).samples == 6000
+    assert floor_motion(Record((Component("NS", pulse),), 0.01), Storey(0.5)).samples == 6000
 
 
 @pytest.mark.parametrize("damping", [0.02, 0.05, 0.3])
@@ -69,14 +69,14 @@ def test_resonance_amplifies_by_the_closed_form(damping):
     """Steady shaking at the natural period: sqrt(1 + 4 zeta^2)/(2 zeta) times the ground, on the oscillator itself."""
     t = np.arange(round(40 / damping / 3)) * 0.01
     shaken = Record((Component("NS", np.sin(2 * np.pi * np.arange(0, t[-1] * 10 + 20, 0.005))),), 0.005)
-    floor = on_storey(shaken, Storey(1.0, damping)).component("NS").acceleration[: shaken.samples]
+    floor = floor_motion(shaken, Storey(1.0, damping)).component("NS").acceleration[: shaken.samples]
     assert np.abs(floor[-400:]).max() == pytest.approx(math.sqrt(1 + 4 * damping**2) / (2 * damping), rel=2e-4)
 
 
 def test_the_peak_of_the_oscillator_is_the_spectral_acceleration():
     """With no height: what the house's own spectrum says of the same period and damping, between samples less than a thousandth more."""
     for period, damping in ((0.6, 0.05), (1.5, 0.02)):
-        floor = on_storey(SHAKING, Storey(period, damping))
+        floor = floor_motion(SHAKING, Storey(period, damping))
         for c in SHAKING.horizontals:
             expected = response_spectrum(c.acceleration, SHAKING.dt, [period], damping=damping).sa_m_s2[0]
             peak = np.abs(floor.component(c.code).acceleration).max()
@@ -100,20 +100,20 @@ def test_a_storey_moves_as_that_of_a_building_of_two_hundred_masses():
         expected = ground + taken[round(height * count) - 1] * (absolute - ground)
         # a building of n storeys takes up 3 n/(2 n + 1), one whose mass is spread over its height 3/2
         spread = height * 2 * count / (2 * count + 1)
-        found = on_storey(SHAKING, Storey(0.9, damping, spread)).component("NS").acceleration[: ground.size]
+        found = floor_motion(SHAKING, Storey(0.9, damping, spread)).component("NS").acceleration[: ground.size]
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 
 def test_two_thirds_up_is_the_oscillator_itself():
     """There the mode has the participation one."""
-    one, other = (on_storey(SHAKING, Storey(0.7, height=h)).component("EW").acceleration for h in (None, 2 / 3))
+    one, other = (floor_motion(SHAKING, Storey(0.7, height=h)).component("EW").acceleration for h in (None, 2 / 3))
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * np.abs(one).max())
 
 
 def test_a_coarse_record_gets_samples_in_between():
     """Twenty to a period, on the straight lines of the ground: those at the record's own times are the exact ones."""
     storey = Storey(0.11, 0.04)
-    floor = on_storey(SHAKING, storey)
+    floor = floor_motion(SHAKING, storey)
     assert floor.dt == pytest.approx(0.005) and storey.period_s / floor.dt >= 20
     ground = SHAKING.component("NS").acceleration
     expected = absolute_by_scipy(ground, SHAKING.dt, storey.omega, storey.damping)
@@ -124,10 +124,10 @@ def test_a_coarse_record_gets_samples_in_between():
 
 def test_an_azimuth_may_be_asked_for_before_or_after():
     """All directions swing alike, so that turning and swinging change places."""
-    floor = on_storey(SHAKING, Storey(0.6))
+    floor = floor_motion(SHAKING, Storey(0.6))
     along = motion_of(floor, "37").horizontal
-    turned = Record((process.towards(SHAKING, 37.0),), SHAKING.dt)
-    before = on_storey(turned, Storey(0.6)).components[0].acceleration
+    turned = Record((process.component_at_azimuth(SHAKING, 37.0),), SHAKING.dt)
+    before = floor_motion(turned, Storey(0.6)).components[0].acceleration
     n = min(along.size, before.size)
     np.testing.assert_allclose(along[:n], before[:n], rtol=0, atol=1e-10 * np.abs(along).max())
 
@@ -136,7 +136,7 @@ def test_the_floor_comes_after_the_scale_and_before_the_window():
     """A target PGA is the ground's; the window is cut out of a storey that swings already."""
     storey = Storey(0.6, height=0.9)
     prepared = Preparation(highpass_hz=0.2, target_pga=4.0, window=(5.0, 40.0), floor=storey).apply(SHAKING)
-    by_hand = process.crop(on_storey(process.scale_to_pga(process.highpass(SHAKING, 0.2), 4.0), storey), 5.0, 40.0)
+    by_hand = process.crop(floor_motion(process.scale_to_pga(process.highpass(SHAKING, 0.2), 4.0), storey), 5.0, 40.0)
     assert prepared.history == by_hand.history and len(prepared.history) == 4
     for one, other in zip(prepared.components, by_hand.components, strict=True):
         np.testing.assert_array_equal(one.acceleration, other.acceleration)
@@ -168,7 +168,7 @@ def test_what_is_no_storey_is_refused_in_a_sentence(text, says):
 def test_a_storey_that_never_rests_is_refused(storey):
     """More samples than may be kept, after the record or between its own."""
     with pytest.raises(ParameterError, match=r"samples of a storey's motion, and 200000000 are allowed"):
-        on_storey(SHAKING, storey)
+        floor_motion(SHAKING, storey)
 
 
 def test_every_command_that_filters_a_record_takes_a_floor():

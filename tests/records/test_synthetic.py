@@ -12,12 +12,12 @@ from click.testing import CliRunner
 
 import seisblock
 from seisblock.cli import main
-from seisblock.errors import InputError, ParameterError
+from seisblock.core.errors import InputError, ParameterError
 from seisblock.measures.spectra import response_spectrum
-from seisblock.present.exports.knet import write_knet
 from seisblock.records import process
 from seisblock.records.synthetic.point_source import PointSource
-from seisblock.records.synthetic.suite import named_suite, synthetic_suite
+from seisblock.records.synthetic.suite import parse_suite, synthetic_suite
+from seisblock.report.exports.knet import write_knet
 
 INDEPENDENT = 1e-5
 """Two codes of one formula, whose constants agree to six digits."""
@@ -145,7 +145,7 @@ class TestSuite:
 def test_what_is_no_suite_is_refused(text):
     """In a sentence, and before anything large is made."""
     with pytest.raises(InputError):
-        named_suite(text)
+        parse_suite(text)
 
 
 def test_a_seed_is_a_whole_number():
@@ -211,7 +211,7 @@ class TestCommand:
 
     def test_what_is_no_recording_is_said_to_be_none(self, run, monkeypatch):
         """Without RECORD it says which records it takes, and that they are synthetic."""
-        monkeypatch.setattr("seisblock.cli.fragilities.DEFAULT_SUITE", "synthetic:M7:R20:3")
+        monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
         said = run("--json")
         assert said.exit_code == 0 and "using synthetic:M7:R20:3" in said.stderr and "no recordings" in said.stderr
         assert "synthetic, no recording" in json.loads(said.stdout)["record"][0]["history"][0]

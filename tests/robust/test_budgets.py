@@ -13,23 +13,23 @@ from click.testing import CliRunner
 import seisblock
 from seisblock import Block, Motion
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.roster import read_bodies
 from seisblock.bodies.scan.mesh import read_mesh
-from seisblock.bodies.toml import read_table
+from seisblock.bodies.table import read_bodies
+from seisblock.bodies.toml import read_body_toml
 from seisblock.cli import COMMANDS, main
-from seisblock.cli.stack import COARSEST
+from seisblock.cli.stack import MAX_GRID
 from seisblock.cli.types import Count
-from seisblock.errors import InputError, ParameterError
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
-from seisblock.studies.fit.table import read_outcomes
+from seisblock.core.errors import InputError, ParameterError
+from seisblock.core.io.checkpoint_lines import read_complete_lines
+from seisblock.readers.discover import iter_records
+from seisblock.readers.dispatch import ReadOptions
+from seisblock.studies.fit.outcome_table import read_outcomes
+from seisblock.studies.fragility.io import read_fragility
 from seisblock.studies.gravestone_criterion import PGAS, RATIOS
-from seisblock.studies.hazard.given import read_fragility
 from seisblock.studies.hazard.table import read_hazard
-from seisblock.studies.inverse.factors import scale_factors
-from seisblock.studies.kept_lines import kept_lines
-from seisblock.studies.standing.azimuths import respond_directions
-from seisblock.studies.stations.surveys import read_surveys
+from seisblock.studies.map.surveyed_places import read_surveys
+from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.survey.scale_search import scale_factors
 
 SOON_S = 90.0
 """Processor time, s, within which anything is refused, a compilation of the kernels included."""
@@ -146,7 +146,7 @@ def test_a_machine_without_the_memory_says_so(monkeypatch):
 
 def test_the_coarsest_grid_of_the_criterion_study_leaves_one_height():
     """The option's ceiling is that of the study."""
-    assert len(RATIOS) == COARSEST >= len(PGAS)
+    assert len(RATIOS) == MAX_GRID >= len(PGAS)
 
 
 @pytest.mark.parametrize("what", ASKED)
@@ -163,16 +163,16 @@ def test_too_much_is_refused(what, tmp_path, monkeypatch):
 
 
 READ = {
-    "a body": ("z.toml", read_table),
+    "a body": ("z.toml", read_body_toml),
     "a list of bodies": ("z.csv", read_bodies),
     "a cemetery": ("z.csv", read_cemetery),
     "a scan": ("z.stl", read_mesh),
-    "a list of records": ("z.txt", lambda path: list(gather([f"@{path}"], Options()))),
+    "a list of records": ("z.txt", lambda path: list(iter_records([f"@{path}"], ReadOptions()))),
     "outcomes": ("z.csv", read_outcomes),
     "a hazard": ("z.csv", read_hazard),
     "a fragility": ("z.json", read_fragility),
     "surveyed places": ("z.csv", read_surveys),
-    "what a study keeps": ("z.jsonl", lambda path: kept_lines(path, "{")),
+    "what a study keeps": ("z.jsonl", lambda path: read_complete_lines(path, "{")),
 }
 """Everything that is read besides records."""
 

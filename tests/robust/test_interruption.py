@@ -13,8 +13,8 @@ from click.testing import CliRunner
 
 from seisblock.cli import main
 from seisblock.cli.cite import cite
-from seisblock.cli.manners import ending_in_order
-from seisblock.signals import losing_no_interrupt
+from seisblock.cli.process import graceful_exit
+from seisblock.core._signals import defer_interrupt
 from tests.lengths import all_but_slow
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a process has spent from /proc")
@@ -44,7 +44,7 @@ os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
 """One core, so that one worker is to be stopped and processor time is time."""
 
 COMPILING = """
-from seisblock.solvers.respond.model import RESPOND
+from seisblock.models.respond.model import RESPOND
 print("go", flush=True)
 try:
     RESPOND.pointers
@@ -224,11 +224,11 @@ def swallow():
 @pytest.mark.parametrize("become", [make_a_class, swallow])
 def test_an_interrupt_is_one_whatever_became_of_it(become):
     """Wrapped by an import or swallowed by a library, Ctrl-C leaves the block as itself, and the next block knows nothing of it."""
-    with pytest.raises(KeyboardInterrupt), losing_no_interrupt(), losing_no_interrupt():
+    with pytest.raises(KeyboardInterrupt), defer_interrupt(), defer_interrupt():
         become()
-    with losing_no_interrupt():
+    with defer_interrupt():
         pass
-    with pytest.raises(ValueError, match="mine"), losing_no_interrupt():
+    with pytest.raises(ValueError, match="mine"), defer_interrupt():
         raise ValueError("mine")
 
 
@@ -273,7 +273,7 @@ def test_an_end_that_a_callback_swallows_is_not_told_twice(monkeypatch):
         def __del__(self):
             raise self.error
 
-    with ending_in_order():
+    with graceful_exit():
         Swallowing(KeyboardInterrupt())
         Swallowing(ValueError())
     assert heard == [ValueError]

@@ -14,13 +14,13 @@ from seisblock import Block, Component, Motion, Record, SpringBlock, motion_of, 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.dynamics import follow_many
-from seisblock.errors import ParameterError
-from seisblock.results import Response
-from seisblock.solvers.rock import model as rocking
-from seisblock.solvers.rock.rocker import rocker
-from seisblock.studies.agreement import pile_agreement
-from seisblock.studies.criteria_card import criteria_card
+from seisblock.core.errors import ParameterError
+from seisblock.core.results import Response
+from seisblock.dynamics import integrate_many
+from seisblock.models.rock import model as rocking
+from seisblock.models.rock.params import rock_params
+from seisblock.studies.criteria_comparison import compare_criteria
+from seisblock.studies.model_comparison import compare_pile_models
 from tests.lengths import all_but_slow
 
 RECORD = scale_to_pga(read("synthetic_jma.csv"), 9.0)
@@ -51,8 +51,8 @@ def in_stretches(monkeypatch):
     """Let every motion count as long."""
 
     def cut():
-        monkeypatch.setattr("seisblock.records.motion.LONG", 100)
-        monkeypatch.setattr("seisblock.records.motion.STRETCH", 700)
+        monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 100)
+        monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 700)
 
     return cut
 
@@ -81,20 +81,20 @@ def test_rows_of_a_long_motion_are_those_of_a_short_one(in_stretches):
     in_stretches()
     parts = motion_of(RECORD, "37")
     np.testing.assert_array_equal(parts.acceleration, whole.acceleration)
-    stretches = list(parts.stretches((True, False, True)))
+    stretches = list(parts.segments((True, False, True)))
     joined = np.concatenate([stretches[0].acceleration, *(each.acceleration[:, 1:] for each in stretches[1:])], axis=1)
     np.testing.assert_array_equal(joined, whole.acceleration * [[1.0], [0.0], [1.0]])
-    assert stretches[-1].beyond == 0 and [each.first for each in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
+    assert stretches[-1].samples_after == 0 and [each.first for each in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
 
 
 def test_many_blocks_turned_in_a_long_motion(in_stretches):
     """Runs of a study share the stretches: extrema and ends are those in the whole motion."""
     motion = motion_of(RECORD, "EW")
-    p = np.array([rocking.parameters(rocker(Block(width, 0.9), motion), motion.dt) for width in (0.1, 0.2, 0.3)])
+    p = np.array([rocking.parameters(rock_params(Block(width, 0.9), motion), motion.dt) for width in (0.1, 0.2, 0.3)])
     gains = np.array([[1.0, 0.0, 0.0], [0.9, -0.3, 1.0], [1.2, 0.0, 0.5]])
-    whole = follow_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
+    whole = integrate_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
     in_stretches()
-    parts = follow_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
+    parts = integrate_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
     for field in ("final", "final_mode", "end_time", "extrema", "stays"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
 
@@ -102,13 +102,13 @@ def test_many_blocks_turned_in_a_long_motion(in_stretches):
 def test_curves_are_made_when_they_are_asked_for(monkeypatch):
     """A verdict follows its path once more for nobody."""
     made = SimpleNamespace(count=0)
-    original = seisblock.solvers.slide.solve._curves
+    original = seisblock.models.slide.solve._curves
 
     def counted(*args):
         made.count += 1
         return original(*args)
 
-    monkeypatch.setattr("seisblock.solvers.slide.solve._curves", counted)
+    monkeypatch.setattr("seisblock.models.slide.solve._curves", counted)
     response = seisblock.solve_slide(0.1, Motion.from_arrays(np.sin(np.arange(300.0)), 0.01))
     assert response.outcome.slips and made.count == 0
     assert response.time.size == response["displacement"].size and made.count == 1
@@ -121,8 +121,8 @@ def test_more_changes_of_mode_than_the_tables_hold(monkeypatch):
     """They are taken out in time: the answer is that of tables that hold all of them."""
     whole = seisblock.solve_slide(0.05, NOISE)
     assert len(whole.events) > 1000
-    monkeypatch.setattr("seisblock.dynamics.following._FIRST_CAPACITY", 16)
-    monkeypatch.setattr("seisblock.dynamics.following._LAST_CAPACITY", 16)
+    monkeypatch.setattr("seisblock.dynamics.integration._INITIAL_EVENT_CAPACITY", 16)
+    monkeypatch.setattr("seisblock.dynamics.integration._MAX_EVENT_CAPACITY", 16)
     parts = seisblock.solve_slide(0.05, NOISE)
     assert (parts.outcome, parts.phases) == (whole.outcome, whole.phases)
     for one, other in zip(whole.events, parts.events, strict=True):
@@ -143,7 +143,7 @@ BYTES_AN_EVENT = 300.0
 
 def test_a_change_of_mode_is_a_row_of_columns(monkeypatch):
     """The slope between two lengths of noise: an object for each event, and one for each phase, took 0.8 kB."""
-    monkeypatch.setattr("seisblock.records.motion.LONG", 100)
+    monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 100)
     peaks, counts = [], []
     for samples in (20_000, 40_000):
         motion = Motion.from_arrays(np.random.default_rng(1).normal(size=samples), 0.01)
@@ -160,7 +160,7 @@ def test_short_trajectories_of_a_long_motion_hold_what_they_reached():
     """`jump` follows many chains: each took room for the whole motion (7 GB of a million samples of noise)."""
     motion = Motion.from_arrays(np.concatenate([np.full(300, 4.0), np.zeros(50_000)]), 0.01)
     response = seisblock.solve_rock(Block(0.1, 0.9), motion)
-    path = next(response.make_histories.args[-1].walk())
+    path = next(response.make_histories.args[-1].iter_paths())
     assert response.outcome.overturned and 0 < len(path.states) < 100
     assert path.states.base is None and path.modes.base is None
 
@@ -201,21 +201,21 @@ def bytes_held(use, *given):
 @pytest.mark.parametrize("named", all_but_slow(SOLVES, set(SOLVES) - {"stack", "uplift"}))
 def test_a_verdict_holds_no_row_of_the_length_of_the_motion(named, monkeypatch):
     """The slope between two lengths: less than one row; the path of a slide takes five."""
-    monkeypatch.setattr("seisblock.records.motion.LONG", 2**16)
-    monkeypatch.setattr("seisblock.records.motion.STRETCH", 2**15)
+    monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 2**16)
+    monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 2**15)
     peak_bytes(SOLVES[named], 2**16 + 2)
     assert (peak_bytes(SOLVES[named], LONGER) - peak_bytes(SOLVES[named], SHORTER)) / (LONGER - SHORTER) < LEAST
 
 
 def beside_a_pile(record, motion):
     """Look at each sample of the three rows, as a pile does, and ask the other models."""
-    assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.stretches((True, True, True)))
+    assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.segments((True, True, True)))
     answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options={"gravity_m_s2": 9.81})
-    return pile_agreement(answer)
+    return compare_pile_models(answer)
 
 
 STUDIES = {
-    "criteria": lambda record, motion: criteria_card(record, motion, BLOCK, gravity=9.81).agreement,
+    "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, gravity=9.81).agreement,
     "stack": beside_a_pile,
 }
 
@@ -227,16 +227,16 @@ ONE_ROW = 10.0
 def test_models_beside_each_other_hold_one_row(named, monkeypatch):
     """The slope between two lengths of a turned motion: the row across, the filtered row and its velocity were held at once."""
     for size, samples in {
-        "records.motion.LONG": 2**16,
-        "records.motion.STRETCH": 2**15,
-        "records.filters.AT_A_TIME": 2**14,
-        "records.integrals.AT_A_TIME": 2**14,
-        "measures.frequency.AT_A_TIME": 2**14,
-        "measures.spectra.LONG": 2**13,
+        "records.motion.LONG_MOTION_SAMPLES": 2**16,
+        "records.motion.SEGMENT_SAMPLES": 2**15,
+        "records.filters.CHUNK_SIZE": 2**14,
+        "records.integrals.CHUNK_SIZE": 2**14,
+        "measures.frequency.CHUNK_SIZE": 2**14,
+        "measures.spectra.LONG_TRANSFORM": 2**13,
     }.items():
         monkeypatch.setattr(f"seisblock.{size}", samples)
     fallen = SimpleNamespace(overturned=True)  # dozens of factors are tried, and what a verdict holds is looked at above
-    monkeypatch.setattr("seisblock.studies.agreement.rock_verdict", lambda *args, **options: fallen)
+    monkeypatch.setattr("seisblock.studies.model_comparison.rock_verdict", lambda *args, **options: fallen)
     study = STUDIES[named]
     study(*turned(2**16 + 2))  # compiles
     assert (bytes_held(study, *turned(LONGER)) - bytes_held(study, *turned(SHORTER))) / (LONGER - SHORTER) < ONE_ROW

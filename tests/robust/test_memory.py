@@ -12,10 +12,10 @@ import numpy as np
 import obspy
 import pytest
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import jma_intensity, measure
 from seisblock.readers import read, sample_path
-from seisblock.readers.heap import give_back
+from seisblock.readers._memory import trim_heap
 from seisblock.records import Component, Record
 from seisblock.records.process import highpass
 
@@ -30,7 +30,12 @@ takes besides; in a day 0.55 GB, 0.73 GB, and 0.55 GB above the record's 0.41 GB
 @pytest.fixture(autouse=True)
 def many_pieces(monkeypatch):
     """Let both lengths count as long."""
-    for size in ("measures.circular.LONG", "measures.spectra.LONG", "records.jumps._BLOCK", "readers.source.LARGE"):
+    for size in (
+        "measures.fft_filter.LONG_TRANSFORM",
+        "measures.spectra.LONG_TRANSFORM",
+        "records.qc_spikes._BLOCK",
+        "readers.source.LARGE_FILE_BYTES",
+    ):
         monkeypatch.setattr(f"seisblock.{size}", 2**18)
 
 
@@ -93,7 +98,7 @@ def test_what_is_free_under_a_block_that_is_not_is_given_back():
     for block in blocks[:-1]:
         libc.free(block)
     held = resident()
-    give_back()
+    trim_heap()
     given = held - resident()
     libc.free(blocks[-1])
     assert given > 30e6
@@ -102,8 +107,8 @@ def test_what_is_free_under_a_block_that_is_not_is_given_back():
 def test_a_long_record_leaves_nothing_of_its_reading_behind(tmp_path, monkeypatch):
     """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
     told = []
-    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "give_back", lambda: told.append(samples))
-    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "_MANY", 1000)
+    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: told.append(samples))
+    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "_TRIM_SAMPLES", 1000)
     for samples in (1000, 1001):
         path = tmp_path / f"{samples}.mseed"
         obspy.Trace(np.arange(samples, dtype=np.int32), {"station": "DAY", "channel": "HNN", "delta": 0.005}).write(str(path), "MSEED")
@@ -113,9 +118,9 @@ def test_a_long_record_leaves_nothing_of_its_reading_behind(tmp_path, monkeypatc
 
 def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
     """A plain table with its times: four columns, and nothing of the text, which stays in the file."""
-    for name, value in {"source.LARGE": 2**14, "lines.PIECE": 2**8, "cells.AT_A_TIME": 2**12}.items():
+    for name, value in {"source.LARGE_FILE_BYTES": 2**14, "lines.CHUNK_LINES": 2**8, "table.parse.CHUNK_SIZE": 2**12}.items():
         monkeypatch.setattr(f"seisblock.readers.{name}", value)
-    monkeypatch.setattr("seisblock.records.jumps._BLOCK", 2**12)
+    monkeypatch.setattr("seisblock.records.qc_spikes._BLOCK", 2**12)
 
     def written(samples):
         path = tmp_path / f"{samples}.csv"
@@ -139,8 +144,8 @@ def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
     """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
     record = recorded(samples)
     in_pieces = jma_intensity(record)
-    monkeypatch.setattr("seisblock.measures.circular.LONG", 2**21)
-    monkeypatch.setattr("seisblock.measures.circular.AT_A_TIME", 2**21)
+    monkeypatch.setattr("seisblock.measures.fft_filter.LONG_TRANSFORM", 2**21)
+    monkeypatch.setattr("seisblock.measures.fft_filter.CHUNK_SIZE", 2**21)
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 

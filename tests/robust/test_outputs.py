@@ -15,11 +15,11 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.errors import OutputError
-from seisblock.present.files import read_table, replacing, write_table, write_text
-from seisblock.present.journal import Journal
+from seisblock.core.errors import OutputError
+from seisblock.core.io.checkpoint import Checkpoint
+from seisblock.core.io.checkpoint_lines import append_line, read_complete_lines
+from seisblock.report.io.atomic import atomic_write, read_table, write_table, write_text
 from seisblock.samples import sample_path
-from seisblock.studies.kept_lines import keep_line, kept_lines
 
 PROGRAM = [sys.executable, "-m", "seisblock"]
 
@@ -152,7 +152,7 @@ def test_a_full_disk_keeps_the_old_file(tmp_path):
     target.write_text("old")
 
     def failing():
-        with replacing(target) as temporary:
+        with atomic_write(target) as temporary:
             temporary.write_text("half")
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
@@ -206,7 +206,7 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
     """R2: an encoder that runs out of disk and says nothing leaves the old film alone."""
     from PIL import Image
 
-    from seisblock.present.films import animation
+    from seisblock.report.animation import render
 
     encoder = tmp_path / "ffmpeg"
     encoder.write_text(
@@ -218,7 +218,7 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
     film.write_bytes(b"old")
     frames = [Image.new("RGB", (4, 4)) for _ in range(2)]
     with contextlib.nullcontext() if good else pytest.raises(OutputError, match="not whole"):
-        animation.animate(frames, film)
+        render.write_frames(frames, film)
     assert film.read_bytes() == (content if good else b"old")
 
 
@@ -226,7 +226,7 @@ def test_a_film_that_fills_the_disk_says_so(tmp_path, monkeypatch):
     """R2: of all that ffmpeg tells, its last line is about something else."""
     from PIL import Image
 
-    from seisblock.present.films import animation
+    from seisblock.report.animation import render
 
     encoder = tmp_path / "ffmpeg"
     encoder.write_text(
@@ -237,7 +237,7 @@ def test_a_film_that_fills_the_disk_says_so(tmp_path, monkeypatch):
     film = tmp_path / "film.mp4"
     film.write_bytes(b"old")
     with pytest.raises(OutputError, match=r"No space left on device; what was there is unchanged"):
-        animation.animate([Image.new("RGB", (4, 4))] * 2, film)
+        render.write_frames([Image.new("RGB", (4, 4))] * 2, film)
     assert film.read_bytes() == b"old"
 
 
@@ -258,7 +258,7 @@ def test_a_figure_that_fills_the_disk_is_a_sentence(suffix, tmp_path):
     """In the middle of whatever matplotlib does: the .pdf ended in a traceback of its compression."""
     from matplotlib.figure import Figure
 
-    from seisblock.present.figures.canvas import save
+    from seisblock.report.figures.style import save
 
     target = tmp_path / f"out{suffix}"
     target.write_bytes(b"old")
@@ -273,21 +273,21 @@ def test_a_batch_that_cannot_begin_leaves_no_journal(tmp_path):
     """An empty one stood in the way of the next run."""
     path = tmp_path / "out.csv.journal"
     with no_file_over(20), pytest.raises(OutputError, match="cannot write"):
-        Journal.begin(path, {"seisblock": "x" * 100})
+        Checkpoint.begin(path, {"seisblock": "x" * 100})
     assert not path.exists()
 
 
 def test_what_a_study_keeps_is_whole_lines(tmp_path):
     """A full disk in the middle of a line leaves those before, and the next line stands by itself."""
     path = tmp_path / "kept.jsonl"
-    keep_line(path, "{1}")
+    append_line(path, "{1}")
     with no_file_over(10), pytest.raises(OutputError, match="what was there is unchanged"):
-        keep_line(path, "{" + 20 * "2" + "}")
+        append_line(path, "{" + 20 * "2" + "}")
     assert path.read_bytes() == b"{1}\n"
     path.write_bytes(b"{1}\n{22")
-    assert kept_lines(path, "{") == ["{1}"]
-    keep_line(path, "{3}")
-    assert kept_lines(path, "{") == ["{1}", "{3}"]
+    assert read_complete_lines(path, "{") == ["{1}"]
+    append_line(path, "{3}")
+    assert read_complete_lines(path, "{") == ["{1}", "{3}"]
 
 
 def test_termination_cleans_up(folder):
@@ -357,8 +357,8 @@ def test_a_batch_over_names_that_are_not_utf_8(suffix, folder):
     assert done.exit_code == 0 and "UnicodeEncodeError" not in done.output, done.output
     table = (folder / f"out{suffix}").read_bytes()
     assert b"\\udcff.csv" in table
-    Journal.begin(folder / "a.journal", {"seisblock": "batch"}).keep(("\udcff.csv", "gone"), [{"record": "\udcff"}])
-    again = Journal.resume(folder / "a.journal", {"seisblock": "batch"})
+    Checkpoint.begin(folder / "a.journal", {"seisblock": "batch"}).append(("\udcff.csv", "gone"), [{"record": "\udcff"}])
+    again = Checkpoint.resume(folder / "a.journal", {"seisblock": "batch"})
     assert again.rows(("\udcff.csv", "gone")) == [{"record": "\udcff"}]
 
 
@@ -405,7 +405,7 @@ def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, m
     """The first thing that a command does; the record need not even be there."""
     words, says = REFUSED[what]
     monkeypatch.setattr("shutil.which", lambda name: None)
-    monkeypatch.setattr("seisblock.present.files.find_spec", lambda name: None)
+    monkeypatch.setattr("seisblock.report.io.atomic.find_spec", lambda name: None)
     done = run("stack", "not_there.csv", *words)
     assert done.exit_code == 3 and says in " ".join(done.stderr.split())
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
@@ -447,7 +447,7 @@ def test_what_a_killed_run_left_is_swept(tmp_path):
     """SIGKILL in the middle of a write leaves a hidden file: the next output there takes it away, but none that a living run holds."""
     fcntl = pytest.importorskip("fcntl")
     script = (
-        "import os, signal, sys\nfrom seisblock.present.files import replacing\n"
+        "import os, signal, sys\nfrom seisblock.report.io.atomic import replacing\n"
         "with replacing(sys.argv[1]) as path:\n    path.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
     )
     killed = subprocess.run([sys.executable, "-c", script, str(tmp_path / "a.txt")], check=False)

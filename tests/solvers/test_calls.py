@@ -7,13 +7,13 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.errors import ComponentError, KindError, ParameterError
+from seisblock.core.errors import ComponentError, KindError, ParameterError
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.slide.solve import solve_slide
+from seisblock.models.stack.solve import solve_stack
+from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records import Component, Motion, Record, motion_of
-from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.solvers.uplift.solve import solve_uplift
 
 LAYERS = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
 SPRINGS = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)

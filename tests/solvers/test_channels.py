@@ -7,13 +7,13 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import load_contact, load_two_layer
+from seisblock.models.jump import solve_jump
+from seisblock.models.respond import solve_respond
+from seisblock.models.rock import solve_rock
+from seisblock.models.slide import solve_slide
+from seisblock.models.stack import solve_stack
+from seisblock.models.uplift import solve_uplift
 from seisblock.records import Motion
-from seisblock.solvers.jump import solve_jump
-from seisblock.solvers.respond import solve_respond
-from seisblock.solvers.rock import solve_rock
-from seisblock.solvers.slide import solve_slide
-from seisblock.solvers.stack import solve_stack
-from seisblock.solvers.uplift import solve_uplift
 
 T = np.arange(400) * 0.005
 PUSH = np.where(T < 1.0, 5.0 * np.sin(np.pi * T) ** 2, 0.0)

@@ -10,12 +10,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.models.jump import modes
+from seisblock.models.jump.chain import JUMPED, NO_JUMP
+from seisblock.models.jump.solve import solve_jump
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.solvers.jump import modes
-from seisblock.solvers.jump.chain import JUMPED, NO_JUMP
-from seisblock.solvers.jump.solve import solve_jump
 from tests.motions import half_sine
 
 G = 9.8
@@ -242,11 +242,11 @@ def test_what_is_left_at_the_end_is_told():
 @pytest.mark.kernel
 def test_named_modes_are_numbered_as_the_model_names_them():
     """Each kind of motion about a corner has its name in the model's list."""
-    from seisblock.solvers.jump.flight import FLYING
+    from seisblock.models.jump.flight import FLIGHT_MODEL
 
     for corner, side in ((modes.LEFT, "left"), (modes.RIGHT, "right")):
-        for kind, name in ((modes.STICK, "stick"), (modes.HOLD, "hold"), (modes.BACK, "back"), (modes.FORTH, "forth")):
-            assert FLYING.modes[modes.landed(corner, kind)] == f"{name} {side}"
-        assert FLYING.modes[modes.landed(corner, modes.FLAT_BACK)] == "flat, back"
-        assert FLYING.modes[modes.landed(corner, modes.FLAT_FORTH)] == "flat, forth"
-    assert [FLYING.modes[mode] for mode in (modes.JAMMED, modes.OVERTURNED, modes.END)] == ["jammed", "overturned", "end"]
+        for kind, name in ((modes.STICK, "stick"), (modes.HOLD, "hold"), (modes.SLIP_BACKWARD, "back"), (modes.SLIP_FORWARD, "forth")):
+            assert FLIGHT_MODEL.modes[modes.contact_mode(corner, kind)] == f"{name} {side}"
+        assert FLIGHT_MODEL.modes[modes.contact_mode(corner, modes.FLAT_BACKWARD)] == "flat, back"
+        assert FLIGHT_MODEL.modes[modes.contact_mode(corner, modes.FLAT_FORWARD)] == "flat, forth"
+    assert [FLIGHT_MODEL.modes[mode] for mode in (modes.JAMMED, modes.OVERTURNED, modes.END)] == ["jammed", "overturned", "end"]

@@ -8,9 +8,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.solvers.jump import modes
-from seisblock.solvers.jump.flight import flight_reset
-from seisblock.solvers.jump.impact import launch, spin_ratio
+from seisblock.models.jump import modes
+from seisblock.models.jump.flight import flight_reset
+from seisblock.models.jump.impact import launch, spin_ratio
 
 G = 9.8
 SHORT = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
@@ -43,9 +43,9 @@ def test_a_foot_that_lands_holds_where_static_friction_bears_what_it_needs(side,
     corner = modes.RIGHT if side > 0 else modes.LEFT
     found = flight_reset(modes.FLIGHT, corner, y, np.array([[shake, 0.0]]), p)
     if abs(push) <= mu * normal:
-        assert found == modes.landed(corner, modes.STICK)
+        assert found == modes.contact_mode(corner, modes.STICK)
     else:
-        assert found == modes.landed(corner, modes.FORTH if push < 0.0 else modes.BACK)
+        assert found == modes.contact_mode(corner, modes.SLIP_FORWARD if push < 0.0 else modes.SLIP_BACKWARD)
 
 
 def test_centrifugal_force_decides_some_landings():

@@ -7,12 +7,12 @@ import pytest
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.errors import SolverError
+from seisblock.core.errors import SolverError
+from seisblock.models.jump import jump_many, solve_jump
+from seisblock.models.jump.describe import chain_warnings
+from seisblock.models.uplift import solve_uplift, uplift_many
+from seisblock.models.uplift.outcome import warnings
 from seisblock.records import Motion
-from seisblock.solvers.jump import jump_many, solve_jump
-from seisblock.solvers.jump.tale import warnings_of
-from seisblock.solvers.uplift import solve_uplift, uplift_many
-from seisblock.solvers.uplift.outcome import warnings
 from tests.solvers.uplift_motions import shaking
 
 
@@ -31,7 +31,7 @@ def test_rows_of_blocks_on_springs_are_their_answers():
     assert found.uplifts.sum() > 1 and (found.contact_changes > 50).any()
     for row, body in enumerate(bodies):
         one = solve_uplift(body, motion)
-        for key, value in found.told(row, motion.start_s).items():
+        for key, value in found.row_dict(row, motion.start_s).items():
             assert value == getattr(one.outcome, key), key
         assert warnings(motion, found, row) == one.warnings
         assert tuple(np.flatnonzero(found.first_corners[row]) + 1) == one.outcome.first_corners
@@ -48,7 +48,7 @@ def test_one_block_under_many_factors():
     found = uplift_many([body], motion, gains=np.outer([*factors, 2.0], [1.0, 1.0, 1.0]))
     assert found.uplifts.tolist() == [False, True, True]
     twice = solve_uplift(body, Motion(2.0 * motion.acceleration, motion.dt)).outcome
-    assert found.told(2, 0.0) == {key: getattr(twice, key) for key in found.told(2, 0.0)}
+    assert found.row_dict(2, 0.0) == {key: getattr(twice, key) for key in found.row_dict(2, 0.0)}
 
 
 def layered(count, seed=5):
@@ -82,16 +82,16 @@ def test_rows_of_two_layer_blocks_are_their_answers(options, samples, fates):
     blocks, contacts = layered(12)
     motion = pushed(samples)
     found = jump_many(blocks, motion, contacts=contacts, **options)
-    assert set(found.fate.tolist()) == fates
+    assert set(found.outcome_code.tolist()) == fates
     for row, (block, contact) in enumerate(zip(blocks, contacts, strict=True)):
         if found.jammed[row]:
             with pytest.raises(SolverError, match="jams"):
                 solve_jump(block, motion, contact=contact, **options)
             continue
         one = solve_jump(block, motion, contact=contact, **options)
-        for key, value in found.told(row).items():
+        for key, value in found.row_dict(row).items():
             assert value == getattr(one.outcome, key), key
-        assert warnings_of(motion, found.chains_of(row, motion.start_s), contact.mu) == one.warnings
+        assert chain_warnings(motion, found.row_chains(row, motion.start_s), contact.mu) == one.warnings
 
 
 def test_one_two_layer_block_under_many_factors():
@@ -101,7 +101,7 @@ def test_one_two_layer_block_under_many_factors():
     alone = solve_jump(block, motion, contact=contact).outcome
     limit = alone.rocking_threshold_m_s2 / np.abs(motion.horizontal).max()
     found = jump_many([block], motion, contacts=[contact], factors=[0.999 * limit, 1.001 * limit, 1.0, 2.0])
-    assert (found.fate > 0).tolist() == [False, True, True, True]
+    assert (found.outcome_code > 0).tolist() == [False, True, True, True]
     twice = solve_jump(block, Motion(2.0 * motion.acceleration, motion.dt), contact=contact).outcome
     for row, one in ((2, alone), (3, twice)):
-        assert found.told(row) == {key: getattr(one, key) for key in found.told(row)}
+        assert found.row_dict(row) == {key: getattr(one, key) for key in found.row_dict(row)}

@@ -8,14 +8,14 @@ import pytest
 
 from seisblock import solve_rock
 from seisblock.bodies.block import Block, from_slenderness
-from seisblock.dynamics import follow, following
-from seisblock.errors import BodyError, ParameterError, SolverError
+from seisblock.core.errors import BodyError, ParameterError, SolverError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.dynamics import integrate, integration
+from seisblock.models.rock import model as rock_model
+from seisblock.models.rock.free_rocking import free_rocking_outcome
+from seisblock.models.rock.params import rock_params
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.solvers.rock import model as rock_model
-from seisblock.solvers.rock.aftermath import fate
-from seisblock.solvers.rock.rocker import rocker
-from seisblock.units import STANDARD_GRAVITY as G
 
 T = np.arange(1201) * 0.005
 SHAKING = 3.4 * np.sin(2 * np.pi * 1.6 * T) * np.sin(np.pi * T / 6) ** 2
@@ -29,7 +29,7 @@ def test_friction_demand_is_that_of_the_moving_centre():
     a, up = np.interp(fine, T, SHAKING), np.interp(fine, T, UP)
     motion = Motion.from_arrays(a, 5e-5, vertical=up)
     response = solve_rock(block, motion, vertical=True)
-    trajectory = follow(rock_model.ROCKING, motion, rock_model.parameters(rocker(block, motion), 5e-5), (0, 0), 0, gains=(1, 0, 1))
+    trajectory = integrate(rock_model.ROCKING, motion, rock_model.parameters(rock_params(block, motion), 5e-5), (0, 0), 0, gains=(1, 0, 1))
     theta, modes = trajectory.states[:, 0], trajectory.modes
     half, centre = np.where(theta >= 0, block.width / 2, -block.width / 2), block.centre
     x = half - half * np.cos(theta) + centre * np.sin(theta)
@@ -139,13 +139,15 @@ def test_block_that_never_loses_energy_is_told_from_one_that_falls():
 def test_fate_agrees_with_integrating_on(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
-    found = fate(rocker(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G), theta, omega)
+    found = free_rocking_outcome(
+        rock_params(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G), theta, omega
+    )
     long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
     assert found.overturns == long.overturned
-    assert max(found.largest) == pytest.approx(long.max_rotation_rad, rel=1e-9)
+    assert max(found.max_leans) == pytest.approx(long.max_rotation_rad, rel=1e-9)
     if found.overturns:
         assert found.overturns_s == pytest.approx(long.overturning_time_s, abs=1e-9)
-        assert {1: "+x", -1: "-x"}[found.towards] == long.overturned_towards
+        assert {1: "+x", -1: "-x"}[found.direction] == long.overturned_towards
 
 
 def test_passing_alpha_and_coming_back_is_not_overturning():
@@ -184,7 +186,7 @@ def test_block_that_starts_loaded_beyond_the_threshold_starts_at_once():
 @pytest.mark.slow
 def test_lossless_hops_without_end_are_a_clear_error(monkeypatch):
     """A restitution of 1 after a hop of microseconds never comes to rest: said in one sentence, not looped."""
-    monkeypatch.setattr(following, "_MANY", 2**18)
+    monkeypatch.setattr(integration, "_MAX_EVENTS", 2**18)
     threshold = G * 0.2
     a = np.array([0.0, threshold * (1 + 3e-3), 0.0, *np.zeros(400)])
     with pytest.raises(SolverError, match="changes its mode without end"):

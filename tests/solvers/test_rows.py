@@ -7,15 +7,15 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import load_two_layer
-from seisblock.dynamics import follow, follow_many
+from seisblock.dynamics import integrate, integrate_many
+from seisblock.models.jump import rocking
+from seisblock.models.rock import model as rock
+from seisblock.models.rock.params import rock_params
+from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
+from seisblock.models.slide import model as slide
+from seisblock.models.slide.solve import solve_slide
+from seisblock.models.uplift import model as uplift
 from seisblock.records import Motion
-from seisblock.solvers.jump import rocking
-from seisblock.solvers.rock import model as rock
-from seisblock.solvers.rock.rocker import rocker
-from seisblock.solvers.rock.stride import ROCKING_TOGETHER
-from seisblock.solvers.slide import model as slide
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.solvers.uplift import model as uplift
 from seisblock.studies.sliding import slide_study
 
 RNG = np.random.default_rng(23)
@@ -48,17 +48,17 @@ def rows_of(name):
     """Return the model of single runs, that of many, their parameters, the first states and the first mode."""
     if name == "rock":
         blocks = [Block(w, h, centroid_offset=0.1 * w * k) for w, h, k in RNG.uniform([0.15, 0.6, -1], [0.5, 2.0, 1], (RUNS, 3))]
-        p = [rock.parameters(rocker(block, shaking(20, 1.0)), 0.01) for block in blocks]
-        return rock.ROCKING, ROCKING_TOGETHER, p, np.zeros(2), rock.REST
+        p = [rock.parameters(rock_params(block, shaking(20, 1.0)), 0.01) for block in blocks]
+        return rock.ROCKING, ROCKING_SIMD_MODEL, p, np.zeros(2), rock.REST
     if name == "slide":
         return slide.SLIDE, slide.SLIDE, [slide.parameters(base, G) for base in slopes()], np.zeros(4), slide.STICK
     if name == "uplift":
         bodies = springs()
-        starts = np.array([uplift.at_rest(body, G) for body in bodies])
-        return uplift.UPLIFT, uplift.UPLIFT, [uplift.parameters(body, G) for body in bodies], starts, uplift.WHOLE_BASE
+        starts = np.array([uplift.static_state(body, G) for body in bodies])
+        return uplift.UPLIFT, uplift.UPLIFT, [uplift.parameters(body, G) for body in bodies], starts, uplift.ALL_CORNERS
     stones = [load_two_layer("chozusha")] * 3
     p = [rocking.rocking_parameters(stone, G, "both") for stone in stones]
-    return rocking.ROCKING, rocking.ROCKING, p, np.zeros(2), rocking.REST
+    return rocking.ROCKING_MODEL, rocking.ROCKING_MODEL, p, np.zeros(2), rocking.REST
 
 
 @pytest.mark.parametrize("name", ["rock", "slide", "uplift", "jump"])
@@ -68,14 +68,14 @@ def test_rows_are_single_runs(name, width, peak):
     alone, many, p, starts, mode = rows_of(name)
     motion = shaking(width, peak)
     gains = np.column_stack([RNG.uniform(0.4, 1.3, len(p)), RNG.uniform(-0.3, 0.3, len(p)), RNG.uniform(0.0, 1.0, len(p))])
-    found = follow_many(many, motion, p, starts, mode, gains=gains)
-    assert found.n_changes.any()
+    found = integrate_many(many, motion, p, starts, mode, gains=gains)
+    assert found.n_events.any()
     for row in range(len(p)):
-        one = follow(alone, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
+        one = integrate(alone, motion, p[row], np.broadcast_to(starts, (len(p), starts.shape[-1]))[row], mode, gains=gains[row])
         np.testing.assert_array_equal(found.final[row], one.final)
         np.testing.assert_array_equal(found.extrema[row], one.extrema)
-        assert (found.final_mode[row], found.end_time[row], found.n_changes[row]) == (one.final_mode, one.end_time, one.n_changes)
-        np.testing.assert_equal(found.first_change[row], one.changes[0].time if one.changes else np.nan)
+        assert (found.final_mode[row], found.end_time[row], found.n_events[row]) == (one.final_mode, one.end_time, one.n_events)
+        np.testing.assert_equal(found.first_event_time[row], one.events[0].time if one.events else np.nan)
 
 
 def test_a_study_of_sliding_is_its_answers():

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
-from seisblock.errors import ComponentError, ParameterError
+from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Component, Motion, Record, motion_of
-from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study, worst_directions
 
 G = 9.80665
@@ -109,8 +109,8 @@ def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
     assert response.outcome.final_slip_m is None
     assert response.outcome.slides_at_end
     assert any("for ever" in warning for warning in response.warnings)
-    assert sliding_base(0.3, kappa=0.5, slope_deg=12.0).slides_for_ever
-    assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).slides_for_ever
+    assert sliding_base(0.3, kappa=0.5, slope_deg=12.0).never_stops
+    assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).never_stops
 
 
 def test_times_count_from_the_records_first_sample():

@@ -11,11 +11,11 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.errors import ParameterError, SolverError
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.stack.outcome import MAX_CREATED_ENERGY, Track, inverse_rotation, rotate_vectors, tilt_angle, twist_angle
+from seisblock.models.stack.solve import solve_stack as solve_stack_by
 from seisblock.records import Motion
-from seisblock.solvers.stack.outcome import CREATED_AT_MOST, Track, inverse, rotated, tilt_of, turn_of
-from seisblock.solvers.stack.solve import solve_stack as solve_stack_by
-from seisblock.units import STANDARD_GRAVITY as G
 
 WIDTH = 0.24
 
@@ -148,22 +148,22 @@ def test_a_stone_has_fallen_when_it_leans_by_60_degrees_and_more_than_it_can(rat
 
 def test_a_free_body_keeps_its_energy():
     """A block that turns about all its axes in the air keeps its energy until it lands."""
-    from seisblock.solvers.stack.arrays import pile_arrays
-    from seisblock.solvers.stack.frames import L, X, orient, spin
-    from seisblock.solvers.stack.step import drift, energy_of, kick
+    from seisblock.models.stack.arrays import pile_arrays
+    from seisblock.models.stack.frames import L, X, update_rotation_matrix, update_spin
+    from seisblock.models.stack.step import drift, kick, mechanical_energy
 
     pile = pile_arrays(block(2.0), PileContact(), 2)
     bodies = pile.bodies.copy()
     bodies[0, X + 2] = 100.0
-    bodies[0, L : L + 3] = pile.inert[0, 1] * np.array([3.0, 1.0, -2.0])
-    orient(bodies[0])
-    spin(bodies[0], pile.inert[0])
-    before = energy_of(1, bodies, pile.inert, 0.0)
+    bodies[0, L : L + 3] = pile.inertias[0, 1] * np.array([3.0, 1.0, -2.0])
+    update_rotation_matrix(bodies[0])
+    update_spin(bodies[0], pile.inertias[0])
+    before = mechanical_energy(1, bodies, pile.inertias, 0.0)
     for _ in range(2000):
-        kick(1, bodies, pile.inert, 0.0, 0.0, 0.0, 1e-3)
-        drift(1, bodies, pile.inert, 1e-3)
-    spin(bodies[0], pile.inert[0])
-    assert energy_of(1, bodies, pile.inert, 0.0) == pytest.approx(before, rel=1e-6)
+        kick(1, bodies, pile.inertias, 0.0, 0.0, 0.0, 1e-3)
+        drift(1, bodies, pile.inertias, 1e-3)
+    update_spin(bodies[0], pile.inertias[0])
+    assert mechanical_energy(1, bodies, pile.inertias, 0.0) == pytest.approx(before, rel=1e-6)
 
 
 @pytest.mark.parametrize(("shift", "falls"), [(0.85, False), (1.15, True)])
@@ -222,7 +222,7 @@ def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
     """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
     motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
     whole = solve_stack(body, motion)
-    monkeypatch.setattr("seisblock.solvers.stack.course.POINTS_AT_ONCE", points)
+    monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", points)
     told = []
     parts = solve_stack(body, motion, progress=lambda done, total: told.append((done, total)))
     assert parts.outcome == whole.outcome
@@ -233,12 +233,12 @@ def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
 
 def test_created_energy_is_an_error(monkeypatch):
     """A run that creates energy is refused, whatever it answers."""
-    from seisblock.solvers.stack import outcome as stack_outcome
+    from seisblock.models.stack import outcome as stack_outcome
 
-    monkeypatch.setattr(stack_outcome, "CREATED_AT_MOST", -1.0)
+    monkeypatch.setattr(stack_outcome, "MAX_CREATED_ENERGY", -1.0)
     with pytest.raises(SolverError, match="try a finer time step"):
         solve_stack(block(), sine(1.0, 1.0, 0.1))
-    assert CREATED_AT_MOST == 1e-3
+    assert MAX_CREATED_ENERGY == 1e-3
 
 
 @pytest.mark.parametrize("below", [0.4, 0.5])
@@ -286,10 +286,10 @@ def test_turns_of_stones_are_those_of_scipy():
     quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]
     matrices = Rotation.from_quat(np.roll(quaternions, -1, axis=1)).as_matrix()
     vectors = np.random.default_rng(4).normal(size=(50, 3))
-    np.testing.assert_allclose(rotated(quaternions, vectors), np.einsum("nij,nj->ni", matrices, vectors), atol=1e-14)
-    np.testing.assert_allclose(rotated(inverse(quaternions), rotated(quaternions, vectors)), vectors, atol=1e-14)
+    np.testing.assert_allclose(rotate_vectors(quaternions, vectors), np.einsum("nij,nj->ni", matrices, vectors), atol=1e-14)
+    np.testing.assert_allclose(rotate_vectors(inverse_rotation(quaternions), rotate_vectors(quaternions, vectors)), vectors, atol=1e-14)
     track = Track(np.arange(50.0), np.zeros((50, 1, 3)), quaternions[:, None, :])
-    np.testing.assert_allclose(tilt_of(track, 0), np.arccos(matrices[:, 2, 2]), atol=1e-12)
+    np.testing.assert_allclose(tilt_angle(track, 0), np.arccos(matrices[:, 2, 2]), atol=1e-12)
     # about the vertical alone, whatever the tilt: the turn that brings the stone nearest to where it is
     nearest = np.arctan2(matrices[:, 1, 0] - matrices[:, 0, 1], matrices[:, 0, 0] + matrices[:, 1, 1])
-    np.testing.assert_allclose(np.exp(1j * turn_of(track, 0)), np.exp(1j * nearest), atol=1e-12)
+    np.testing.assert_allclose(np.exp(1j * twist_angle(track, 0)), np.exp(1j * nearest), atol=1e-12)

@@ -7,14 +7,14 @@ import pytest
 from scipy.optimize import linprog
 from scipy.spatial.transform import Rotation
 
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.solvers.stack.apart import CARRIERS, EDGES, KIND
-from seisblock.solvers.stack.arrays import pile_arrays
-from seisblock.solvers.stack.hull_pairs import edges_cross, faces_overlap, gap_between
-from seisblock.solvers.stack.step import SCRATCH
-from seisblock.solvers.stack.worn_faces import MOST_WORN
+from seisblock.models.stack.arrays import pile_arrays
+from seisblock.models.stack.box_box import CARRIER_FACES, EDGE_EDGE, KIND
+from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS
+from seisblock.models.stack.hull_pairs import edges_cross, faces_overlap, gap_between
+from seisblock.models.stack.step import SCRATCH_ROWS
 
 FAR = 100.0
 
@@ -22,9 +22,9 @@ FAR = 100.0
 def pair(share):
     """Return a stone on a larger one, worn where they stand, as arrays; the upper one is worn on both its faces, as it carries a lid."""
     stones = (
-        PileStone("low", 0.6, 0.4, 0.3, inset=Inset(share=share)),
-        PileStone("high", 0.3, 0.5, 0.8, on="low", inset=Inset(share=share)),
-        PileStone("lid", 0.7, 0.6, 0.1, on="high", inset=Inset(share=share)),
+        PileStone("low", 0.6, 0.4, 0.3, inset=EdgeWear(share=share)),
+        PileStone("high", 0.3, 0.5, 0.8, on="low", inset=EdgeWear(share=share)),
+        PileStone("lid", 0.7, 0.6, 0.1, on="high", inset=EdgeWear(share=share)),
     )
     return pile_arrays(Pile("pair", stones), None, 2)
 
@@ -41,13 +41,13 @@ def seen(turn, centre):
 
 def widest(pile, rel):
     axis = np.zeros(8)
-    return gap_between(rel, 1, 0, FAR, pile.layout, np.zeros((SCRATCH, 18)), axis), axis
+    return gap_between(rel, 1, 0, FAR, pile.layout, np.zeros((SCRATCH_ROWS, 18)), axis), axis
 
 
 def meeting(pile, rel, gap, axis):
     """Return where both stones may touch, and the gaps there."""
-    found, spare, work = np.zeros((MOST_WORN, 18)), np.zeros((MOST_WORN, 18)), np.zeros((SCRATCH, 18))
-    if axis[KIND] >= EDGES:
+    found, spare, work = np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((MAX_CHAMFERED_POINTS, 18)), np.zeros((SCRATCH_ROWS, 18))
+    if axis[KIND] >= EDGE_EDGE:
         points = int(edges_cross(rel, 1, 0, pile.layout, axis, work, found[0]))
         return found[:points, :3], np.full(points, gap)
     points = faces_overlap(rel, 1, 0, pile.layout, axis, work, 0.0, found, spare)
@@ -142,7 +142,7 @@ def test_a_box_that_just_touches_does_so_where_its_points_say(share):
         gap, axis = widest(pile, rel)
         rel[9:12] -= gap * axis[:3]
         gap, axis = widest(pile, rel)
-        kinds.add("edges" if axis[KIND] >= EDGES else "carrier" if axis[KIND] >= CARRIERS else "partner")
+        kinds.add("edges" if axis[KIND] >= EDGE_EDGE else "carrier" if axis[KIND] >= CARRIER_FACES else "partner")
         points, gaps = meeting(pile, rel, gap, axis)
         touching = points[np.abs(gaps) < 1e-9]
         touched += len(touching) > 0
@@ -167,7 +167,7 @@ def test_of_edges_that_lie_nearly_as_deep_the_one_is_taken_that_crosses(share, t
     """Along two pairs of edges the gaps differed by less than faces are favoured by: the first was taken, and no point found there."""
     pile, rel = pair(share), seen(Rotation.from_rotvec(turn), centre)
     gap, axis = widest(pile, rel)
-    assert axis[KIND] >= EDGES
+    assert axis[KIND] >= EDGE_EDGE
     assert gap < -9e-4
     points, _ = meeting(pile, rel, gap, axis)
     assert len(points) == 1
@@ -181,7 +181,7 @@ def test_edges_that_lie_in_each_other_cross(share):
         gap, axis = widest(pile, rel)
         rel[9:12] -= (gap + 2e-3) * axis[:3]
         gap, axis = widest(pile, rel)
-        if gap < 0.0 and axis[KIND] >= EDGES:
+        if gap < 0.0 and axis[KIND] >= EDGE_EDGE:
             assert len(meeting(pile, rel, gap, axis)[0]) == 1
             crossed += 1
     assert crossed > 300

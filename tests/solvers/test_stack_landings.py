@@ -6,11 +6,11 @@ from scipy.spatial.transform import Rotation
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.solvers.stack.arrays import PLASTIC, pile_arrays
-from seisblock.solvers.stack.books import CREATED
-from seisblock.solvers.stack.course import Course
-from seisblock.solvers.stack.frames import INERTIA, INVERSE, MASS, L, Q, R, V, W, X
-from seisblock.units import STANDARD_GRAVITY as G
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
+from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, L, Q, R, V, W, X
+from seisblock.models.stack.recorder import CREATED
+from seisblock.models.stack.simulation import Simulation
 from tests.solvers.test_stack_rigid import still
 
 WIDTH, HEIGHT = 0.6, 0.25
@@ -18,19 +18,19 @@ STEPS = 2
 """Of an interval of 5 ms, as the step that is taken by default."""
 
 
-def thrown(count, places, velocities, *, spins=None, turns=None, restitution=PLASTIC, seconds=0.5):
+def thrown(count, places, velocities, *, spins=None, turns=None, restitution=PLASTIC_RESTITUTION, seconds=0.5):
     """Throw equal stones, from centres, with velocities, turns and spins; return how they went."""
     stones = tuple(PileStone(f"s{i}", WIDTH, WIDTH, HEIGHT, on=f"s{i - 1}" if i else "ground") for i in range(count))
     pile = pile_arrays(Pile("thrown", stones, mu=0.5), None, 2, restitution)
     for i, body in enumerate(pile.bodies[:count]):
         lies = Rotation.from_rotvec(np.zeros(3) if turns is None else turns[i])
-        inertia = lies.as_matrix() @ pile.inert[i, INERTIA:INVERSE].reshape(3, 3) @ lies.as_matrix().T
+        inertia = lies.as_matrix() @ pile.inertias[i, INERTIA:INVERSE].reshape(3, 3) @ lies.as_matrix().T
         body[W : W + 3] = np.zeros(3) if spins is None else spins[i]
         body[X : X + 3], body[V : V + 3], body[L : L + 3] = places[i], velocities[i], inertia @ body[W : W + 3]
         body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), lies.as_matrix().ravel()
-    weight = pile.inert[:count, MASS].sum() * G * HEIGHT * count
-    end = Course(pile, still(seconds, 0.005), (1.0, 1.0), G, STEPS, True, False, {}).follow()
-    return end, end.kept.books[CREATED] / weight
+    weight = pile.inertias[:count, MASS].sum() * G * HEIGHT * count
+    end = Simulation(pile, still(seconds, 0.005), (1.0, 1.0), G, STEPS, True, False, {}).run()
+    return end, end.output.energy_ledger[CREATED] / weight
 
 
 def depth(end):
@@ -53,7 +53,7 @@ def test_a_stone_that_lands_fast_does_not_sink_into_the_ground(speed):
 
 
 @pytest.mark.parametrize("gap", [0.0, 2e-6, 2e-5, 2e-4, 2e-3, 8e-3])
-@pytest.mark.parametrize("restitution", [PLASTIC, 0.5])
+@pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
 def test_stones_that_land_just_behind_each_other_do_not_sink_into_each_other(gap, restitution):
     """One was not looked for that came near in the step in which the other landed; or it was pressed away within a hundredth of a step."""
     dice = np.random.default_rng(3)
@@ -66,7 +66,7 @@ def test_stones_that_land_just_behind_each_other_do_not_sink_into_each_other(gap
         assert np.linalg.norm(np.diff(end.track.centres, axis=1), axis=2).min() > HEIGHT - 1e-5
 
 
-@pytest.mark.parametrize("restitution", [PLASTIC, 0.5])
+@pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
 def test_a_stone_that_is_driven_on_does_not_sink_into_the_next(restitution):
     """Neither of the two had moved, so that nothing seemed to come near within the step."""
     dice, z = np.random.default_rng(3), 0.5 * HEIGHT
@@ -88,14 +88,14 @@ def test_a_stone_that_all_but_lies_is_not_thrown_up_by_great_friction(seed):
     height, mu = width * dice.uniform(0.3, 1.5), float(dice.choice([1.3, 1.6, 2.2, 3.0, 5.0]))
     lies = Rotation.from_rotvec([*(10.0 ** dice.uniform(-7.0, -1.0) * dice.normal(size=2)), 0.0])
     speed, axes = 10.0 ** dice.uniform(-4.0, 0.0), lies.as_matrix()
-    pile = pile_arrays(Pile("one", (PileStone("s", width, depth, height),), mu=mu), None, 2, PLASTIC)
-    body, inertia = pile.bodies[0], axes @ pile.inert[0, INERTIA:INVERSE].reshape(3, 3) @ axes.T
+    pile = pile_arrays(Pile("one", (PileStone("s", width, depth, height),), mu=mu), None, 2, PLASTIC_RESTITUTION)
+    body, inertia = pile.bodies[0], axes @ pile.inertias[0, INERTIA:INVERSE].reshape(3, 3) @ axes.T
     body[W : W + 3] = speed * dice.normal(size=3) / width
     body[V : V + 3], body[L : L + 3] = speed * dice.normal(size=3), inertia @ body[W : W + 3]
     body[X + 2] = np.abs(axes[2]) @ [width / 2.0, depth / 2.0, height / 2.0]
     body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), axes.ravel()
-    end = Course(pile, still(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).follow()
-    assert end.kept.books[CREATED] < 2e-4 * pile.inert[0, MASS] * G * height
+    end = Simulation(pile, still(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).run()
+    assert end.output.energy_ledger[CREATED] < 2e-4 * pile.inertias[0, MASS] * G * height
 
 
 HANGING = [

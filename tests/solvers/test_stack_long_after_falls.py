@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.stack.solve import solve_stack
 
 SECONDS, DT = 150.0, 0.01
 

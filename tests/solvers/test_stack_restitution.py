@@ -7,9 +7,9 @@ import pytest
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.units import STANDARD_GRAVITY as G
 
 
 @pytest.mark.parametrize("seed", [1, 2, 7, 15])

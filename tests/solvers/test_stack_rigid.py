@@ -12,15 +12,15 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.errors import ParameterError, SolverError
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
+from seisblock.models.stack.joint_geometry import compute_effective_base, effective_base
+from seisblock.models.stack.outcome import Track, rotate_vectors, stack_outcome, stone_channels
+from seisblock.models.stack.solve import solve_stack
+from seisblock.models.stack.step import POINT
 from seisblock.records import Motion
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.stack.arrays import PLASTIC, pile_arrays
-from seisblock.solvers.stack.base import base, base_of
-from seisblock.solvers.stack.outcome import Track, channels, rotated, stack_outcome
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.solvers.stack.step import POINT
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.crosscheck.test_stack_against_housner import housner
 from tests.present.long_record import STONES, motion
 from tests.solvers.shaken_piles import shaken
@@ -100,7 +100,7 @@ def test_an_impact_leaves_what_is_asked_of_it(given):
     response = solve_stack(block(4.0, mu=5.0), still(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
     expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if given is None else given
     assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(expected, abs=0.008)
-    assert base_of(response).restitution == pytest.approx(expected, abs=1e-12)
+    assert effective_base(response).restitution == pytest.approx(expected, abs=1e-12)
     assert response.outcome.created_j < 1e-3 * response.outcome.lost_j
 
 
@@ -108,7 +108,7 @@ def test_an_impact_leaves_what_is_asked_of_it(given):
 def test_what_a_grid_makes_of_a_base_is_what_it_does(points, contact):
     """The stone falls from beyond the lean that the narrower base says, and an impact leaves of it what the answer says."""
     stone = block(3.0).stones[0]
-    found = base(stone, points, contact, None, G)
+    found = compute_effective_base(stone, points, contact, None, G)
     assert (found.stone, found.width_ratio) == ("block", 0.8)
     assert found.restitution > found.housner_ratio + 0.05
     alpha = math.atan(0.8 / 3.0)
@@ -187,7 +187,7 @@ def test_where_the_run_pauses_changes_no_bit(monkeypatch):
     """Slices of a few steps end with the same state and books as one slice."""
     motion, body = cycle(6.0, 2.0), load_pile("wagata")
     whole = solve_stack(body, motion)
-    monkeypatch.setattr("seisblock.solvers.stack.course.POINTS_AT_ONCE", 1000)
+    monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", 1000)
     assert solve_stack(body, motion).outcome == whole.outcome
 
 
@@ -212,7 +212,7 @@ def test_options_that_do_not_go_together_are_refused(more, said):
 
 def test_springs_refuse_a_pile_that_slides_easier_than_it_clings():
     with pytest.raises(ParameterError, match="has a kinetic friction, and springs have one"):
-        solve_stack(block().sliding_at(0.1), cycle(1.0, 1.0), law="springs")
+        solve_stack(block().with_kinetic_friction(0.1), cycle(1.0, 1.0), law="springs")
 
 
 @pytest.mark.parametrize("seed", [13, 24, 43, 150, 152, 164, 188])
@@ -254,7 +254,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
             raise SolverError("they created energy")
         return stack_outcome(pile, end, **more)
 
-    monkeypatch.setattr("seisblock.solvers.stack.solve.stack_outcome", judged)
+    monkeypatch.setattr("seisblock.models.stack.solve.stack_outcome", judged)
     refused[:] = [1e-3]
     for more in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
         found = solve_stack(block(), cycle(3.0, 1.0), **more)
@@ -274,14 +274,16 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
 def test_what_turns_under_a_stone_is_no_slip_of_it():
     """A beam held by a post that turns, at the middle of their joint, has not slid over it, however far off its own centre is."""
     posts = [PileStone(name, 0.3, 0.3, 0.9, on="ground", offset=(x, 0.0)) for name, x in (("left", -0.6), ("right", 0.6))]
-    pile = pile_arrays(Pile("gate", (*posts, PileStone("beam", 1.7, 0.25, 0.2, on="left", offset=(0.6, 0.0)))), None, 2, PLASTIC)
+    pile = pile_arrays(
+        Pile("gate", (*posts, PileStone("beam", 1.7, 0.25, 0.2, on="left", offset=(0.6, 0.0)))), None, 2, PLASTIC_RESTITUTION
+    )
     turn, along = 0.4, np.array([0.02, -0.01, 0.0])
     whole, half = (np.array([math.cos(angle / 2.0), 0.0, 0.0, math.sin(angle / 2.0)]) for angle in (turn, 0.5 * turn))
     start = np.array(pile.body.centres())
     joint = np.array([-0.6, 0.0, 0.9])
-    beam = joint + along + rotated(half, start[2] - joint)
+    beam = joint + along + rotate_vectors(half, start[2] - joint)
     centres, quaternions = np.array([start, [start[0], start[1], beam]]), np.array([[[1.0, 0.0, 0.0, 0.0]] * 3, [whole, whole, half]])
     track = Track(np.arange(2.0), centres, quaternions)
-    slips = {channel.name: channel.values for channel in channels(pile, track) if channel.name.endswith("_slip")}
+    slips = {channel.name: channel.values for channel in stone_channels(pile, track) if channel.name.endswith("_slip")}
     assert slips["beam_slip"] == pytest.approx([0.0, float(np.hypot(*along[:2]))], abs=1e-12)
     assert slips["left_slip"] == pytest.approx([0.0, 0.0], abs=1e-12)

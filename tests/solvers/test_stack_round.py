@@ -11,25 +11,25 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.stack.arrays import pile_arrays
+from seisblock.models.stack.joint_geometry import effective_base
+from seisblock.models.stack.recorder import CREATED, LOST
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.stack.arrays import pile_arrays
-from seisblock.solvers.stack.base import base_of
-from seisblock.solvers.stack.books import CREATED, LOST
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.units import STANDARD_GRAVITY as G
 from seisblock.validation.stack_round import (
-    ON_THE_RIM,
     RADIUS,
+    RIM_CASES,
     SPEED,
-    go_round,
-    let_go,
-    rate_on_the_rim,
+    release,
+    rim_rate,
     rock_and_roll,
-    roll_down,
-    roll_on,
-    tilted,
+    roll_down_slope,
+    roll_on_level,
+    roll_on_rim,
+    tilted_axes,
 )
 from tests.solvers.test_stack_rigid import after_one_impact, cycle, lean_of, still
 
@@ -44,17 +44,17 @@ def slab(height, side=2.0 * R, name="block", **more):
     return PileStone(name, side, side, height, **more)
 
 
-@pytest.mark.parametrize(("height", "lean"), ON_THE_RIM)
+@pytest.mark.parametrize(("height", "lean"), RIM_CASES)
 def test_a_spinning_stone_keeps_its_lean(height, lean):
     """Five turns of a disk, of drums and of a column, whose rates are cases of ``validate``: lean within 0.2 %, no energy from nowhere."""
-    _, axis, end = go_round(drum(height), lean)
+    _, axis, end = roll_on_rim(drum(height), lean)
     np.testing.assert_allclose(np.arccos(axis[:, 2]), lean, rtol=2e-3)
-    assert end.kept.books[CREATED] < 1e-5 * drum(height).mass * G * R
+    assert end.output.energy_ledger[CREATED] < 1e-5 * drum(height).mass * G * R
 
 
 def test_a_spinning_disk_is_moffatts():
     """Of a thin disk the closed form is that of the paper, 4 g/(R sin)."""
-    assert rate_on_the_rim(drum(1e-6), 0.1) == pytest.approx(math.sqrt(4.0 * G / (R * math.sin(0.1))), rel=1e-6)
+    assert rim_rate(drum(1e-6), 0.1) == pytest.approx(math.sqrt(4.0 * G / (R * math.sin(0.1))), rel=1e-6)
 
 
 def test_a_drum_that_seems_to_rock_rolls_and_loses_nothing():
@@ -77,29 +77,29 @@ def test_a_drum_that_wobbles_gains_nothing():
     rng = np.random.default_rng(5)
     for height in R * rng.uniform(0.3, 6.0, 8):
         stone, lean = drum(height), rng.uniform(0.1, 0.6) * math.atan(2.0 * R / height)
-        axes = tilted(lean)
+        axes = tilted_axes(lean)
         foot, spin = R * axes[:, 0] - 0.5 * height * axes[:, 2], rng.normal(size=3) * lean * 0.7 * math.sqrt(G / R)
-        end = let_go(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(10.0, 2.5e-3))
+        end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(10.0, 2.5e-3))
         swing = 0.5 * np.sum(np.cross(spin, foot) ** 2) + 0.5 * (axes.T @ spin) ** 2 @ stone.gyration_squared
-        assert end.kept.books[CREATED] < 1e-3 * stone.mass * (swing + G * (-foot[2] - 0.5 * height))
+        assert end.output.energy_ledger[CREATED] < 1e-3 * stone.mass * (swing + G * (-foot[2] - 0.5 * height))
 
 
 def test_a_drum_that_rolls_down_loses_nothing():
     """What it gains is a case of ``validate``."""
-    _, end = roll_down()
-    assert end.kept.books[LOST] < 1e-6 * end.kept.books[0]
+    _, end = roll_down_slope()
+    assert end.output.energy_ledger[LOST] < 1e-6 * end.output.energy_ledger[0]
 
 
 def test_a_coin_rolls_straight_on():
     """Upright, at 2 m/s, it neither slows down nor turns aside."""
-    time, centres = roll_on(1e-3)
+    time, centres = roll_on_level(1e-3)
     np.testing.assert_allclose(centres[:, 0], SPEED * time, rtol=1e-6, atol=1e-9)
     assert np.abs(centres[:, 1]).max() < 1e-4
 
 
 def test_a_drum_may_roll_far():
     """The ground has no edge within a record's reach."""
-    _, centres = roll_on(0.4, 80.0)
+    _, centres = roll_on_level(0.4, 80.0)
     assert centres[-1, 0] > 75.0
     np.testing.assert_allclose(centres[:, 2], R, rtol=1e-3)
 
@@ -120,7 +120,7 @@ def test_a_drum_rocks_in_the_plane_as_its_block():
 
     response = solve_stack(Pile("one", (stone,), mu=5.0), still(3.0), tilts={"block": 0.6 * alpha})
     assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(kept, abs=2e-3)
-    assert base_of(response).restitution == pytest.approx(kept, abs=1e-12)
+    assert effective_base(response).restitution == pytest.approx(kept, abs=1e-12)
     lean = lean_of(response)
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
     amplitudes = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings)]
@@ -133,7 +133,7 @@ def test_a_drum_rocks_in_the_plane_as_its_block():
 def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
     """Round and square, sharp and worn: just below the threshold of its block in the plane it stands, just above it falls."""
     stone = make(0.72, 0.24)
-    plane, pile = in_the_plane(stone).worn(worn), Pile("one", (stone,), mu=1.0).worn(worn)
+    plane, pile = in_the_plane(stone).with_wear(worn), Pile("one", (stone,), mu=1.0).with_wear(worn)
 
     def falls(pga):
         return bool(solve_respond(plane, cycle(pga, 1.5), mu=1.0).outcome.overturned)
@@ -145,7 +145,7 @@ def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
     below, above = (solve_stack(pile, cycle(part * high, 1.5), stop_at_fall=True) for part in (0.98, 1.02))
     assert not below.outcome.overturned_any
     assert above.outcome.overturned_any
-    found = base_of(above)
+    found = effective_base(above)
     assert (found.width_ratio, found.restitution) == (pytest.approx(1.0 - 2.0 * worn), pytest.approx(plane.restitution, abs=1e-12))
 
 
@@ -153,7 +153,7 @@ def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
 def test_a_worn_stone_stands_over_the_edge_of_a_wider_one(law):
     """It turns about its own worn edges and the sharp one of the stone below; on springs it fell to the side that was worn by neither."""
     lower, upper = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower")
-    pile = Pile("over", (lower, upper), mu=2.0).worn(0.2)
+    pile = Pile("over", (lower, upper), mu=2.0).with_wear(0.2)
     found = solve_stack(pile, cycle(1.0, 1.7), law=law)
     assert not found.outcome.overturned_any
     points = pile_arrays(pile, PileContact(), 2).grids[1]
@@ -216,6 +216,6 @@ def test_a_column_stands_and_says_where_it_falls():
     ],
 )
 def test_what_round_and_worn_bases_do_not_know_is_refused(stone, more, said):
-    pile = Pile("one", (stone,)).worn(more.pop("inset", 0.0))
+    pile = Pile("one", (stone,)).with_wear(more.pop("inset", 0.0))
     with pytest.raises(ParameterError, match=said):
         solve_stack(pile, still(0.1), **more)

@@ -8,10 +8,10 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.units import STANDARD_GRAVITY as G
 
 WIDTH, MU, DT = 0.24, 5.0, 0.01
 

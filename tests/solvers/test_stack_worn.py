@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from seisblock.solvers.stack.solve import solve_stack
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.shaken_piles import shaken
 from tests.solvers.test_stack_long_after_falls import noise
 
@@ -19,7 +19,7 @@ SHARES = (0.05, 0.1, 0.2, 0.3)
 
 def worn(pile, share):
     """Return a pile all of whose stones are worn by a share of their widths."""
-    return replace(pile, stones=tuple(replace(stone, inset=Inset(share=share)) for stone in pile.stones))
+    return replace(pile, stones=tuple(replace(stone, inset=EdgeWear(share=share)) for stone in pile.stones))
 
 
 def created(pile, outcome):
@@ -64,7 +64,7 @@ def test_a_slab_that_rocks_on_flat_bevels_lands_on_all_its_corners(push):
     """Pushed along its diagonal it leans on the edge between two bevels, and comes down on both of them and on its base at once."""
     time = np.arange(0.0, 3.0, 0.005)
     along = np.where(time < 0.25, push * np.sin(2.0 * np.pi * time / 0.25), 0.0)
-    stones = PileStone("base", 1.5, 1.5, 0.3), PileStone("slab", 0.6, 0.6, 0.12, on="base", inset=Inset(share=0.3))
+    stones = PileStone("base", 1.5, 1.5, 0.3), PileStone("slab", 0.6, 0.6, 0.12, on="base", inset=EdgeWear(share=0.3))
     pile = Pile("slab on a base", stones, mu=3.0, fixed=("base",))
     outcome = solve_stack(pile, Motion(np.array([along, along, 0.0 * along]), 0.005), law="rigid").outcome
     assert outcome.max_tilt_rad["slab"] > 0.14
@@ -74,7 +74,7 @@ def test_a_slab_that_rocks_on_flat_bevels_lands_on_all_its_corners(push):
 @pytest.mark.parametrize("shape", ["round", "rectangular"])
 def test_worn_stones_that_lean_beyond_their_bevels_on_drums_gain_nothing(shape):
     """Worn faces alone were met, also where outer rims and edges lie lower: 1 in 4 drums gained up to 1.7 %, and 3 in 4 squares 3.9 %."""
-    inset, gained, leans = Inset(share=0.25), [], []
+    inset, gained, leans = EdgeWear(share=0.25), [], []
     low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
     high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape=shape, inset=inset)
     pile = Pile("two", (low, high), mu=1.2)
@@ -90,7 +90,7 @@ def test_worn_stones_that_lean_beyond_their_bevels_on_drums_gain_nothing(shape):
 @pytest.mark.parametrize("seed", [32, 74])
 def test_a_worn_drum_that_comes_to_stand_flat_is_not_thrown_up(seed):
     """One rim's point was to lift what fell on the other side of it; or forces of a few nanoseconds were gone on with: .9 and 1.8 %."""
-    inset = Inset(share=0.25)
+    inset = EdgeWear(share=0.25)
     low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
     high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape="round", inset=inset)
     pile = Pile("two", (low, high), mu=1.2)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from seisblock.models.uplift.harmonic import shaking_direction
 from seisblock.records.motion import Motion
-from seisblock.solvers.uplift.harmonic import shaking_direction
 
 
 def shaking(duration: float, dt: float, *, peaks: tuple[float, float, float] = (6.0, 5.0, 3.0), seed: int = 3) -> Motion:

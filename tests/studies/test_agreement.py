@@ -9,26 +9,26 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.inset import WORN
+from seisblock.bodies.edge_wear import DEFAULT_WEAR
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.core.results import Response
 from seisblock.criteria.gravestones import overturning_pga
 from seisblock.measures import measure
-from seisblock.present.text.agreement import agreement_line, rates_line
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.results import Response
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.agreement import (
+from seisblock.report.text.agreement import agreement_line, rates_line
+from seisblock.studies.model_comparison import (
     GRAVESTONES,
     ISHIYAMA,
     PULSE,
     SHARP_BLOCK,
     WORN_BLOCK,
-    Opinion,
-    agreement,
-    pile_agreement,
+    ModelResult,
+    compare_models,
+    compare_pile_models,
 )
-from seisblock.studies.cemetery.models import rates_by_model
+from seisblock.studies.survey.model_rates import rates_by_model
 
 RECORD = read("elcentro_1940_ns.csv")
 MOTION = motion_of(RECORD, "NS")
@@ -42,7 +42,7 @@ def opinions(found):
 
 def test_the_models_of_one_stone_differ_by_a_factor_near_two():
     """A gravestone under El Centro falls by two of five models, whose factors lie a factor of 1.98 apart."""
-    found = agreement(STONE, MOTION)
+    found = compare_models(STONE, MOTION)
     assert (found.falls, found.models, found.unanimous) == (2, 5, False)
     assert list(opinions(found)) == [SHARP_BLOCK, WORN_BLOCK, GRAVESTONES, PULSE, ISHIYAMA]
     assert [opinion.model for opinion in found.opinions if opinion.falls] == [GRAVESTONES, ISHIYAMA]
@@ -55,13 +55,13 @@ def test_closed_forms_are_their_threshold_over_the_peak():
     """The factor of eq. (9) is its PGA over the record's, at the record's own PGA/(2 pi PGV)."""
     measured = measure(RECORD, ("NS",)).components[0]
     level = float(overturning_pga(STONE.height / STONE.width, measured.equivalent_frequency_hz.pga_pgv))
-    assert opinions(agreement(STONE, MOTION))[GRAVESTONES].factor == pytest.approx(level / measured.pga_m_s2, rel=1e-9)
+    assert opinions(compare_models(STONE, MOTION))[GRAVESTONES].factor == pytest.approx(level / measured.pga_m_s2, rel=1e-9)
 
 
 def test_simulated_factors_are_first_falls():
     """At the factor the block falls, a little below it stands, and no factor that was looked at below it lets it fall."""
-    found = opinions(agreement(STONE, MOTION))
-    for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.worn(WORN))):
+    found = opinions(compare_models(STONE, MOTION))
+    for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.with_wear(DEFAULT_WEAR))):
         factor = found[model].factor
         assert rock_verdict(block, MOTION, scale=factor).overturned
         assert not rock_verdict(block, MOTION, scale=factor * 0.999).overturned
@@ -71,23 +71,23 @@ def test_simulated_factors_are_first_falls():
 
 def test_an_inset_of_its_own_is_the_worn_one():
     """A block that says how worn it is is compared with its own edges made sharp."""
-    found = opinions(agreement(STONE.worn(0.2), MOTION))
-    assert found[SHARP_BLOCK] == opinions(agreement(STONE, MOTION))[SHARP_BLOCK]
-    assert found[WORN_BLOCK].factor < opinions(agreement(STONE, MOTION))[WORN_BLOCK].factor
+    found = opinions(compare_models(STONE.with_wear(0.2), MOTION))
+    assert found[SHARP_BLOCK] == opinions(compare_models(STONE, MOTION))[SHARP_BLOCK]
+    assert found[WORN_BLOCK].factor < opinions(compare_models(STONE, MOTION))[WORN_BLOCK].factor
 
 
 def test_only_gravestones_ask_the_criterion_made_for_them():
     """A cabinet and a slab have four models; a stone of the criterion's width and proportions has the one made for it."""
-    assert opinions(agreement(STONE, MOTION))[GRAVESTONES].made_for_it
+    assert opinions(compare_models(STONE, MOTION))[GRAVESTONES].made_for_it
     for other in (Block(0.8, 1.9), Block(0.25, 0.25), Block(0.25, 2.0)):
-        found = agreement(other, MOTION)
+        found = compare_models(other, MOTION)
         assert GRAVESTONES not in opinions(found)
         assert found.models == 4
 
 
 def test_further_models_are_counted():
     """What was asked elsewhere, such as a pile, has a voice, and a factor only if one is known."""
-    alone, more = agreement(STONE, MOTION), agreement(STONE, MOTION, others=[Opinion("pile", True, None)])
+    alone, more = compare_models(STONE, MOTION), compare_models(STONE, MOTION, extra_results=[ModelResult("pile", True, None)])
     assert (more.falls, more.models, more.spread) == (alone.falls + 1, alone.models + 1, alone.spread)
 
 
@@ -95,12 +95,12 @@ def test_a_stone_that_is_held_has_one_fate():
     """Where the top stone of a pile is fixed nobody is asked what it would do."""
     pile = load_pile("wagata")
     held = replace(pile, fixed=(pile.names[-1],))
-    assert pile_agreement(Response("stack", None, MOTION, held)) is None
+    assert compare_pile_models(Response("stack", None, MOTION, held)) is None
 
 
 def test_no_shaking_no_disagreement():
     """A motion that is zero throughout lets nothing fall, by nobody's account."""
-    found = agreement(STONE, Motion.from_arrays(np.zeros(100), 0.01))
+    found = compare_models(STONE, Motion.from_arrays(np.zeros(100), 0.01))
     assert (found.falls, found.spread, found.unanimous) == (0, None, True)
 
 
@@ -113,19 +113,19 @@ def test_rates_of_one_cemetery():
     assert list(rates) == [GRAVESTONES, PULSE, WORN_BLOCK, SHARP_BLOCK]
     assert rates[SHARP_BLOCK] < rates[WORN_BLOCK] < rates[GRAVESTONES]
     assert [each.model for each in rates_by_model(cemetery, 4.2, 1.2)] == [GRAVESTONES, PULSE]
-    assert [each.model for each in rates_by_model(cemetery.dowelled(), 4.2, 1.2, weak)] == [GRAVESTONES]
+    assert [each.model for each in rates_by_model(cemetery.with_dowels(), 4.2, 1.2, weak)] == [GRAVESTONES]
 
 
 def test_a_closed_form_says_of_which_frequency_and_edges_it_is():
     """The half sine names the motion's PGA/(2 pi PGV); worn edges and those of the drawing have factors of their own, and say which."""
     frequency = measure(RECORD, ("NS",)).components[0].equivalent_frequency_hz.pga_pgv
-    sharp, worn = (opinions(agreement(stone, MOTION)) for stone in (STONE, STONE.worn(0.1)))
+    sharp, worn = (opinions(compare_models(stone, MOTION)) for stone in (STONE, STONE.with_wear(0.1)))
     for model in (PULSE, ISHIYAMA):
         assert (sharp[model].worn, worn[model].worn) == (False, True)
         assert worn[model].factor < sharp[model].factor
     assert sharp[PULSE].frequency_hz == pytest.approx(frequency)
-    for stone, edges in ((STONE, "sharp"), (STONE.worn(0.1), "worn")):
-        told = agreement_line("NS", agreement(stone, MOTION))
+    for stone, edges in ((STONE, "sharp"), (STONE.with_wear(0.1), "worn")):
+        told = agreement_line("NS", compare_models(stone, MOTION))
         assert f"half sine of {frequency:.3g} Hz with {edges} edges (" in told
         assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in told
     rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)

@@ -9,23 +9,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import wear_range
+from seisblock.bodies.block_array import wear_range
+from seisblock.bodies.factory import load_block
 from seisblock.bodies.kinds import KINDS, of_kind
-from seisblock.bodies.library import load_block
-from seisblock.bodies.ranges import Ranges
-from seisblock.errors import BodyError
+from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core.errors import BodyError
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.constants import ROCKING_RESTITUTION
+from seisblock.models.respond.params import RespondParams, rigid_body
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.names import ROCKING_RESTITUTION
-from seisblock.solvers.respond.setting import Setting, stand
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.rocking.perturb import Spread, changed_rockers, draws_of, perturb
-from seisblock.studies.standing.probability import Versions, _gains, changed_settings, respond_probability
+from seisblock.studies.respond.probability import ParameterVariation, _gains, perturbed_respond_params, respond_probability
+from seisblock.studies.rocking.perturb import Spread, draw_samples, perturb, perturbed_rock_params
 
 INSETS = (0.0, 0.02, 0.05, 0.1, 0.1001, 0.12)
-NOTHING_VARIES = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+NOTHING_VARIES = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
 @cache
@@ -38,7 +38,9 @@ def shaking(name, code, factor=1.0):
 def test_probability_is_continuous_in_a_given_inset():
     """It rises with the inset, and 1e-4 of the width change the fate of few samples: also at the ends and the median of gravestones."""
     motion = shaking("hanmer_springs_2016", "1", 1.7)
-    shares = {x: respond_probability(Block(0.2424, 0.72).worn(x), motion, mu=0.6).overturned for x in (*INSETS, 0.0001, 0.0501, 0.1201)}
+    shares = {
+        x: respond_probability(Block(0.2424, 0.72).with_wear(x), motion, mu=0.6).overturned for x in (*INSETS, 0.0001, 0.0501, 0.1201)
+    }
     assert shares[0.0] < shares[0.02] < shares[0.05] and 0.1 < shares[0.05] < 0.9 and 0.1 < shares[0.1] < 0.9
     for x in (0.0, 0.05, 0.1, 0.12):
         assert abs(shares[x] - shares[round(x + 1e-4, 4)]) <= 6 / 200
@@ -65,8 +67,8 @@ def test_nominal_body_is_the_median_of_its_samples(name):
     body, mu = load_block(name), 0.42
     draws = np.random.default_rng(3).uniform(-1.0, 1.0, (20_001, 7))
     motion = shaking("synthetic_jma.csv", "NS")
-    some = changed_settings(body, Versions(), draws, mu=mu, restitution=0.05)
-    gains = _gains(motion, Versions(), draws, None)
+    some = perturbed_respond_params(body, ParameterVariation(), draws, mu=mu, restitution=0.05)
+    gains = _gains(motion, ParameterVariation(), draws, None)
     right, left, centre, _ = some.blocks.columns
     across = 0.5 * (right + left)
     for values, nominal in (
@@ -81,8 +83,8 @@ def test_nominal_body_is_the_median_of_its_samples(name):
         assert np.median(values) == pytest.approx(nominal, rel=0.01)
         assert values.min() < nominal
     assert np.median(np.degrees(np.arctan2(-gains[:, 1], gains[:, 0]))) == pytest.approx(0.0, abs=0.2)
-    rock = changed_rockers(body, motion, Spread(), draws)
-    nominal = changed_rockers(body, motion, Spread(), np.zeros((1, 7)))
+    rock = perturbed_rock_params(body, motion, Spread(), draws)
+    nominal = perturbed_rock_params(body, motion, Spread(), np.zeros((1, 7)))
     for field in ("alphas", "levers", "onto"):
         np.testing.assert_allclose(np.median(getattr(rock, field), axis=0), getattr(nominal, field)[0], rtol=0.01)
 
@@ -90,8 +92,10 @@ def test_nominal_body_is_the_median_of_its_samples(name):
 def test_samples_drawn_at_the_middle_are_the_body_itself():
     """Zero draws give the nominal body, contact and shaking, whatever its ranges."""
     body = load_block("refrigerator")
-    one = changed_settings(body, Versions(), np.zeros((1, 7)), mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8).one(0)
-    assert (one.stand.right, one.stand.left, one.stand.height) == pytest.approx((*body.arms, body.centre), rel=1e-14)
+    one = perturbed_respond_params(
+        body, ParameterVariation(), np.zeros((1, 7)), mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8
+    ).row_params(0)
+    assert (one.rigid_body.right, one.rigid_body.left, one.rigid_body.height) == pytest.approx((*body.arms, body.centre), rel=1e-14)
     assert (one.mu, one.mu_kinetic, one.restitution, one.rocking_restitution) == pytest.approx((0.3, 0.25, 0.0, 0.8))
 
 
@@ -130,14 +134,14 @@ def test_verdict_and_probability_agree_near_the_threshold():
 
 def test_restitution_varies_to_both_sides_of_a_plastic_impact():
     """The lossier half keeps a share of Housner's ratio, at least 0.9; a given rocking restitution varies about itself, up to 1."""
-    draws = draws_of(400, 0)
-    some = changed_settings(Block(0.24, 0.8), Versions(), draws, mu=0.5)
+    draws = draw_samples(400, 0)
+    some = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, mu=0.5)
     lossy = draws[:, 3] < 0.0
     assert 0.9 < some.rocking.min() < 0.905 and (some.rocking[~lossy] == 1.0).all() and (some.restitution[lossy] == 0.0).all()
     assert 0.095 < some.restitution.max() <= 0.1
     table = some.parameters(0.01)
     assert (table[lossy, ROCKING_RESTITUTION] == -some.rocking[lossy]).all() and (table[~lossy, ROCKING_RESTITUTION] == -1.0).all()
-    ratio = changed_settings(Block(0.24, 0.8), Versions(), draws, mu=0.5, rocking_restitution=0.95)
+    ratio = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, mu=0.5, rocking_restitution=0.95)
     assert ratio.rocking_given and ratio.rocking.min() < 0.86 and ratio.rocking.max() == 1.0
     assert np.median(ratio.rocking) == pytest.approx(0.95, abs=0.01)
 
@@ -146,8 +150,8 @@ def test_restitution_varies_to_both_sides_of_a_plastic_impact():
 def test_a_share_of_the_rocking_impact_is_one_of_its_own_law(offset):
     """With feet that hold, a share that is nearly one changes nearly nothing, and one of 0.9 brings the block to rest sooner."""
     pulse = Motion.from_arrays(3.6 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.002)
-    body = stand(Block(0.24, 0.8, centroid_offset=offset))
-    law, nearly, less = (Setting(body, 0.9, 0.9, rocking_share=share) for share in (1.0, 1.0 - 1e-12, 0.9))
+    body = rigid_body(Block(0.24, 0.8, centroid_offset=offset))
+    law, nearly, less = (RespondParams(body, 0.9, 0.9, rocking_share=share) for share in (1.0, 1.0 - 1e-12, 0.9))
     fates = respond_many([law, nearly, less], pulse)
     assert not fates.overturned.any() and fates.max_rotation_rad[0] > 0.01 and fates.impacts[0] > 3
     assert fates.max_rotation_rad[1] == pytest.approx(fates.max_rotation_rad[0], rel=1e-8)
@@ -159,7 +163,7 @@ def test_kinds_differ_in_the_prior_of_their_edges():
     block = Block(0.24, 0.72)
     assert [of_kind(block, kind).inset for kind in KINDS] == pytest.approx([0.012, 0.0, 0.0, 0.0])
     stone = of_kind(block, "gravestone")
-    assert stone.ranges == Ranges(inset_m=(0.0, 0.024)) and stone.worn(0.1).ranges is None
+    assert stone.ranges == ParameterRanges(inset_m=(0.0, 0.024)) and stone.with_wear(0.1).ranges is None
     lopsided = of_kind(Block(0.2, 0.6, centroid_offset=0.096), "gravestone")
     assert 0.0 < lopsided.inset < 0.004 and wear_range(lopsided, 0.1)[1] < 0.02
     with pytest.raises(BodyError, match="no kind of body 'tombstone'"):

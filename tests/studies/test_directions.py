@@ -12,20 +12,20 @@ from seisblock import (
     read,
     respond_probability,
     rocking_spectrum,
-    rocking_spectrum_around,
+    rocking_spectrum_all_azimuths,
     solve_respond,
     solve_rock,
 )
-from seisblock.bodies.blocks import wear_within
+from seisblock.bodies.block_array import wear_within
 from seisblock.bodies.scan.toml import load_scan
-from seisblock.errors import ComponentError, ParameterError
+from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.records.process import crop, scale
-from seisblock.studies.agreement import agreement
-from seisblock.studies.azimuths import sweep
+from seisblock.studies.azimuths import make_azimuth_sweep
+from seisblock.studies.model_comparison import compare_models
+from seisblock.studies.respond.azimuths import respond_directions
 from seisblock.studies.rocking.azimuths import rock_directions
-from seisblock.studies.standing.azimuths import respond_directions
 
-BOULDER = load_scan("boulder").worn(0.1)
+BOULDER = load_scan("boulder").with_wear(0.1)
 RECORD = scale(crop(read("synthetic_jma.csv"), 22.0, 32.0), 0.42)
 
 
@@ -36,7 +36,7 @@ def test_rocking_in_every_direction_is_that_of_single_runs(body):
     assert {each.overturned for each in found} == {True, False}
     for each in found:
         motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
-        block = body.along(motion) if body is BOULDER else body
+        block = body.block_for_motion(motion) if body is BOULDER else body
         one = solve_rock(block, motion).outcome
         assert each.overturned is one.overturned and each.overturned_towards == (one.overturned_towards or None)
         assert each.overturning_time_s == pytest.approx(one.overturning_time_s, abs=1e-6)
@@ -48,7 +48,7 @@ def test_a_free_standing_scan_in_every_direction_is_that_of_single_runs():
     """Verdict, largest lean, displacements and end as one motion after the other, each with its own arms."""
     for each in respond_directions(BOULDER, RECORD, mu=0.35, step_deg=45.0):
         motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
-        block = BOULDER.along(motion)
+        block = BOULDER.block_for_motion(motion)
         one = solve_respond(block, motion, mu=0.35, sensitivity=False).outcome
         assert each.overturned is one.overturned and each.overturned_towards == one.overturned_towards
         assert each.max_rotation_rad == pytest.approx(one.max_rotation_rad, rel=1e-6, abs=1e-12)
@@ -67,15 +67,15 @@ def test_the_worst_direction_comes_first():
 
 def test_directions_run_over_what_differs():
     """Half the circle for a block of two equal sides and for a scan, which stands where it stands; all of it for a block that is turned."""
-    assert sweep(Block(0.24, 0.72), RECORD, step_deg=10.0).azimuths.tolist() == [10.0 * i for i in range(18)]
-    assert len(sweep(BOULDER, RECORD, step_deg=10.0).blocks) == 18
-    assert len(sweep(Block(0.24, 0.72, centroid_offset=0.01), RECORD, step_deg=10.0).blocks) == 36
+    assert make_azimuth_sweep(Block(0.24, 0.72), RECORD, step_deg=10.0).azimuths.tolist() == [10.0 * i for i in range(18)]
+    assert len(make_azimuth_sweep(BOULDER, RECORD, step_deg=10.0).blocks) == 18
+    assert len(make_azimuth_sweep(Block(0.24, 0.72, centroid_offset=0.01), RECORD, step_deg=10.0).blocks) == 36
 
 
 def test_a_scan_meets_the_opposite_motion_with_the_other_side():
     """Towards the opposite azimuth, the same fall to the same side of the compass, at the same time."""
     here, there = (motion_of(RECORD, name) for name in ("45", "225"))
-    one, other = (solve_rock(BOULDER.along(motion), motion).outcome for motion in (here, there))
+    one, other = (solve_rock(BOULDER.block_for_motion(motion), motion).outcome for motion in (here, there))
     assert one.overturned and other.overturned
     assert {one.overturned_towards, other.overturned_towards} == {"+x", "-x"}
     assert one.overturning_time_s == pytest.approx(other.overturning_time_s, abs=1e-6)
@@ -87,13 +87,13 @@ def test_what_has_no_directions_is_refused():
         rock_directions(BOULDER, read("elcentro_1940_ns.csv"))
     for step in (0.0, -5.0, math.nan):
         with pytest.raises(ParameterError, match="step between directions"):
-            sweep(BOULDER, RECORD, step_deg=step)
+            make_azimuth_sweep(BOULDER, RECORD, step_deg=step)
 
 
 def test_a_spectrum_of_all_directions_is_the_worst_of_theirs():
     """Leans are the largest, falls count their directions, and the worst one is that of the first fall, or of the largest lean."""
     sizes, alphas = [0.4, 1.0, 3.0], [0.12, 0.2, 0.3, 0.5]
-    found = rocking_spectrum_around(sizes, alphas, RECORD, step_deg=45.0)
+    found = rocking_spectrum_all_azimuths(sizes, alphas, RECORD, step_deg=45.0)
     each = [rocking_spectrum(sizes, alphas, motion_of(RECORD, name)) for name in ("0", "45", "90", "135")]
     assert found.azimuths_deg.tolist() == [0.0, 45.0, 90.0, 135.0]
     falls = np.array([one.overturned for one in each])
@@ -116,6 +116,6 @@ def test_versions_of_a_body_that_stands_keep_something_to_stand_on(offset):
     """A body whose centre of gravity lies 10 mm inside its base has versions, and other models, though a tenth of its width is more."""
     block, motion = Block(0.2, 0.6, centroid_offset=offset), motion_of(RECORD, "NS")
     assert wear_within(block, 0.1) == pytest.approx(0.04 if offset else 0.1)
-    assert wear_within(block.worn(0.045), 0.1) == pytest.approx(0.045 if offset else 0.1)
+    assert wear_within(block.with_wear(0.045), 0.1) == pytest.approx(0.045 if offset else 0.1)
     assert perturb(block, motion, 10).runs == respond_probability(block, motion, mu=0.5, runs=10).runs == 10
-    assert agreement(block, motion).models >= 3
+    assert compare_models(block, motion).models >= 3

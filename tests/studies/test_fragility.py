@@ -9,28 +9,28 @@ from scipy.stats import CensoredData, linregress, norm
 
 import seisblock
 from seisblock.bodies.block import Block
-from seisblock.errors import ParameterError
-from seisblock.present.exports.pelicun import pelicun_rows
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.params import RespondParams, rigid_body
+from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.rock.verdicts import rock_verdict
+from seisblock.models.slide.solve import solve_slide
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Component, Motion, Preparation, Record, Storey, motion_of, process
-from seisblock.records.storey import on_storey
-from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.setting import Setting, stand
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.solvers.stack.solve import solve_stack
+from seisblock.records.floor_motion import floor_motion
+from seisblock.report.exports.pelicun import pelicun_rows
 from seisblock.studies.fragility.capacities import capacities, moments
-from seisblock.studies.fragility.comparison import efficiency_of_capacities, efficiency_of_cloud
-from seisblock.studies.fragility.estimate import Passed, Rules, estimate
-from seisblock.studies.fragility.followers import FOLLOWERS, version_draws
-from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
+from seisblock.studies.fragility.damage_states import EndStates, limit_state, limit_states
+from seisblock.studies.fragility.efficiency import efficiency_of_capacities, efficiency_of_cloud
+from seisblock.studies.fragility.estimate import Exceedances, FitOptions, estimate_curves
+from seisblock.studies.fragility.goodness_of_fit import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
 from seisblock.studies.fragility.intensity import factors_for, intensity_measure
-from seisblock.studies.fragility.limits import Ends, limit_state, limit_states
-from seisblock.studies.fragility.lognormal import Lognormal, curves, curves_together, fit_fragility
-from seisblock.studies.fragility.run import bodies_of, run_fragility
-from seisblock.studies.fragility.suite import suite_of
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_lognormals, fit_lognormals_shared_beta
+from seisblock.studies.fragility.run import prepare_bodies, run_fragility
+from seisblock.studies.fragility.runners import RUNNERS, version_draws
+from seisblock.studies.fragility.suite import make_suite
 from tests.batch.conftest import shaking
 from tests.motions import synthetic_suite
 
@@ -84,7 +84,7 @@ class TestFits:
         happened = np.array([(factor * drawn(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
         design = np.column_stack([np.tile(np.log(levels), 3), np.repeat(np.eye(3), 30, axis=0)])
         b, *constants = by_statsmodels(design, happened.ravel(), 40)
-        medians, beta = curves_together(levels, happened[None].astype(float), np.full((1, 30), 40.0))
+        medians, beta = fit_lognormals_shared_beta(levels, happened[None].astype(float), np.full((1, 30), 40.0))
         assert medians[0] == pytest.approx(np.exp(-np.array(constants) / b), rel=INDEPENDENT)
         assert beta[0] == pytest.approx(1.0 / b, rel=INDEPENDENT)
         assert (np.diff(medians[0]) > 0.0).all()
@@ -93,7 +93,7 @@ class TestFits:
         """A bootstrap's samples, fitted together, are to 1e-8 what each is fitted by itself; the one without a curve is not a number."""
         levels = np.geomspace(0.1, 4.0, 25)
         counts = np.array([(drawn(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
-        medians, betas = curves(levels, counts, np.full((1, 25), 30.0))
+        medians, betas = fit_lognormals(levels, counts, np.full((1, 25), 30.0))
         alone = [fit_fragility(levels, row, 30) for row in counts[:-1]]
         assert medians[:-1] == pytest.approx([each.median for each in alone], rel=1e-8)
         assert betas[:-1] == pytest.approx([each.beta for each in alone], rel=1e-8)
@@ -127,7 +127,7 @@ class TestFits:
         """Probability and its inverse; nothing at zero."""
         curve = Lognormal(2.0, 0.5)
         assert curve.probability([0.0, 2.0, 2.0 * np.exp(0.5)]) == pytest.approx([0.0, 0.5, ndtr(1.0)])
-        assert curve.probability(curve.at(0.1)) == pytest.approx(0.1)
+        assert curve.probability(curve.quantile(0.1)) == pytest.approx(0.1)
 
     @pytest.mark.parametrize(
         ("happened", "says"),
@@ -217,11 +217,11 @@ class TestRuns:
         scaled = [Motion(motion.acceleration * factor, motion.dt) for factor in factors]
         ends = {}
         for solver, body, options in (("rock", SHELF, {}), ("respond", SHELF, {"mu": 0.3}), ("slide", 0.2, {})):
-            (placed,) = bodies_of([body], solver, options)
-            ends[solver] = FOLLOWERS[solver](placed, motion, factors, None)
+            (placed,) = prepare_bodies([body], solver, options)
+            ends[solver] = RUNNERS[solver](placed, motion, factors, None)
         alone = [solve_rock(SHELF, each).outcome for each in scaled]
         assert ends["rock"].overturned.tolist() == [each.overturned for each in alone]
-        assert ends["rock"].lean == pytest.approx([each.max_rotation_ratio for each in alone], rel=1e-9)
+        assert ends["rock"].tilt_ratio == pytest.approx([each.max_rotation_ratio for each in alone], rel=1e-9)
         assert 0 < ends["rock"].overturned.sum() < 6
         free = [solve_respond(SHELF, each, mu=0.3, sensitivity=False).outcome for each in scaled]
         assert ends["respond"].overturned.tolist() == [each.overturned for each in free]
@@ -236,16 +236,20 @@ class TestRuns:
     def test_versions_lean_as_each_does_alone(self, records):
         """A lean is over the slenderness of the version that leans, worn and resized as it is, not of the body in the middle."""
         motion, factors, draws = motion_of(records[1], "EW"), np.array([0.5, 1.0, 1.6]), version_draws(5, 4)
-        shelf, (size, second, rough, bouncy, _, wear, wide) = SHELF.worn(0.1), draws.T
+        shelf, (size, second, rough, bouncy, _, wear, wide) = SHELF.with_wear(0.1), draws.T
         larger, rocking = 1.0 + 0.05 * size, [0.9 * (1.0 + 0.05 * each) for each in rough]
         blocks = {
-            "rock": [Block(0.3 * a * (1.0 + 0.05 * b), 1.2 * a).worn(0.1 + 0.01 * c) for a, b, c in zip(larger, second, wear, strict=True)],
-            "respond": [Block(0.3 * (1.0 + 0.05 * a), 1.2 * b).worn(0.1 + 0.01 * c) for a, b, c in zip(wide, larger, second, strict=True)],
+            "rock": [
+                Block(0.3 * a * (1.0 + 0.05 * b), 1.2 * a).with_wear(0.1 + 0.01 * c) for a, b, c in zip(larger, second, wear, strict=True)
+            ],
+            "respond": [
+                Block(0.3 * (1.0 + 0.05 * a), 1.2 * b).with_wear(0.1 + 0.01 * c) for a, b, c in zip(wide, larger, second, strict=True)
+            ],
         }
         assert bouncy.min() < 0.0 < bouncy.max()
         for solver, options in (("rock", {"restitution": 0.9}), ("respond", {"mu": 0.5})):
-            (placed,) = bodies_of([shelf], solver, options)
-            ends = FOLLOWERS[solver](placed, motion, factors, draws)
+            (placed,) = prepare_bodies([shelf], solver, options)
+            ends = RUNNERS[solver](placed, motion, factors, draws)
             alone = []
             for factor in factors:
                 each = Motion(motion.acceleration * factor, motion.dt)
@@ -255,20 +259,20 @@ class TestRuns:
                         alone.append((outcome.overturned, outcome.max_rotation_ratio))
                         continue
                     mu, bounce = 0.5 * (1.0 + 0.2 * rough[v]), 0.1 * bouncy[v]
-                    setting = Setting(stand(block), mu, mu, max(bounce, 0.0), rocking_share=1.0 + min(bounce, 0.0))
+                    setting = RespondParams(rigid_body(block), mu, mu, max(bounce, 0.0), rocking_share=1.0 + min(bounce, 0.0))
                     fates = respond_many([setting], each)
                     alone.append((bool(fates.overturned[0]), fates.max_rotation_rad[0] / block.slenderness))
             stood = ~ends.overturned
             assert ends.overturned.tolist() == [fell for fell, _ in alone]
-            assert stood.sum() >= 5 and (ends.lean[stood] > 0.1).any()
-            assert ends.lean[stood] == pytest.approx([lean for fell, lean in alone if not fell], rel=1e-6, abs=1e-9)
+            assert stood.sum() >= 5 and (ends.tilt_ratio[stood] > 0.1).any()
+            assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in alone if not fell], rel=1e-6, abs=1e-9)
 
     def test_a_pile_is_followed_too(self):
         """A stone that falls at some factor is what the pile's own solver says."""
-        (placed,) = bodies_of("lantern", "stack", {"points": 2})
+        (placed,) = prepare_bodies("lantern", "stack", {"points": 2})
         record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
         motion = motion_of(record, "EW")
-        ends = FOLLOWERS["stack"](placed, motion, np.array([0.1]), None)
+        ends = RUNNERS["stack"](placed, motion, np.array([0.1]), None)
         outcome = solve_stack(placed.body, Motion(0.1 * motion.acceleration, motion.dt, record=record), points=2).outcome
         assert ends.overturned.tolist() == [outcome.overturned_any]
         assert ends.slip_m[0] == max(outcome.residual_slip_m.values())
@@ -385,11 +389,11 @@ def passed_of(log_capacities, levels):
 def one_curve(log_capacities, levels, *, method="stripes", measures=(PGV,), values=None):
     """Return the fragility of invented runs of one body and one limit."""
     count = len(log_capacities)
-    suite = suite_of(synthetic_suite(count, seconds=3.0), (), Preparation())
-    runs = Passed(
+    suite = make_suite(synthetic_suite(count, seconds=3.0), (), Preparation())
+    runs = Exceedances(
         "shelf", (limit_state("overturn"),), passed_of(log_capacities, levels), np.tile(levels, (count, 1)), values or [np.ones(count)]
     )
-    ((curve, _),) = estimate(runs, suite, Rules(method, measures, 0.95, 20, 0))
+    ((curve, _),) = estimate_curves(runs, suite, FitOptions(method, measures, 0.95, 20, 0))
     return curve
 
 
@@ -407,9 +411,9 @@ class TestScatter:
     def test_versions_of_the_body_are_those_that_perturb_makes(self, records):
         """The share of versions that fall at a factor of 1 is that of `perturb` with the shaking left alone."""
         motion = motion_of(records[4], "EW")
-        (placed,) = bodies_of([SHELF], "rock", {})
+        (placed,) = prepare_bodies([SHELF], "rock", {})
         factor = 1.4
-        ends = FOLLOWERS["rock"](placed, motion, np.array([factor]), version_draws(60, 7))
+        ends = RUNNERS["rock"](placed, motion, np.array([factor]), version_draws(60, 7))
         scaled = Motion(motion.acceleration * factor, motion.dt)
         same = seisblock.perturb(SHELF, scaled, 60, spread=seisblock.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
         assert int(ends.overturned.sum()) == same.overturned
@@ -497,7 +501,7 @@ def test_on_a_storey_the_intensity_is_that_of_the_ground():
             for component in record.horizontals:
                 factor = level / PGV.of(motion_of(record, component.code))
                 fell += rock_verdict(
-                    Block(0.3, 1.2), motion_of(on_storey(process.scale(record, factor), storey), component.code)
+                    Block(0.3, 1.2), motion_of(floor_motion(process.scale(record, factor), storey), component.code)
                 ).overturned
         assert count.exceeding == fell
     assert any("those of the ground" in note for note in on_it.notes)
@@ -513,16 +517,16 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
         return run_fragility(records, SHELF, "respond", mu=0.7, im="pgv", levels=levels, method=method, bootstrap=20)
 
     whole = study()
-    follow, calls = FOLLOWERS["respond"], []
+    follow, calls = RUNNERS["respond"], []
 
     def lossy(placed, motion, factors, draws):
         ends = follow(placed, motion, factors, draws)
         calls.append(motion)
         gave_up = np.zeros(factors.size, dtype=bool)
         gave_up[1] = len(calls) == 1
-        return Ends(ends.overturned & ~gave_up, ends.lean, ends.slip_m, gave_up)
+        return EndStates(ends.overturned & ~gave_up, ends.tilt_ratio, ends.slip_m, gave_up)
 
-    monkeypatch.setitem(FOLLOWERS, "respond", lossy)
+    monkeypatch.setitem(RUNNERS, "respond", lossy)
     partial = study()
     curve = partial.curves[0]
     assert (whole.curves[0].no_answer, curve.no_answer) == (0, 1)

@@ -8,9 +8,10 @@ import pytest
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.bodies.pile.top import rigid_top
+from seisblock.bodies.pile.top_block import rigid_top
+from seisblock.core.errors import ParameterError, RecordFormatError
+from seisblock.core.units import SUN
 from seisblock.criteria.gravestones import PLAIN, overturning_level
-from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records import Motion
 from seisblock.studies.gravestone_criterion import (
     FREQUENCIES_HZ,
@@ -18,14 +19,13 @@ from seisblock.studies.gravestone_criterion import (
     RATIOS,
     Threshold,
     criterion_study,
-    fitted_criterion,
-    fitted_levels,
+    fit_criterion,
+    fit_levels,
     record_thresholds,
     rigid_levels,
     sine_base,
     with_top,
 )
-from seisblock.units import SUN
 
 SAO = Pile("sao", (PileStone("sao", 8 * SUN, 8 * SUN, 20 * SUN),), mu=2.0)
 SMALL = {"frequencies": (1.0,), "pgas": (2.0, 4.0), "ratios": (2.0, 3.0, 4.0), "points": 2, "duration": 3.0}
@@ -44,10 +44,10 @@ def test_exact_thresholds_give_their_level_back():
     """Thresholds on a hyperbola of level a(f) fit a(f), and levels of eq. (9) fit its p, q, r."""
     levels = {f: float(overturning_level(f, PLAIN)) for f in FREQUENCIES_HZ}
     thresholds = [Threshold(f, a, levels[f] / a) for f in FREQUENCIES_HZ for a in PGAS]
-    assert fitted_levels(thresholds) == pytest.approx(levels)
-    fit = fitted_criterion(levels)
+    assert fit_levels(thresholds) == pytest.approx(levels)
+    fit = fit_criterion(levels)
     assert (fit.p_m_s2, fit.q_hz, fit.r) == pytest.approx((PLAIN.p_m_s2, PLAIN.q_hz, PLAIN.r), rel=1e-4)
-    assert fitted_criterion({1.0: 8.0, 2.0: 12.0}) is None
+    assert fit_criterion({1.0: 8.0, 2.0: 12.0}) is None
 
 
 def test_a_study_can_be_taken_up_again(tmp_path):

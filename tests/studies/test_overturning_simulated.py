@@ -8,21 +8,21 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.inset import SHARP, Inset
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.core.errors import ParameterError
 from seisblock.criteria.gravestones import overturning_level
-from seisblock.errors import ParameterError
+from seisblock.models.rock.solve import solve_rock
 from seisblock.readers import read
 from seisblock.records import motion_of
 from seisblock.records.process import scale
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.studies.cemetery.rate import overturning_rate
-from seisblock.studies.cemetery.simulated import sao, simulated_curve, simulated_overturns, sine_motion
+from seisblock.studies.survey.overturning_rate import overturning_rate
+from seisblock.studies.survey.simulation import sao, simulated_curve, simulated_overturns, sine_motion
 
 AOYAMA = read_cemetery("aoyama.csv")
 GRID = Cemetery(tuple(Stone(float(ratio)) for ratio in np.arange(1.25, 6.51, 0.05)))
 
 
-def fitted_level(frequency: float, inset: Inset) -> float:
+def fitted_level(frequency: float, inset: EdgeWear) -> float:
     """Return a(f) of (7) from the least ratios that fall under sines of 300 to 1300 gal, in gal."""
     motion, products = sine_motion(1.0, frequency), []
     for pga in np.arange(3.0, 13.1, 1.0):
@@ -34,7 +34,7 @@ def fitted_level(frequency: float, inset: Inset) -> float:
 
 def test_the_stone_keeps_its_mass_and_inertia_when_its_pivots_move_in():
     """Inset pivots change the arms and nothing else."""
-    plain, inset = sao(2.6, inset=SHARP), sao(2.6)
+    plain, inset = sao(2.6, inset=SHARP_EDGES), sao(2.6)
     assert plain == Block(0.2424, 2.6 * 0.2424, name="sao")
     assert inset.total_mass == pytest.approx(Block(0.2424, 2.6 * 0.2424).total_mass)
     assert inset.gyration_squared == pytest.approx((0.2424**2 + (2.6 * 0.2424) ** 2) / 12)
@@ -45,8 +45,8 @@ def test_the_stone_keeps_its_mass_and_inertia_when_its_pivots_move_in():
 def test_inset_pivots_reproduce_eq_9_and_the_edges_do_not(frequency):
     """With the pivots of 5 x 5 contact points a(f) is within a tenth of (9), without inset it is more than 20 % too high."""
     printed = 100.0 * float(overturning_level(frequency))
-    assert fitted_level(frequency, Inset(share=0.1)) == pytest.approx(printed, rel=0.1)
-    assert fitted_level(frequency, SHARP) > 1.2 * printed
+    assert fitted_level(frequency, EdgeWear(share=0.1)) == pytest.approx(printed, rel=0.1)
+    assert fitted_level(frequency, SHARP_EDGES) > 1.2 * printed
 
 
 def test_a_stone_alone_and_in_a_cemetery_fall_alike():
@@ -61,15 +61,15 @@ def test_a_stone_alone_and_in_a_cemetery_fall_alike():
 
 def test_simulated_curves_and_the_formula_are_close_at_low_frequency():
     """At 0.5 Hz and with the pivots of 5 x 5 contact points the simulated rates are within 0.05 of (9)."""
-    for point in simulated_curve(AOYAMA, [(sine_motion(1.0, 0.5), 0.5)], inset=Inset(share=0.1)):
+    for point in simulated_curve(AOYAMA, [(sine_motion(1.0, 0.5), 0.5)], inset=EdgeWear(share=0.1)):
         assert point.rate == pytest.approx(overturning_rate(AOYAMA, point.pga_m_s2, 0.5).rate, abs=0.05)
 
 
 def test_what_cannot_be_simulated_is_refused():
     """A dowel, an inset that leaves no base and a sine without a frequency are one sentence."""
     with pytest.raises(ParameterError, match="knows no dowel"):
-        simulated_overturns(AOYAMA.dowelled(), sine_motion(1.0, 1.0))
+        simulated_overturns(AOYAMA.with_dowels(), sine_motion(1.0, 1.0))
     with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side leaves nothing"):
-        sao(2.0, inset=Inset(share=0.5))
+        sao(2.0, inset=EdgeWear(share=0.5))
     with pytest.raises(ParameterError, match="the frequency of the sine must be positive"):
         sine_motion(1.0, 0.0)

@@ -5,21 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.pile.edge_wear import widest_wear, worn_to
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.wear import widest_wear, worn_to
-from seisblock.errors import BodyError, ParameterError, SolverError
+from seisblock.core.errors import BodyError, ParameterError, SolverError
+from seisblock.models.stack.solve import solve_stack
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.solvers.stack.solve import solve_stack
 from seisblock.studies.intervals import clopper_pearson
-from seisblock.studies.standing import pile_probability
-from seisblock.studies.standing.pile_probability import PileVersions, changed_motion, changed_pile, stack_probability
+from seisblock.studies.respond import pile_probability
+from seisblock.studies.respond.pile_probability import PileVariation, perturb_motion, perturb_pile, stack_probability
 
 PILE = Pile("two", (PileStone("lower", 0.5, 0.5, 0.2, mu=0.6), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.02, 0.0), on="lower")), mu=0.5)
 PULSE = Motion.from_arrays(3.3 * np.sin(np.linspace(0.0, 2 * np.pi, 101)), 0.01, name="20")
-NOTHING_VARIES = PileVersions(size=0.0, inset=0.0, mu=0.0, amplitude=0.0, azimuth_deg=0.0)
+NOTHING_VARIES = PileVariation(size=0.0, inset=0.0, mu=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_shares_are_counts_with_their_interval(found):
 def test_versions_stay_within_their_half_widths():
     """All lengths change by one factor, edges by one share, each joint's friction by its own; the pile stands as it did."""
     draws = np.random.default_rng(1).uniform(-1.0, 1.0, (50, 6))
-    changed = [changed_pile(PILE, PileVersions(), draw) for draw in draws]
+    changed = [perturb_pile(PILE, PileVariation(), draw) for draw in draws]
     sizes = np.array([[stone.size for stone in pile.stones] for pile in changed]) / [stone.size for stone in PILE.stones]
     sizes = sizes.reshape(len(changed), -1)
     assert np.ptp(sizes, axis=1) == pytest.approx(0.0, abs=1e-12)
@@ -75,9 +75,9 @@ def test_versions_stay_within_their_half_widths():
     rough = np.array([[stone.mu for stone in pile.stones] for pile in changed]) / [0.6, 0.5]
     assert np.abs(rough - 1.0).max() <= 0.2 + 1e-12 < np.abs(rough - 1.0).max() + 0.02
     assert abs(np.corrcoef(rough.T)[0, 1]) < 0.5
-    assert all(stone.inset == Inset() for pile in changed for stone in pile.stones)
-    worn = PILE.worn(0.1)
-    wear = np.array([[stone.inset.share for stone in changed_pile(worn, PileVersions(), draw).stones] for draw in draws])
+    assert all(stone.inset == EdgeWear() for pile in changed for stone in pile.stones)
+    worn = PILE.with_wear(0.1)
+    wear = np.array([[stone.inset.share for stone in perturb_pile(worn, PileVariation(), draw).stones] for draw in draws])
     assert (wear[:, 0] == wear[:, 1]).all()
     assert 0.09 <= wear.min() < 0.091 and 0.109 < wear.max() <= 0.11 and np.median(wear) == pytest.approx(0.1, abs=0.003)
     assert all(len(pile.joints()) == len(PILE.joints()) for pile in changed)
@@ -87,11 +87,11 @@ def test_shaking_is_scaled_and_turned():
     """A version of the shaking is the record's along an azimuth next to it, times a factor; one horizontal alone is never turned."""
     record = read("synthetic_jma.csv")
     draw = np.array([0.0, 0.5, 0.7, 0.0, 0.0, 0.0])
-    turned = changed_motion(motion_of(record, "30"), PileVersions(), draw)
+    turned = perturb_motion(motion_of(record, "30"), PileVariation(), draw)
     there = motion_of(record, "37")
     assert np.abs(turned.acceleration - 1.05 * there.acceleration).max() < 1e-9
     assert turned.name == "30"
-    alone = changed_motion(PULSE, PileVersions(), draw)
+    alone = perturb_motion(PULSE, PileVariation(), draw)
     assert alone.horizontal == pytest.approx(1.05 * PULSE.horizontal, rel=1e-12) and not alone.transverse.any()
 
 
@@ -107,21 +107,21 @@ def test_what_makes_no_sense_is_refused(wrong, says):
 
 def test_samples_of_a_pile_vary_about_the_inset_of_each_stone():
     """A length grows with the stone and stays a length; sharp stones stay sharp, and something of each base is left."""
-    worn = replace(PILE, stones=(PILE.stones[0], replace(PILE.stones[1], inset=Inset(length_m=0.04))))
+    worn = replace(PILE, stones=(PILE.stones[0], replace(PILE.stones[1], inset=EdgeWear(length_m=0.04))))
     for draw in (-1.0, 0.0, 1.0):
-        lower, upper = changed_pile(worn, PileVersions(size=0.1), np.array([1.0, 0.0, 0.0, draw, 0.0, 0.0])).stones
+        lower, upper = perturb_pile(worn, PileVariation(size=0.1), np.array([1.0, 0.0, 0.0, draw, 0.0, 0.0])).stones
         assert upper.inset.share == 0.0
         assert upper.insets()[0] / upper.width == pytest.approx(0.2 + 0.02 * draw)
         assert lower.insets() == (0.0, 0.0)
-    alone = Pile("one", (PILE.stones[0],)).worn(0.48)
+    alone = Pile("one", (PILE.stones[0],)).with_wear(0.48)
     assert worn_to(alone, 0.1, 1.0).stones[0].inset.share == pytest.approx(0.496)
-    kept = changed_pile(worn, replace(NOTHING_VARIES, size=0.1), np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
+    kept = perturb_pile(worn, replace(NOTHING_VARIES, size=0.1), np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
     assert kept.stones[1].insets()[0] == pytest.approx(1.1 * 0.04)
 
 
 def test_worn_stones_fall_sooner():
     """Of a worn pile shaken near its limit, samples that are worn more fall, and only these."""
-    motion, worn = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt), PILE.worn(0.15)
+    motion, worn = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt), PILE.with_wear(0.15)
     assert not solve_stack(PILE, motion).outcome.overturned
     assert stack_probability(PILE, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.9)).overturned == 0.0
     assert 0.0 < stack_probability(worn, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.9)).overturned < 1.0
@@ -129,20 +129,20 @@ def test_worn_stones_fall_sooner():
 
 def test_a_grid_of_points_has_no_worn_edges():
     """Its points stand inside by themselves: the answer says that no inset was varied."""
-    asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVersions(inset=0.3))
+    asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVariation(inset=0.3))
     assert asked.versions.inset == 0.0
 
 
 def test_versions_are_worn_no_further_than_they_stand():
     """A stone whose load is near an edge varies by less than asked, and the answer says by how much; each sample stands at rest."""
-    edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0)))).worn(0.25)
+    edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0)))).with_wear(0.25)
     widest = widest_wear(edgy, 0.9)
     assert 0.1 < widest < 0.8
     still = Motion.from_arrays(np.zeros(100), 0.01)
     assert not solve_stack(worn_to(edgy, widest, 1.0), still).outcome.overturned
     with pytest.raises(BodyError, match="unstable at rest"):
-        edgy.worn(0.25 * (1.0 + 1.25 * widest + 0.002))
-    found = stack_probability(edgy, still, runs=3, versions=PileVersions(inset=0.9))
+        edgy.with_wear(0.25 * (1.0 + 1.25 * widest + 0.002))
+    found = stack_probability(edgy, still, runs=3, versions=PileVariation(inset=0.9))
     assert (found.versions.inset, found.overturned) == (widest, 0.0)
 
 
@@ -150,7 +150,7 @@ def test_versions_are_worn_no_further_than_they_stand():
 def test_impossible_widths_are_refused(width):
     """Shares lie below 1, azimuths within half a turn."""
     with pytest.raises(ParameterError, match="spread"):
-        PileVersions(**dict([width]))
+        PileVariation(**dict([width]))
 
 
 def test_versions_that_create_energy_are_left_out_and_counted(monkeypatch):
@@ -175,9 +175,9 @@ def test_kinetic_friction_of_versions_stays_in_proportion():
     """A joint that clings more slides less easily by as much, whatever its own friction; nothing is refused."""
     draws = np.random.default_rng(5).uniform(-1.0, 1.0, (40, 6))
     for draw in draws:
-        changed = changed_pile(PILE.sliding_at(0.45), PileVersions(), draw)
+        changed = perturb_pile(PILE.with_kinetic_friction(0.45), PileVariation(), draw)
         for stone, static in zip(changed.stones, (0.6, 0.5), strict=True):
             clings, slides = changed.friction(stone)
             assert slides / clings == pytest.approx(0.45 / static)
     found = stack_probability(PILE, PULSE, runs=4, mu_kinetic=0.2)
-    assert found == stack_probability(PILE.sliding_at(0.2), PULSE, runs=4)
+    assert found == stack_probability(PILE.with_kinetic_friction(0.2), PULSE, runs=4)

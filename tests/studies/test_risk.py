@@ -12,10 +12,10 @@ from scipy.integrate import quad
 from scipy.stats import norm
 
 from seisblock import Hazard, HazardCurve, find_risk, read_hazard
-from seisblock.errors import HazardError, ParameterError, UnitError
+from seisblock.core.errors import HazardError, ParameterError, UnitError
 from seisblock.samples import sample_path
+from seisblock.studies.fragility.io import check_measure, fragility_from_median, read_fragility
 from seisblock.studies.fragility.lognormal import Lognormal
-from seisblock.studies.hazard.given import fragility_in, matching, read_fragility
 from tests import make_hazard
 
 LEVELS = np.geomspace(0.05, 3.0, 9)
@@ -178,14 +178,14 @@ def test_a_median_without_unit_beside_a_table_in_gal(tmp_path):
     (tmp_path / "h.csv").write_text("pga_gal,annual_rate\n100,0.01\n400,0.001\n", encoding="utf-8")
     gal = read_hazard(tmp_path / "h.csv")
     with pytest.raises(UnitError, match="has no unit, and the hazard is not in SI"):
-        fragility_in(gal, "300", 0.4)
-    assert fragility_in(gal, "300gal", 0.4).curve == Lognormal(3.0, 0.4)
-    assert fragility_in(gal, "0.5 g", 0.4).curve.median == pytest.approx(4.903325)
-    assert fragility_in(site(), "0.6", 0.4).curve == fragility_in(site(), "60 kine", 0.4).curve
+        fragility_from_median(gal, "300", 0.4)
+    assert fragility_from_median(gal, "300gal", 0.4).curve == Lognormal(3.0, 0.4)
+    assert fragility_from_median(gal, "0.5 g", 0.4).curve.median == pytest.approx(4.903325)
+    assert fragility_from_median(site(), "0.6", 0.4).curve == fragility_from_median(site(), "60 kine", 0.4).curve
     with pytest.raises(UnitError, match="unknown unit 'gal'"):
-        fragility_in(site(), "0.6gal", 0.4)
+        fragility_from_median(site(), "0.6gal", 0.4)
     with pytest.raises(ParameterError, match="median of a fragility must be positive"):
-        fragility_in(site(), "-0.6", 0.4)
+        fragility_from_median(site(), "-0.6", 0.4)
 
 
 def written(tmp_path, **changed):
@@ -199,9 +199,9 @@ def test_a_fragility_is_read_back(tmp_path):
     """Its body, limit and curve; what is in another measure than the hazard is refused."""
     (found,) = read_fragility(written(tmp_path))
     assert (found.body, found.limit, found.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
-    assert matching((found,), site()) == (found,)
+    assert check_measure((found,), site()) == (found,)
     with pytest.raises(ParameterError, match=r"the fragility is in sa=0\.5 and the hazard in pgv"):
-        matching(read_fragility(written(tmp_path, im="sa=0.5", unit="m/s^2")), site())
+        check_measure(read_fragility(written(tmp_path, im="sa=0.5", unit="m/s^2")), site())
 
 
 @pytest.mark.parametrize(

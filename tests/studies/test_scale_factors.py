@@ -7,12 +7,12 @@ import pytest
 
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.cli.bodies.two_layer import two_layer_choice
-from seisblock.errors import ComponentError, ParameterError
+from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.slide.solve import solve_slide
 from seisblock.readers import read
 from seisblock.records import Motion, Record, motion_of
-from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.slide.solve import solve_slide
-from seisblock.studies.inverse.factors import jumped, scale_factors, scaled, slid
+from seisblock.studies.survey.scale_search import jump_displacement, scale_factors, scale_motion, slide_displacement
 
 MOTION = motion_of(read("synthetic_jma.csv"), "EW")
 PULSE = Motion.from_arrays(np.concatenate([np.full(101, 4.0), np.zeros(300)]), 0.01, name="pulse")
@@ -23,7 +23,7 @@ def test_a_rectangular_pulse_has_its_closed_form():
     mu, g, observed = 0.2, 9.80665, 1.0
     # the last sample's fall from a to zero takes one interval more: its impulse is that of half an interval
     a, T = 4.0, 1.0
-    found = scale_factors(slid(mu, PULSE), observed, PULSE, limit=2.0).scale_factors
+    found = scale_factors(slide_displacement(mu, PULSE), observed, PULSE, limit=2.0).scale_factors
     root = (mu * g + np.sqrt((mu * g) ** 2 + 8.0 * mu * g * observed / T**2)) / (2.0 * a)
     assert len(found) == 1
     assert found[0].scale == pytest.approx(root, rel=0.01)
@@ -34,12 +34,12 @@ def test_a_rectangular_pulse_has_its_closed_form():
 @pytest.mark.parametrize("largest", [False, True])
 def test_the_slip_of_a_record_gives_its_factor_back(largest):
     """What a scaled record does is found at that factor, for the residual and for the largest slip."""
-    outcome = solve_slide(0.3, scaled(MOTION, 0.8)).outcome
+    outcome = solve_slide(0.3, scale_motion(MOTION, 0.8)).outcome
     observed = outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
-    found = scale_factors(slid(0.3, MOTION, largest=largest), observed, MOTION, limit=2.0, steps=100)
+    found = scale_factors(slide_displacement(0.3, MOTION, largest=largest), observed, MOTION, limit=2.0, steps=100)
     assert any(f.scale == pytest.approx(0.8, abs=1e-6) for f in found.scale_factors)
     for each in found.scale_factors:
-        again = solve_slide(0.3, scaled(MOTION, each.scale)).outcome
+        again = solve_slide(0.3, scale_motion(MOTION, each.scale)).outcome
         assert (again.max_slip_m if largest else abs(again.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
 
 
@@ -49,7 +49,9 @@ def test_the_jump_of_a_record_gives_its_factor_back(first):
     chosen = two_layer_choice({}, default="chozusha")
     chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, first=first).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
-    found = scale_factors(jumped(chosen.block, MOTION, contact=chosen.contact, first=first), observed, MOTION, limit=1.5, steps=60)
+    found = scale_factors(
+        jump_displacement(chosen.block, MOTION, contact=chosen.contact, first=first), observed, MOTION, limit=1.5, steps=60
+    )
     assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
     assert found.displacement_at_1_m == pytest.approx(observed)
 
@@ -66,10 +68,10 @@ def test_all_solutions_and_leaps_are_found():
 
 def test_an_object_that_never_moves_so_far_has_no_factor():
     """The largest displacement of the scan is told instead."""
-    found = scale_factors(slid(0.2, PULSE), 1e3, PULSE)
+    found = scale_factors(slide_displacement(0.2, PULSE), 1e3, PULSE)
     assert found.scale_factors == ()
     assert found.largest_at_scale == 3.0
-    assert found.largest_displacement_m == pytest.approx(solve_slide(0.2, scaled(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
+    assert found.largest_displacement_m == pytest.approx(solve_slide(0.2, scale_motion(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
 
 
 def test_impossible_questions_are_refused():
@@ -82,17 +84,17 @@ def test_impossible_questions_are_refused():
         with pytest.raises(ParameterError, match=message):
             scale_factors(lambda s: s, words[0], PULSE, limit=words[1], steps=words[2])
     with pytest.raises(ParameterError):
-        slid(-0.1, PULSE)
+        slide_displacement(-0.1, PULSE)
     north = read("synthetic_jma.csv").component("NS")
     with pytest.raises(ComponentError, match="no vertical component"):
-        slid(0.3, motion_of(Record((north,), 0.01), "NS"), vertical=1.0)
+        slide_displacement(0.3, motion_of(Record((north,), 0.01), "NS"), vertical=1.0)
 
 
 @pytest.mark.parametrize("factor", [0.3, 1.0, 1.7])
 def test_the_slip_at_a_factor_is_that_of_the_scaled_record(factor):
     """Only the end is followed, with the vertical motion scaled alike: the numbers of `solve_slide` on the record times the factor."""
     base = SlidingBase(0.15, 0.1, 4.0)
-    outcome = solve_slide(base, scaled(MOTION, factor), vertical=0.5).outcome
+    outcome = solve_slide(base, scale_motion(MOTION, factor), vertical=0.5).outcome
     assert outcome.max_slip_m > 0.0
-    assert slid(base, MOTION, vertical=0.5)(factor) == pytest.approx(abs(outcome.residual_slip_m), rel=1e-10)
-    assert slid(base, MOTION, largest=True, vertical=0.5)(factor) == pytest.approx(outcome.max_slip_m, rel=1e-10)
+    assert slide_displacement(base, MOTION, vertical=0.5)(factor) == pytest.approx(abs(outcome.residual_slip_m), rel=1e-10)
+    assert slide_displacement(base, MOTION, largest=True, vertical=0.5)(factor) == pytest.approx(outcome.max_slip_m, rel=1e-10)

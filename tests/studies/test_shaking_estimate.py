@@ -9,14 +9,13 @@ import pytest
 
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.core.errors import BodyError, ParameterError
 from seisblock.criteria.gravestones import overturning_level
 from seisblock.criteria.intensity import intensity_from_velocity
-from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
-from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
-from seisblock.studies.inverse.assumptions import FREQUENCY_ERROR, Assumptions
-from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, contour, estimate_shaking, groups_of
-from seisblock.studies.inverse.survey import (
+from seisblock.studies.survey.assumptions import FREQUENCY_ERROR, Assumptions
+from seisblock.studies.survey.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, estimate_shaking, frequency_contour, stone_groups
+from seisblock.studies.survey.likelihood import (
     BIAS,
     COMMON_ERROR,
     STONE_ERROR,
@@ -26,6 +25,7 @@ from seisblock.studies.inverse.survey import (
     marked_survey,
     parse_rate,
 )
+from seisblock.studies.survey.limits import fitted_limits, rigid_limits
 from tests.lengths import all_but_slow
 
 AOYAMA = read_cemetery("aoyama.csv")
@@ -95,7 +95,7 @@ def test_the_common_error_is_in_the_interval():
 
 def test_pga_and_frequency_trade_off_as_a_of_f():
     """A survey pins PGA/a(f): along the contour PGA follows eq. (8), and the threshold H/B stays."""
-    found = contour(counted_survey(AOYAMA, 35, 100), PLAIN)
+    found = frequency_contour(counted_survey(AOYAMA, 35, 100), PLAIN)
     level = [e.pga_m_s2 / float(overturning_level(e.frequency_hz)) for e in found]
     np.testing.assert_allclose(level, level[0], rtol=1e-6)
     np.testing.assert_allclose([e.threshold_ratio for e in found], found[0].threshold_ratio, rtol=1e-6)
@@ -104,7 +104,7 @@ def test_pga_and_frequency_trade_off_as_a_of_f():
 def test_without_a_frequency_the_band_is_averaged():
     """The interval over 0.5 to 3 Hz is wider than at any frequency in it, and reaches neither beyond its lowest nor its highest."""
     survey = counted_survey(AOYAMA, 35, 100)
-    whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in contour(survey, PLAIN_FREQUENCY)]
+    whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in frequency_contour(survey, PLAIN_FREQUENCY)]
     assert whole[0] > min(low for low, _ in ends)
     assert whole[1] < max(high for _, high in ends)
     assert whole[1] / whole[0] > max(high / low for low, high in ends)
@@ -133,7 +133,7 @@ def test_reinforced_stones_are_kept_apart():
     f, pga = 1.5, 4.5
     mixed = Cemetery(tuple(replace(s, reinforced=i % 2 == 0) for i, s in enumerate(AOYAMA.stones)))
     survey = marked_survey(marked(mixed, pga > fitted_limits(mixed, f)))
-    found = {name: estimate_shaking(part, f, SHARP, stones=name) for name, part in groups_of(survey)}
+    found = {name: estimate_shaking(part, f, SHARP, stones=name) for name, part in stone_groups(survey)}
     assert list(found) == [PLAIN_STONES, DOWELLED_STONES, ALL_STONES]
     assert [found[name].fallen + found[name].standing for name in found] == [50, 50, 100]
     for each in found.values():
@@ -166,7 +166,7 @@ def test_the_likelihood_is_the_integral_over_the_common_error(limits):
         return float(weight * np.exp(log_likelihood(survey, np.array([at + error]), 2.0, STONE_ERROR, limits)[0] + 10.0))
 
     direct = [quad(integrand, -1.5, 1.5, args=(at,), points=[0.0], limit=400, epsabs=0.0, epsrel=1e-8)[0] for at in probe]
-    ratio = found.interpolated(probe)
+    ratio = found.interpolate(probe)
     assert ratio[1] / ratio[0] == pytest.approx(direct[1] / direct[0], rel=1e-8)
 
 

@@ -6,18 +6,18 @@ from scipy.stats import kstest, uniform
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.references import REFERENCES
-from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.solve import solve_respond
-from seisblock.studies.standing import probability
-from seisblock.studies.standing.azimuths import respond_directions
-from seisblock.studies.standing.probability import Probability, Versions, respond_probability
+from seisblock.studies.respond import probability
+from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.respond.probability import ParameterVariation, Probability, respond_probability
 
 PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005)
-NOTHING_VARIES = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+NOTHING_VARIES = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
 def share(block, motion, **options):
@@ -82,8 +82,8 @@ def test_more_shaking_never_makes_it_surer_to_stand():
 
 def test_samples_of_worn_edges_known_exactly_are_the_body():
     """With a tolerance of nothing a worn body stays as worn as it is."""
-    block = Block(0.24, 0.8).worn(0.2)
-    sharp = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    block = Block(0.24, 0.8).with_wear(0.2)
+    sharp = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
     own = solve_respond(block, PULSE, mu=0.6, settle_s=20.0).outcome
     assert share(block, PULSE, mu=0.6, versions=sharp, runs=2).overturned == float(own.overturned)
 
@@ -92,7 +92,7 @@ def test_samples_of_worn_edges_known_exactly_are_the_body():
 def test_impossible_widths_are_refused(width):
     """Shares lie below 1."""
     with pytest.raises(ParameterError, match="spread"):
-        Versions(**dict([width]))
+        ParameterVariation(**dict([width]))
 
 
 def test_no_runs_are_refused():

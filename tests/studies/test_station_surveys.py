@@ -5,29 +5,29 @@ from __future__ import annotations
 import pytest
 
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.errors import BodyError
+from seisblock.core.errors import BodyError
 from seisblock.records.site import great_circle_km
-from seisblock.studies.inverse.estimate import estimate_shaking
-from seisblock.studies.inverse.survey import counted_survey
-from seisblock.studies.stations.survey import StationAnswer, Stations
-from seisblock.studies.stations.surveys import SurveyedPlace, contradictions, judge_surveys, read_surveys
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.map.surveyed_places import SurveyedPlace, compare_surveys, contradictions, read_surveys
+from seisblock.studies.survey.estimate import estimate_shaking
+from seisblock.studies.survey.likelihood import counted_survey
 
 AOYAMA = read_cemetery("aoyama.csv")
 
 
 def station(code, north, east, intensity):
     """Return a station that measured an intensity."""
-    return StationAnswer(f"{code}.NS", code, latitude=north, longitude=east, pga_m_s2=1.0, jma_intensity=intensity)
+    return StationReport(f"{code}.NS", code, latitude=north, longitude=east, pga_m_s2=1.0, jma_intensity=intensity)
 
 
 NEAREST = (("A", 35.0, 139.0, 6.0), ("B", 35.1, 139.0, 5.0), ("C", 35.0, 139.2, 4.0), ("D", 36.0, 139.0, 1.0))
-AROUND = Stations((*(station(*each) for each in NEAREST), StationAnswer("e.csv", pga_m_s2=9.0, jma_intensity=7.0)), None)
+AROUND = Stations((*(station(*each) for each in NEAREST), StationReport("e.csv", pga_m_s2=9.0, jma_intensity=7.0)), None)
 """Four stations, and one that is nowhere."""
 
 
 def test_a_survey_stands_beside_the_nearest_three_stations():
     """The estimate is that of `infer`; the stations' intensities are weighted by the inverse of their distance."""
-    (answer,) = judge_surveys([SurveyedPlace("temple", 35.02, 139.0, 100, 35)], AROUND, AOYAMA)
+    (answer,) = compare_surveys([SurveyedPlace("temple", 35.02, 139.0, 100, 35)], AROUND, AOYAMA)
     assert answer.estimate == estimate_shaking(counted_survey(AOYAMA, 35, 100))
     assert [each.station for each in answer.neighbours] == ["A", "B", "C"]
     far = [great_circle_km((35.02, 139.0), place) for place in ((35.0, 139.0), (35.1, 139.0), (35.0, 139.2))]
@@ -40,10 +40,10 @@ def test_a_survey_stands_beside_the_nearest_three_stations():
 
 def test_where_no_stone_fell_there_is_a_bound_and_no_residual():
     """So it is without any station with an intensity, and where all are further away than shaking is alike."""
-    (none,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
+    (none,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
     assert none.residual is None and none.expected_intensity is not None
-    (alone,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
-    (far,) = judge_surveys([SurveyedPlace("temple", -20.0, -179.9, 40, 20)], AROUND, AOYAMA)
+    (alone,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
+    (far,) = compare_surveys([SurveyedPlace("temple", -20.0, -179.9, 40, 20)], AROUND, AOYAMA)
     for answer in (alone, far):
         assert (answer.neighbours, answer.expected_intensity, answer.residual) == ((), None, None)
 
@@ -52,12 +52,12 @@ def test_pairs_that_contradict_each_other_are_named():
     """A place and a station, and two places, within ten kilometres; not further apart, nor where intervals nearly meet."""
     told = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
     places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in told]
-    answers = judge_surveys(places, Stations((station("A", 35.0, 139.0, 6.7),), None), AOYAMA)
+    answers = compare_surveys(places, Stations((station("A", 35.0, 139.0, 6.7),), None), AOYAMA)
     (low, _), (_, high) = (answer.estimate.jma_intensity_interval for answer in answers[:2])
     assert 6.7 > low > high
     told = contradictions(answers)
     assert [text.split(",")[0] for text in told] == ["stands and station A", "fell and stands"]
-    agreeing = judge_surveys(places[:1], Stations((station("A", 35.0, 139.0, float(low)),), None), AOYAMA)
+    agreeing = compare_surveys(places[:1], Stations((station("A", 35.0, 139.0, float(low)),), None), AOYAMA)
     assert contradictions(agreeing) == []
 
 

@@ -11,23 +11,23 @@ from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, load_two_layer
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.measures import measure
+from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read, read_all
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
+from seisblock.readers.discover import iter_records
+from seisblock.readers.dispatch import ReadOptions
 from seisblock.records import Component, Preparation, Record, motion_of
-from seisblock.solvers.respond.solve import solve_respond
 from seisblock.studies.batch.run import run_batch
-from seisblock.studies.cemetery.judgement import Method, judge_cemetery
-from seisblock.studies.cemetery.shaking import shakings_of
-from seisblock.studies.standing.azimuths import respond_directions
-from seisblock.studies.stations.effects import StandingBody, StandingStones
-from seisblock.studies.stations.survey import survey_stations
+from seisblock.studies.map.station_response import StationBody, StationCemetery
+from seisblock.studies.map.stations import survey_stations
+from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.survey.assessment import AssessmentMethod, assess_cemetery
+from seisblock.studies.survey.shaking import component_shakings
 from tests.stations import bundle, station_files
 
 STONE = of_kind(Block(0.24, 0.8), "gravestone")
-BODY = StandingBody(STONE, {"mu": 0.6}, runs=20)
+BODY = StationBody(STONE, {"mu": 0.6}, runs=20)
 
 
 @pytest.fixture(scope="module")
@@ -44,8 +44,8 @@ def found(event):
 
 def prepared(event, station):
     """Return the record of one station of a bundle, as it is judged."""
-    recording = next(each for each in gather([str(event)], Options()) if each.name.startswith(station))
-    return Preparation().apply(recording.read(Options()))
+    recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(station))
+    return Preparation().apply(recording.read(ReadOptions()))
 
 
 def test_a_damaged_member_costs_only_itself(found):
@@ -88,10 +88,10 @@ def test_each_station_is_that_of_the_commands_of_one_record(event, found):
 
 
 FOLLOWED = {
-    "rock": StandingBody(Block(0.24, 0.8), {}, runs=5, solver="rock"),
-    "slide": StandingBody(SlidingBase(0.2), {}, solver="slide"),
-    "jump": StandingBody(load_two_layer("chozusha"), {"contact": Contact(0.18)}, solver="jump"),
-    "uplift": StandingBody(SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), {}, solver="uplift"),
+    "rock": StationBody(Block(0.24, 0.8), {}, runs=5, solver="rock"),
+    "slide": StationBody(SlidingBase(0.2), {}, solver="slide"),
+    "jump": StationBody(load_two_layer("chozusha"), {"contact": Contact(0.18)}, solver="jump"),
+    "uplift": StationBody(SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), {}, solver="uplift"),
 }
 """A body for each solver."""
 
@@ -110,8 +110,8 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
     subject = FOLLOWED[solver]
     strong = Preparation(scale=3.0)
     answer = survey_stations(event, subject, preparation=strong).answers[0]
-    record = next(each for each in gather([str(event)], Options()) if each.name.startswith(answer.station)).read(Options())
-    components = "all-azimuths" if subject.looks_around else ()
+    record = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station)).read(ReadOptions())
+    components = "all-azimuths" if subject.is_directional else ()
     options = {**subject.options, "runs": subject.runs, "preparation": strong}
     table = run_batch(record, {"it": subject.body}, solver, components=components, **options)
     effects = {row["component"]: EFFECTS[solver](row) for row in table.rows}
@@ -125,20 +125,20 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
 def test_what_no_solver_follows_is_refused():
     """A solver that follows no body, and versions where there are none, in one sentence."""
     with pytest.raises(ParameterError, match="'stack' follows no body at a station"):
-        StandingBody(Block(0.24, 0.8), {}, solver="stack")
+        StationBody(Block(0.24, 0.8), {}, solver="stack")
     with pytest.raises(ParameterError, match="slide has no perturbed versions"):
-        StandingBody(0.2, {}, runs=5, solver="slide")
+        StationBody(0.2, {}, runs=5, solver="slide")
 
 
 def test_a_cemetery_is_judged_in_every_direction(event):
     """The rate is at least that of either component, and that of `overturn-rate` towards its azimuth."""
     cemetery = read_cemetery("aoyama.csv")
-    answer = survey_stations(event, StandingStones(cemetery)).answers[0]
+    answer = survey_stations(event, StationCemetery(cemetery)).answers[0]
     record = prepared(event, answer.station)
-    rates = [judge_cemetery(cemetery, shaking, Method()).rate for shaking in shakings_of(record, ("NS", "EW"))]
+    rates = [assess_cemetery(cemetery, shaking, AssessmentMethod()).rate for shaking in component_shakings(record, ("NS", "EW"))]
     assert answer.effect.rate >= max(rates) > 0.0
-    (towards,) = shakings_of(record, (f"{answer.effect.azimuth_deg:g}",))
-    assert judge_cemetery(cemetery, towards, Method()).rate == answer.effect.rate
+    (towards,) = component_shakings(record, (f"{answer.effect.azimuth_deg:g}",))
+    assert assess_cemetery(cemetery, towards, AssessmentMethod()).rate == answer.effect.rate
 
 
 def test_threads_change_nothing(event, found):
@@ -152,12 +152,12 @@ def test_one_station_is_answered_where_it_is_asked_for(event, tmp_path, asked):
     """Of a bundle and of a folder; what cannot be read is named all the same."""
     for name, data in {**station_files(4), **station_files(5)}.items():
         (tmp_path / name).write_bytes(data)
-    (one, damaged) = survey_stations(event, reading=Options(station=asked)).answers
-    (other,) = survey_stations(tmp_path, reading=Options(station=asked)).answers
+    (one, damaged) = survey_stations(event, read_options=ReadOptions(station=asked)).answers
+    (other,) = survey_stations(tmp_path, read_options=ReadOptions(station=asked)).answers
     assert one.station == other.station == "SYA005" and one.pga_m_s2 == other.pga_m_s2
     assert damaged.failure is not None
     with pytest.raises(ParameterError, match="no station 'NOWHERE'"):
-        survey_stations(tmp_path, reading=Options(station="NOWHERE"))
+        survey_stations(tmp_path, read_options=ReadOptions(station="NOWHERE"))
 
 
 def test_two_earthquakes_are_refused(tmp_path):
@@ -198,7 +198,7 @@ def test_nothing_to_survey():
     with pytest.raises(ParameterError, match="there is no record"):
         survey_stations([])
     with pytest.raises(ParameterError, match="by a criterion"):
-        StandingStones(read_cemetery("aoyama.csv"), Method("simulate"))
+        StationCemetery(read_cemetery("aoyama.csv"), AssessmentMethod("simulate"))
 
 
 def test_every_direction_is_looked_in():
@@ -207,6 +207,6 @@ def test_every_direction_is_looked_in():
     north = record.component("NS").acceleration
     half = north / np.sqrt(2)
     along = record.with_components([Component("NS", half), Component("EW", half), record.component("UD")], "turned")
-    answer = survey_stations([along], StandingStones(read_cemetery("aoyama.csv"))).answers[0]
+    answer = survey_stations([along], StationCemetery(read_cemetery("aoyama.csv"))).answers[0]
     assert answer.effect.azimuth_deg == 45.0
     assert answer.pga_m_s2 == pytest.approx(np.abs(north).max() / np.sqrt(2))

@@ -7,14 +7,14 @@ import pytest
 
 import seisblock
 from seisblock.bodies.block import Block
-from seisblock.errors import SolverError
+from seisblock.core.errors import SolverError
+from seisblock.models.respond.batch import respond_many
 from seisblock.readers import read
 from seisblock.records import Motion
-from seisblock.solvers.respond.many import respond_many
 from seisblock.studies.batch.run import run_batch
-from seisblock.studies.standing import azimuths, mode_map, probability
-from seisblock.studies.stations.effects import StandingBody
-from seisblock.studies.stations.survey import survey_stations
+from seisblock.studies.map.station_response import StationBody
+from seisblock.studies.map.stations import survey_stations
+from seisblock.studies.respond import azimuths, mode_map, probability
 from tests.solvers.respond.cases import leaning
 
 BLOCK = Block(0.24, 0.8, name="shelf")
@@ -63,7 +63,7 @@ def test_run_batch_names_versions_without_an_answer(lossy):
 
 def test_survey_stations_leaves_out_a_direction_without_an_answer(lossy):
     """The worst direction is one with an answer; the station's doubts name the other."""
-    subject = StandingBody(BLOCK, {"mu": 0.5}, step_deg=45.0)
+    subject = StationBody(BLOCK, {"mu": 0.5}, step_deg=45.0)
     record = read("synthetic_jma.csv")
     worst = azimuths.respond_directions(BLOCK, record, mu=0.5, step_deg=45.0)[0].azimuth_deg
     lossy(azimuths, [round(worst / 45.0)])
@@ -77,13 +77,13 @@ def test_mode_map_marks_a_cell_without_an_answer(lossy):
     """The cell is none of the modes, and the share of the others is of all cells."""
     lossy(mode_map, [1])
     found = mode_map.mode_map([0.2, 0.6], [1.0], [0.2], PULSE)
-    assert [mode_map.GOVERNING[index] for index in found.governing[0]] == ["slide", "no answer"]
+    assert [mode_map.MODES_BY_SEVERITY[index] for index in found.governing[0]] == ["slide", "no answer"]
     assert found.share("no answer") == 0.5
 
 
 def test_respond_many_answers_the_other_rows():
     """A row that hops without end is marked; the others are those of runs of their own."""
-    settings = [seisblock.make_setting(BLOCK, mu=0.5, restitution=e) for e in (0.0, 0.9999999, 0.3)]
+    settings = [seisblock.respond_params(BLOCK, mu=0.5, restitution=e) for e in (0.0, 0.9999999, 0.3)]
     start = leaning(BLOCK, 1e-8)
     still = Motion.from_arrays(np.zeros(101), 0.01)
     fates = respond_many(settings, still, initial=start)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import BodyError
-from seisblock.typing import BoolArray, FloatArray, IntArray
-from seisblock.units import SUN
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.typing import BoolArray, FloatArray, IntArray
+from seisblock.core.units import SUN
 
 PAPER_WIDTH = 8 * SUN
 """Width of a sao when none is known, m: that of the stones behind the criterion ([Furukawa2009]_ table 1)."""
@@ -122,7 +122,7 @@ class Cemetery:
         return np.repeat(np.array([default if stone.width is None else stone.width for stone in self.stones]), self._counts)
 
     @property
-    def surveyed(self) -> bool:
+    def has_survey(self) -> bool:
         """Whether it is known of some stone if it fell."""
         return any(stone.fallen is not None for stone in self.stones)
 
@@ -134,11 +134,11 @@ class Cemetery:
         """Return the cemetery with each row taken for one stone."""
         return replace(self, stones=tuple(replace(stone, count=1) for stone in self.stones))
 
-    def only(self, keep: Callable[[Stone], bool]) -> Cemetery:
+    def select(self, predicate: Callable[[Stone], bool]) -> Cemetery:
         """Return the cemetery of those stones for which `keep` is true."""
-        return replace(self, stones=tuple(stone for stone in self.stones if keep(stone)))
+        return replace(self, stones=tuple(stone for stone in self.stones if predicate(stone)))
 
-    def dowelled(self, most_fragile: int | None = None) -> Cemetery:
+    def with_dowels(self, most_fragile: int | None = None) -> Cemetery:
         """Return the cemetery with all stones reinforced, or with only so many more, the most slender first.
 
         Parameters
@@ -148,16 +148,16 @@ class Cemetery:
         """
         if most_fragile is None:
             return replace(self, stones=tuple(replace(stone, reinforced=True) for stone in self.stones))
-        left, stones = most_fragile, list(self.stones)
+        remaining, stones = most_fragile, list(self.stones)
         for index in sorted(range(len(stones)), key=lambda i: -stones[i].height_over_width):
             stone = stones[index]
-            if stone.reinforced or left <= 0:
+            if stone.reinforced or remaining <= 0:
                 continue
-            given = min(left, stone.count)
-            left -= given
-            stones[index] = replace(stone, reinforced=True, count=given)
-            if given < stone.count:
-                stones.append(replace(stone, count=stone.count - given))
+            dowelled_count = min(remaining, stone.count)
+            remaining -= dowelled_count
+            stones[index] = replace(stone, reinforced=True, count=dowelled_count)
+            if dowelled_count < stone.count:
+                stones.append(replace(stone, count=stone.count - dowelled_count))
         return replace(self, stones=tuple(stones))
 
     @property

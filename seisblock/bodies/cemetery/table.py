@@ -6,28 +6,28 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
-from seisblock.bodies.sheet import (
-    NO,
-    YES,
-    also_bad,
-    cells_of,
-    heading,
-    is_bare,
-    length_of,
-    number_of,
-    row_of,
-    rows_of,
-    separator_of,
-    sheet_text,
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, InputError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.io.csv_table import (
+    FALSE_WORDS,
+    TRUE_WORDS,
+    data_lines,
+    find_separator,
+    is_bare_number,
+    more_bad_rows,
+    parse_heading,
+    parse_length_cell,
+    parse_number_cell,
+    read_text,
+    row_dict,
+    split_cells,
 )
-from seisblock.errors import BodyError, InputError
-from seisblock.limits import check_budget
-from seisblock.samples import file_or_sample, samples_of
-from seisblock.words import noted, said
+from seisblock.core.limits import check_limit
+from seisblock.samples import resolve_file_or_sample, sample_names
 
-_NAMES = {
+_COLUMN_NAMES = {
     "height_over_width": (
         "heightoverwidth",
         "h/b",
@@ -49,20 +49,24 @@ _NAMES = {
 }
 """Column names accepted, without case, blanks and underscores."""
 
-_COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
-_WORDS = {
-    "fallen": (YES | {"fallen", "overturned", "転倒"}, NO | {"standing", "stood", "残存"}, noted("0, 1, yes, no, 転倒 or 残存")),
+_COLUMNS = {spelling: name for name, spellings in _COLUMN_NAMES.items() for spelling in spellings}
+_BOOLEAN_WORDS = {
+    "fallen": (
+        TRUE_WORDS | {"fallen", "overturned", "転倒"},
+        FALSE_WORDS | {"standing", "stood", "残存"},
+        N_("0, 1, yes, no, 転倒 or 残存"),
+    ),
     "reinforced": (
-        YES | {"reinforced", "補強", "補強有", "補強あり"},
-        NO | {"unreinforced", "無補強", "補強なし"},
-        noted("0, 1, yes or no"),
+        TRUE_WORDS | {"reinforced", "補強", "補強有", "補強あり"},
+        FALSE_WORDS | {"unreinforced", "無補強", "補強なし"},
+        N_("0, 1, yes or no"),
     ),
 }
 
-LARGEST = 20.0
+MAX_SIZE = 20.0
 """A stone beyond this, m, is taken for a number whose unit was forgotten."""
 
-DISAGREEMENT = 0.05
+RATIO_TOLERANCE = 0.05
 """Largest relative difference between a ratio written down and that of the sizes beside it."""
 
 
@@ -89,135 +93,139 @@ def read_cemetery(name: str | Path) -> Cemetery:
     >>> read_cemetery("aoyama.csv").size
     100
     """
-    text = sheet_text(_path(name), str(name))
+    text = read_text(_resolve_path(name), str(name))
     return parse_cemetery(text, source=str(name))
 
 
 def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     """Return a cemetery from the text of a table, see :func:`read_cemetery`."""
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
-    filled = rows_of(text)
-    if not filled:
+    data_rows = data_lines(text)
+    if not data_rows:
         raise BodyError("{source}: there is no gravestone in it, only {count} empty lines and comments", source=source, count=len(lines))
-    (header_line, header), rows = filled[0], filled[1:]
-    separator = separator_of(header)
-    columns, units = _header(cells_of(header, separator), source, header_line)
+    (header_line, header), rows = data_rows[0], data_rows[1:]
+    separator = find_separator(header)
+    columns, units = _parse_header(split_cells(header, separator), source, header_line)
     if not rows:
-        empty = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
-        raise BodyError(empty, source=source, line=header_line)
-    stones, wrong = [], []
+        template = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
+        raise BodyError(template, source=source, line=header_line)
+    stones, bad_rows = [], []
     for number, line in rows:
         try:
-            stones.append(_stone(row_of(columns, cells_of(line, separator)), units, number))
+            stones.append(_parse_stone(row_dict(columns, split_cells(line, separator)), units, number))
         except InputError as error:
-            wrong.append((number, error.said))
-    if wrong:
-        (at, what), others = wrong[0], also_bad([number for number, _ in wrong[1:]])
-        raise BodyError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=others)
+            bad_rows.append((number, error.message))
+    if bad_rows:
+        (bad_line, message), more_text = bad_rows[0], more_bad_rows([number for number, _ in bad_rows[1:]])
+        raise BodyError("{source}, line {line}: {what}{others}", source=source, line=bad_line, what=message, others=more_text)
     size = sum(stone.count for stone in stones)
-    check_budget(noted("gravestones"), size, "SEISBLOCK_STONES", where=source, error=BodyError)
+    check_limit(N_("gravestones"), size, "SEISBLOCK_STONES", source=source, error=BodyError)
     notes = tuple(line.lstrip("# ").rstrip() for number, line in lines if number < header_line and line.startswith("#"))
     return Cemetery(tuple(stones), Path(source).stem, source, notes)
 
 
-def _path(name: str | Path) -> Path:
+def _resolve_path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled cemetery."""
     path = Path(checks.path(name))
     if path.is_dir():
         raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
-    found = file_or_sample(path, "cemetery")
-    if found is None:
+    resolved = resolve_file_or_sample(path, "cemetery")
+    if resolved is None:
         raise BodyError(
-            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}", name=name, known=samples_of("cemetery")
+            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}", name=name, known=sample_names("cemetery")
         )
-    return found
+    return resolved
 
 
-def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
+def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
     """Return the meaning of each column, empty for those passed over, and the units that stand in their names."""
     columns, units = [], {}
     for cell in cells:
-        name, unit = heading(cell, _COLUMNS)
+        name, unit = parse_heading(cell, _COLUMNS)
         if name and name in columns:
             raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         columns.append(name)
         if unit and name in ("height", "width"):
             units[name] = unit
     if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
-        found = cells or said("none")
+        columns_found = cells or lazy_gettext("none")
         raise BodyError(
             "{source}, line {line}: expected a column height_over_width, or height and width; found {found}",
             source=source,
             line=line,
-            found=found,
+            found=columns_found,
         )
     return columns, units
 
 
-def _stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
+def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
     """Return the stone of one row."""
-    width, height = (_size(row, key, units) for key in ("width", "height"))
-    ratio = _number(row, "height_over_width")
+    width, height = (_parse_size(row, key, units) for key in ("width", "height"))
+    ratio = _parse_number(row, "height_over_width")
     if ratio is not None:
         checks.positive("height over width", ratio, error=BodyError)
     if width is not None and height is not None:
-        if ratio is not None and abs(height / width / ratio - 1.0) > DISAGREEMENT:
+        if ratio is not None and abs(height / width / ratio - 1.0) > RATIO_TOLERANCE:
             raise BodyError("height over width is {ratio:g}, but height and width give {found:.3g}", ratio=ratio, found=height / width)
         ratio = height / width if ratio is None else ratio
     elif ratio is None:
-        missing = [name for name, value in (("height", height), ("width", width)) if value is None]
-        raise BodyError("there is neither height over width nor height and width: {missing} empty", missing=missing)
+        missing_names = [name for name, value in (("height", height), ("width", width)) if value is None]
+        raise BodyError("there is neither height over width nor height and width: {missing} empty", missing=missing_names)
     elif height is not None:
         width = height / ratio
     return Stone(
         ratio,
         width,
-        reinforced=bool(_truth(row, "reinforced")),
-        fallen=_truth(row, "fallen"),
-        azimuth_deg=_number(row, "azimuth_deg"),
-        count=_count(row),
+        reinforced=bool(_parse_bool(row, "reinforced")),
+        fallen=_parse_bool(row, "fallen"),
+        azimuth_deg=_parse_number(row, "azimuth_deg"),
+        count=_parse_count(row),
         line=line,
     )
 
 
-def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float | None:
+def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float | None:
     """Return a length in metres, None where the cell is empty."""
     text = row.get(key, "")
     if not text:
         return None
-    bare, unit = is_bare(text), units.get(key, "")
-    value = length_of(text, key, unit)
+    has_no_unit, unit = is_bare_number(text), units.get(key, "")
+    value = parse_length_cell(text, key, unit)
     if not value > 0.0:
         raise BodyError("{key} must be positive, found {text}", key=key, text=text)
-    if value > LARGEST:
-        remedy = said(" (without a unit it means metres: name the column for example {key} (cm))", key=key) if bare and not unit else ""
+    if value > MAX_SIZE:
+        remedy = (
+            lazy_gettext(" (without a unit it means metres: name the column for example {key} (cm))", key=key)
+            if has_no_unit and not unit
+            else ""
+        )
         raise BodyError("{key} of {value:g} m is no gravestone{remedy}", key=key, value=value, remedy=remedy)
     return value
 
 
-def _number(row: Mapping[str, str], key: str) -> float | None:
+def _parse_number(row: Mapping[str, str], key: str) -> float | None:
     """Return a number, None where the cell is empty."""
     text = row.get(key, "")
-    return number_of(text, key) if text else None
+    return parse_number_cell(text, key) if text else None
 
 
-def _count(row: Mapping[str, str]) -> int:
+def _parse_count(row: Mapping[str, str]) -> int:
     """Return how many stones a row stands for, one where the cell is empty."""
-    value = _number(row, "count")
+    value = _parse_number(row, "count")
     if value is None:
         return 1
     if not (1 <= value < math.inf and value == int(value)):
         raise BodyError("count must be a whole number of stones, 1 or more, found {count}", count=row["count"])
-    check_budget(noted("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
+    check_limit(N_("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
     return int(value)
 
 
-def _truth(row: Mapping[str, str], key: str) -> bool | None:
+def _parse_bool(row: Mapping[str, str], key: str) -> bool | None:
     """Return yes, no, or None where the cell is empty."""
     text = row.get(key, "")
-    yes, no, expected = _WORDS[key]
+    true_words, false_words, expected = _BOOLEAN_WORDS[key]
     if not text:
         return None
-    if text.casefold() not in yes | no:
-        raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=said(expected), text=text)
-    return text.casefold() in yes
+    if text.casefold() not in true_words | false_words:
+        raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=lazy_gettext(expected), text=text)
+    return text.casefold() in true_words

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Protocol
 
-from seisblock import checks
-from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, carrying, lies_over
-from seisblock.errors import BodyError
-from seisblock.words import noted, said
+from seisblock.bodies.pile.stone import CONTACT_TOLERANCE, GROUND, Joint, PileStone, bearing_rectangle, overlaps_in_plan
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_, lazy_gettext
 
 
-class Standing(Protocol):
+class PileLike(Protocol):
     """What the checks look at: a pile, or one about to be."""
 
     @property
@@ -34,7 +34,7 @@ class Standing(Protocol):
     def bodies(self) -> Iterator[tuple[int, ...]]: ...  # noqa: D102
 
 
-def check_pile(pile: Standing) -> None:
+def check_pile(pile: PileLike) -> None:
     """Refuse a pile that cannot be what is meant.
 
     Raises
@@ -51,28 +51,28 @@ def check_pile(pile: Standing) -> None:
     _check_balance(pile, joints)
 
 
-def _check_names(pile: Standing) -> None:
+def _check_names(pile: PileLike) -> None:
     """Refuse a pile whose names do not say what stands on what."""
     if not pile.stones:
         raise BodyError("the pile {name} has no stones: give at least one", name=pile.name)
-    seen: set[str] = set()
+    names_below: set[str] = set()
     for stone in pile.stones:
-        if stone.name in seen or stone.name == GROUND:
+        if stone.name in names_below or stone.name == GROUND:
             raise BodyError("two stones of the pile {pile} are called {name}: give each its own name", pile=pile.name, name=stone.name)
-        if stone.on != GROUND and stone.on not in seen:
+        if stone.on != GROUND and stone.on not in names_below:
             raise BodyError(
                 "the stone {name} stands on {on!r}, which is not before it in the list: {known}",
                 name=stone.name,
                 on=stone.on,
-                known=[GROUND, *sorted(seen)],
+                known=[GROUND, *sorted(names_below)],
             )
-        seen.add(stone.name)
-    for what, names in ((noted("dowel"), [n for group in pile.dowels for n in group]), (noted("fixed stone"), list(pile.fixed))):
+        names_below.add(stone.name)
+    for role, names in ((N_("dowel"), [n for group in pile.dowels for n in group]), (N_("fixed stone"), list(pile.fixed))):
         for name in names:
-            if name not in seen:
+            if name not in names_below:
                 raise BodyError(
                     "the {what} names {name!r}, but the pile {pile} has {names}",
-                    what=said(what),
+                    what=lazy_gettext(role),
                     name=name,
                     pile=pile.name,
                     names=list(pile.names),
@@ -81,103 +81,103 @@ def _check_names(pile: Standing) -> None:
         raise BodyError("every stone of the pile {name} is fixed: leave at least one free", name=pile.name)
 
 
-def _check_friction(pile: Standing) -> None:
+def _check_friction(pile: PileLike) -> None:
     """Refuse friction that is none, or more of it once a stone slides than before."""
     if not pile.mu >= 0.0:
         raise BodyError("friction of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
-    clings, slides = pile.friction()
-    checks.not_negative("kinetic friction", slides, error=BodyError)
-    if slides > clings:
-        raise BodyError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=slides, mu=clings)
+    static, kinetic = pile.friction()
+    checks.non_negative("kinetic friction", kinetic, error=BodyError)
+    if kinetic > static:
+        raise BodyError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=kinetic, mu=static)
     for stone in pile.stones:
-        clings, slides = pile.friction(stone)
-        if slides > clings:
+        static, kinetic = pile.friction(stone)
+        if kinetic > static:
             raise BodyError(
                 "kinetic friction under the stone {name}, {kinetic:g}, is more than its static friction, {mu:g}",
                 name=stone.name,
-                kinetic=slides,
-                mu=clings,
+                kinetic=kinetic,
+                mu=static,
             )
 
 
-def _check_overlaps(pile: Standing) -> None:
+def _check_overlaps(pile: PileLike) -> None:
     """Refuse stones in each other or in the ground."""
     centres = pile.centres()
-    for i, (a, stone) in enumerate(zip(centres, pile.stones, strict=True)):
-        if a[2] - 0.5 * stone.height < -TOUCHING:
+    for i, (centre, stone) in enumerate(zip(centres, pile.stones, strict=True)):
+        if centre[2] - 0.5 * stone.height < -CONTACT_TOLERANCE:
             raise BodyError(
                 "the stone {name} reaches {depth:.4g} m into the ground: raise its bottom to 0",
                 name=stone.name,
-                depth=0.5 * stone.height - a[2],
+                depth=0.5 * stone.height - centre[2],
             )
         for j in range(i):
-            other = pile.stones[j]
-            inside = min(0.5 * (stone.size[k] + other.size[k]) - abs(a[k] - centres[j][k]) for k in range(3))
-            if inside > TOUCHING and lies_over(a, stone, centres[j], other):
+            other_stone = pile.stones[j]
+            penetration = min(0.5 * (stone.size[k] + other_stone.size[k]) - abs(centre[k] - centres[j][k]) for k in range(3))
+            if penetration > CONTACT_TOLERANCE and overlaps_in_plan(centre, stone, centres[j], other_stone):
                 raise BodyError(
                     "the stones {one} and {other} overlap by {inside:.4g} m: move one of them",
-                    one=other.name,
+                    one=other_stone.name,
                     other=stone.name,
-                    inside=inside,
+                    inside=penetration,
                 )
 
 
-def _check_floating(pile: Standing, joints: list[Joint]) -> None:
+def _check_floating(pile: PileLike, joints: list[Joint]) -> None:
     """Refuse a stone under which there is nothing."""
     for i, stone in enumerate(pile.stones):
         if stone.name not in pile.fixed and not any(joint.upper == i for joint in joints):
             raise BodyError("the stone {name} floats: no stone and no ground touches its lower face", name=stone.name)
 
 
-def _check_dowels(pile: Standing, joints: list[Joint]) -> None:
+def _check_dowels(pile: PileLike, joints: list[Joint]) -> None:
     """Refuse a dowel between stones that do not touch."""
     touching = {frozenset((joint.upper, joint.lower)) for joint in joints}
-    used: set[str] = set()
+    dowelled_names: set[str] = set()
     for group in pile.dowels:
         if len(group) < 2:
-            raise BodyError("a dowel holds at least two stones together, found only {group}", group=list(group) or said("none"))
+            raise BodyError("a dowel holds at least two stones together, found only {group}", group=list(group) or lazy_gettext("none"))
         for lower, upper in pairwise(group):
             if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching:
                 raise BodyError("the dowel between {lower} and {upper} holds nothing: these stones do not touch", lower=lower, upper=upper)
-        twice = used & set(group)
-        if twice:
-            raise BodyError("the stone {name} is in two dowels: name all stones it is held to in one", name=min(twice))
-        used |= set(group)
+        repeated_names = dowelled_names & set(group)
+        if repeated_names:
+            raise BodyError("the stone {name} is in two dowels: name all stones it is held to in one", name=min(repeated_names))
+        dowelled_names |= set(group)
 
 
-def _check_balance(pile: Standing, joints: list[Joint]) -> None:
+def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
     """Refuse a pile of which some part would tip over at rest."""
     centres = pile.centres()
-    whole = {i: group for group in pile.bodies() for i in group}
-    for body in dict.fromkeys(whole.values()):
+    group_of_stone = {i: group for group in pile.bodies() for i in group}
+    for body in dict.fromkeys(group_of_stone.values()):
         supports = [joint for joint in joints if joint.upper in body and joint.lower not in body]
-        carried = _carried(body, whole, joints)
-        mass = sum(pile.stones[i].mass for i in carried)
-        worn = [carrying(joint, pile.stones, centres) for joint in supports]
-        for axis, sides in enumerate(zip(*worn, strict=True)):
-            at = sum(pile.stones[i].mass * centres[i][axis] for i in carried) / mass
+        supported_stones = _supported_stones(body, group_of_stone, joints)
+        mass = sum(pile.stones[i].mass for i in supported_stones)
+        rectangles = [bearing_rectangle(joint, pile.stones, centres) for joint in supports]
+        for axis, sides in enumerate(zip(*rectangles, strict=True)):
+            centroid = sum(pile.stones[i].mass * centres[i][axis] for i in supported_stones) / mass
             low, high = min(side[0] for side in sides), max(side[1] for side in sides)
-            if not low < at < high:
+            if not low < centroid < high:
                 name = pile.stones[min(supports, key=lambda joint: joint.height).upper].name
                 raise BodyError(
                     "the pile {pile} is unstable at rest: the stone {name}, with what it carries, has its centre of gravity "
                     "{depth:.4g} m outside what it stands on, along {axis}",
                     pile=pile.name,
                     name=name,
-                    depth=max(low - at, at - high),
+                    depth=max(low - centroid, centroid - high),
                     axis="xy"[axis],
                 )
 
 
-def _carried(body: tuple[int, ...], whole: dict[int, tuple[int, ...]], joints: list[Joint]) -> set[int]:
+def _supported_stones(body: tuple[int, ...], group_of_stone: dict[int, tuple[int, ...]], joints: list[Joint]) -> set[int]:
     """Return the stones of a body and all that stand on it alone."""
-    carried = set(body)
-    growing = True
-    while growing:
-        growing = False
-        for group in set(whole.values()):
-            under = {joint.lower for joint in joints if joint.upper in group and joint.lower not in group}
-            if not set(group) <= carried and under and under <= carried:
-                carried |= set(group)
-                growing = True
-    return carried
+    supported_stones = set(body)
+    changed = True
+    while changed:
+        changed = False
+        for group in set(group_of_stone.values()):
+            supports = {joint.lower for joint in joints if joint.upper in group and joint.lower not in group}
+            if not set(group) <= supported_stones and supports and supports <= supported_stones:
+                supported_stones |= set(group)
+                changed = True
+    return supported_stones

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock import checks
-from seisblock.errors import ParameterError
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
 
 
 @dataclass(frozen=True)
@@ -48,11 +48,11 @@ class PileContact:
             if value is not None:
                 checks.positive("{name} of the contact", value, name=name)
         for name in ("normal_damping", "shear_damping", "damping_ratio"):
-            checks.not_negative("{name} of the contact", getattr(self, name), name=name)
+            checks.non_negative("{name} of the contact", getattr(self, name), name=name)
         if self.young is not None and self.stiffness is not None:
             raise ParameterError("the contact takes Young's modulus or the stiffness per area, not both")
 
-    def of_joint(self, mass: float, area: float, length_: float, points: int) -> tuple[float, float, float, float]:
+    def point_coefficients(self, mass: float, area: float, length: float, points: int) -> tuple[float, float, float, float]:
         """Return normal spring and dashpot, shear spring and dashpot of one point of a joint, N/m and N s/m.
 
         Parameters
@@ -64,9 +64,9 @@ class PileContact:
         points : int
             How many points share the joint.
         """
-        per_area = self.stiffness if self.young is None else self.young / length_
+        per_area = self.stiffness if self.young is None else self.young / length
         if per_area is None:
             return mass * self.normal, mass * self.normal_damping, mass * self.shear, mass * self.shear_damping
-        whole = per_area * area
-        dashpot = 2.0 * self.damping_ratio * math.sqrt(whole * mass)
-        return whole / points, dashpot / points, self.shear_ratio * whole / points, self.shear_ratio * dashpot / points
+        stiffness = per_area * area
+        dashpot = 2.0 * self.damping_ratio * math.sqrt(stiffness * mass)
+        return stiffness / points, dashpot / points, self.shear_ratio * stiffness / points, self.shear_ratio * dashpot / points

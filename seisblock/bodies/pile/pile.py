@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.pile.checks import check_pile
-from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, lies_over, overlap, span
-from seisblock.bodies.ranges import Ranges
-from seisblock.errors import BodyError, ParameterError
+from seisblock.bodies.pile.stone import CONTACT_TOLERANCE, GROUND, Joint, PileStone, interval_overlap, overlaps_in_plan, span
+from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core.errors import BodyError, ParameterError
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Pile:
     dowels: tuple[tuple[str, ...], ...] = ()
     fixed: tuple[str, ...] = ()
     mu: float = 0.438
-    ranges: Ranges | None = field(default=None, repr=False)
+    ranges: ParameterRanges | None = field(default=None, repr=False)
     mu_kinetic: float | None = None
 
     def __post_init__(self) -> None:
@@ -57,41 +57,41 @@ class Pile:
 
     def centres(self) -> list[tuple[float, float, float]]:
         """Return the centres of the stones, m, seen from the ground under the pile."""
-        found: dict[str, tuple[float, float, float]] = {}
+        centre_by_name: dict[str, tuple[float, float, float]] = {}
         for stone in self.stones:
             x, y, top = 0.0, 0.0, 0.0
             if stone.on != GROUND:
-                below = self.stones[self.names.index(stone.on)]
-                x, y, middle = found[stone.on]
-                top = middle + 0.5 * below.height
+                support = self.stones[self.names.index(stone.on)]
+                x, y, middle = centre_by_name[stone.on]
+                top = middle + 0.5 * support.height
             bottom = top if stone.bottom is None else stone.bottom
-            found[stone.name] = (x + stone.offset[0], y + stone.offset[1], bottom + 0.5 * stone.height)
-        return [found[stone.name] for stone in self.stones]
+            centre_by_name[stone.name] = (x + stone.offset[0], y + stone.offset[1], bottom + 0.5 * stone.height)
+        return [centre_by_name[stone.name] for stone in self.stones]
 
     def joints(self) -> list[Joint]:
         """Return where stones stand on each other and on the ground."""
         centres = self.centres()
-        made = []
+        result = []
         for upper, stone in enumerate(self.stones):
             floor = centres[upper][2] - 0.5 * stone.height
-            if abs(floor) <= TOUCHING:
-                made.append(Joint(upper, -1, span(centres[upper][0], stone.width), span(centres[upper][1], stone.depth), floor))
-            for lower, below in enumerate(self.stones):
-                if lower != upper and abs(centres[lower][2] + 0.5 * below.height - floor) <= TOUCHING:
-                    shared = [overlap(centres[upper][k], stone.size[k], centres[lower][k], below.size[k]) for k in (0, 1)]
-                    if lies_over(centres[upper], stone, centres[lower], below):
-                        made.append(Joint(upper, lower, shared[0], shared[1], floor))
-        return made
+            if abs(floor) <= CONTACT_TOLERANCE:
+                result.append(Joint(upper, -1, span(centres[upper][0], stone.width), span(centres[upper][1], stone.depth), floor))
+            for lower, lower_stone in enumerate(self.stones):
+                if lower != upper and abs(centres[lower][2] + 0.5 * lower_stone.height - floor) <= CONTACT_TOLERANCE:
+                    overlaps = [interval_overlap(centres[upper][k], stone.size[k], centres[lower][k], lower_stone.size[k]) for k in (0, 1)]
+                    if overlaps_in_plan(centres[upper], stone, centres[lower], lower_stone):
+                        result.append(Joint(upper, lower, overlaps[0], overlaps[1], floor))
+        return result
 
     def bodies(self) -> Iterator[tuple[int, ...]]:
         """Yield the stones that move as one, without the fixed ones."""
         index = {name: i for i, name in enumerate(self.names)}
-        held = {name: tuple(sorted(index[member] for member in group)) for group in self.dowels for name in group}
-        done: set[int] = set()
+        group_of_stone = {name: tuple(sorted(index[member] for member in group)) for group in self.dowels for name in group}
+        visited: set[int] = set()
         for i, name in enumerate(self.names):
-            members = held.get(name, (i,))
-            if i not in done and not any(self.names[m] in self.fixed for m in members):
-                done.update(members)
+            members = group_of_stone.get(name, (i,))
+            if i not in visited and not any(self.names[m] in self.fixed for m in members):
+                visited.update(members)
                 yield members
 
     def friction(self, stone: PileStone | None = None) -> tuple[float, float]:
@@ -101,19 +101,19 @@ class Pile:
         --------
         >>> from seisblock.bodies.pile.stone import PileStone
         >>> pile = Pile("two", (PileStone("low", 1.0, 1.0, 0.5, mu=0.3), PileStone("high", 1.0, 1.0, 0.5, on="low")), mu=0.7)
-        >>> pile.friction(), [pile.sliding_at(0.25).friction(stone) for stone in pile.stones]
+        >>> pile.friction(), [pile.with_kinetic_friction(0.25).friction(stone) for stone in pile.stones]
         ((0.7, 0.7), [(0.3, 0.25), (0.7, 0.25)])
         """
-        clings = self.mu if stone is None or stone.mu is None else stone.mu
-        slides = self.mu_kinetic if stone is None or stone.mu_kinetic is None else stone.mu_kinetic
-        return clings, clings if slides is None else slides
+        static = self.mu if stone is None or stone.mu is None else stone.mu
+        kinetic = self.mu_kinetic if stone is None or stone.mu_kinetic is None else stone.mu_kinetic
+        return static, static if kinetic is None else kinetic
 
     @property
-    def slides_easier(self) -> bool:
+    def has_lower_kinetic_friction(self) -> bool:
         """Whether any kinetic friction is below static friction."""
-        return any(slides < clings for clings, slides in map(self.friction, (None, *self.stones)))
+        return any(kinetic < static for static, kinetic in map(self.friction, (None, *self.stones)))
 
-    def sliding_at(self, mu_kinetic: float) -> Pile:
+    def with_kinetic_friction(self, mu_kinetic: float) -> Pile:
         """Return the pile with the same kinetic friction in every joint, 1.
 
         Raises
@@ -125,13 +125,13 @@ class Pile:
         try:
             return replace(self, mu_kinetic=mu_kinetic, stones=stones)
         except BodyError as error:
-            raise ParameterError("{why}", why=error.said) from None
+            raise ParameterError("{why}", why=error.message) from None
 
     def without(self, *names: str) -> Pile:
         """Return the pile without some of its stones, on which none of the others may stand."""
-        kept = tuple(stone for stone in self.stones if stone.name not in names)
+        stones = tuple(stone for stone in self.stones if stone.name not in names)
         dowels = tuple(group for group in self.dowels if not set(group) & set(names))
-        return replace(self, stones=kept, dowels=dowels, fixed=tuple(name for name in self.fixed if name not in names))
+        return replace(self, stones=stones, dowels=dowels, fixed=tuple(name for name in self.fixed if name not in names))
 
     def as_block(self) -> Block:
         """Return it as one rigid block that moves along x: the base of what touches the ground, mass, centre and inertia of all.
@@ -139,43 +139,43 @@ class Pile:
         Its height is that of the highest stone; stones that stand wider than the base do not widen it.
         """
         centres = self.centres()
-        loose = [i for i, name in enumerate(self.names) if name not in self.fixed]
-        floor = min(centres[i][2] - 0.5 * self.stones[i].height for i in loose)
-        feet = [i for i in loose if centres[i][2] - 0.5 * self.stones[i].height - floor <= TOUCHING]
-        low = min(centres[i][0] - 0.5 * self.stones[i].width for i in feet)
-        high = max(centres[i][0] + 0.5 * self.stones[i].width for i in feet)
-        mass = sum(self.stones[i].mass for i in loose)
-        x, z = (sum(self.stones[i].mass * centres[i][axis] for i in loose) / mass for axis in (0, 2))
+        free_stones = [i for i, name in enumerate(self.names) if name not in self.fixed]
+        floor = min(centres[i][2] - 0.5 * self.stones[i].height for i in free_stones)
+        base_stones = [i for i in free_stones if centres[i][2] - 0.5 * self.stones[i].height - floor <= CONTACT_TOLERANCE]
+        low = min(centres[i][0] - 0.5 * self.stones[i].width for i in base_stones)
+        high = max(centres[i][0] + 0.5 * self.stones[i].width for i in base_stones)
+        mass = sum(self.stones[i].mass for i in free_stones)
+        x, z = (sum(self.stones[i].mass * centres[i][axis] for i in free_stones) / mass for axis in (0, 2))
         inertia = sum(
             self.stones[i].mass * (float(self.stones[i].gyration_squared[1]) + (centres[i][0] - x) ** 2 + (centres[i][2] - z) ** 2)
-            for i in loose
+            for i in free_stones
         )
-        top = max(centres[i][2] + 0.5 * self.stones[i].height for i in loose)
+        top = max(centres[i][2] + 0.5 * self.stones[i].height for i in free_stones)
         return Block(
             high - low,
             top - floor,
-            max(self.stones[i].depth for i in feet),
+            max(self.stones[i].depth for i in base_stones),
             mass,
             centroid_height=z - floor,
             centroid_offset=x - 0.5 * (low + high),
             centroid_inertia=inertia,
             name=self.name,
-            inset=max(self.stones[i].insets()[0] for i in feet),
+            inset=max(self.stones[i].insets()[0] for i in base_stones),
             ranges=self.ranges,
         )
 
-    def worn(self, inset: Inset | float) -> Pile:
+    def with_wear(self, inset: EdgeWear | float) -> Pile:
         """Return the pile with worn edges: every stone with the same share of its width per side, or the same inset.
 
         Examples
         --------
         >>> from seisblock.bodies.pile.toml import load_pile
-        >>> [round(stone.insets()[0], 4) for stone in load_pile("lantern").worn(0.1).stones]
+        >>> [round(stone.insets()[0], 4) for stone in load_pile("lantern").with_wear(0.1).stones]
         [0.06, 0.026, 0.048, 0.034, 0.064, 0.02]
         """
-        same = inset if isinstance(inset, Inset) else Inset(share=inset)
-        return replace(self, stones=tuple(replace(stone, inset=same) for stone in self.stones))
+        wear = inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset)
+        return replace(self, stones=tuple(replace(stone, inset=wear) for stone in self.stones))
 
-    def dowelled(self, *names: str) -> Pile:
+    def with_dowels(self, *names: str) -> Pile:
         """Return the pile with these stones held together."""
         return replace(self, dowels=(*self.dowels, names))

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.bodies.inset import SHARP, Inset
-from seisblock.errors import BodyError, ParameterError
-from seisblock.typing import FloatArray
-from seisblock.units import remark_on_lengths
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, ParameterError
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import warn_large_lengths
 
 GROUND = "ground"
 """What the lowest stones stand on."""
-GRANITE = 2650.0
+GRANITE_DENSITY = 2650.0
 """Density of granite, kg/m^3; the motion of a pile of one stone does not depend on it."""
-TOUCHING = 1e-6
+CONTACT_TOLERANCE = 1e-6
 """Faces this close, m, touch."""
 RECTANGULAR, ROUND = "rectangular", "round"
 """Shapes in plan."""
@@ -71,11 +71,11 @@ class PileStone:
     height: float
     offset: tuple[float, float] = (0.0, 0.0)
     on: str = GROUND
-    density: float = GRANITE
+    density: float = GRANITE_DENSITY
     mu: float | None = None
     bottom: float | None = None
     shape: str = RECTANGULAR
-    inset: Inset = SHARP
+    inset: EdgeWear = SHARP_EDGES
     mu_kinetic: float | None = None
 
     def __post_init__(self) -> None:
@@ -83,11 +83,11 @@ class PileStone:
         checks.positive("depth of the stone {name}", self.depth, "m", error=BodyError, name=self.name)
         checks.positive("height of the stone {name}", self.height, "m", error=BodyError, name=self.name)
         checks.positive("density of the stone {name}", self.density, "kg/m^3", error=BodyError, name=self.name)
-        remark_on_lengths(self.name, width=self.width, depth=self.depth, height=self.height)
+        warn_large_lengths(self.name, width=self.width, depth=self.depth, height=self.height)
         if self.mu is not None:
-            checks.not_negative("friction under the stone {name}", self.mu, error=BodyError, name=self.name)
+            checks.non_negative("friction under the stone {name}", self.mu, error=BodyError, name=self.name)
         if self.mu_kinetic is not None:
-            checks.not_negative("kinetic friction under the stone {name}", self.mu_kinetic, error=BodyError, name=self.name)
+            checks.non_negative("kinetic friction under the stone {name}", self.mu_kinetic, error=BodyError, name=self.name)
         if len(self.offset) != 2 or not all(math.isfinite(part) for part in self.offset):
             raise BodyError(
                 "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
@@ -110,7 +110,7 @@ class PileStone:
         try:
             self.insets()
         except ParameterError as error:
-            raise BodyError("the stone {name}: {why}", name=self.name, why=error.said) from None
+            raise BodyError("the stone {name}: {why}", name=self.name, why=error.message) from None
 
     @property
     def size(self) -> tuple[float, float, float]:
@@ -135,7 +135,7 @@ class PileStone:
 
     def insets(self) -> tuple[float, float]:
         """Return how far in from the sides of its base it turns, along x and along y, m."""
-        return self.inset.of(self.width), self.inset.of(self.depth)
+        return self.inset.inset(self.width), self.inset.inset(self.depth)
 
 
 @dataclass(frozen=True)
@@ -159,43 +159,50 @@ class Joint:
     height: float
 
 
-def carrying(
+def bearing_rectangle(
     joint: Joint, stones: Sequence[PileStone], centres: Sequence[tuple[float, float, float]]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the part of a joint that carries, its ends along x and along y, m: its smaller face turns about worn edges.
 
     Examples
     --------
-    >>> slabs = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower", inset=Inset(share=0.1))
+    >>> slabs = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower",
+    ... inset=EdgeWear(share=0.1))
     >>> joint, centres = Joint(1, 0, (0.1, 0.25), (-0.1, 0.1), 0.2), [(0.0, 0.0, 0.1), (0.2, 0.0, 0.55)]
-    >>> [[round(end, 3) for end in side] for side in carrying(joint, slabs, centres)]
+    >>> [[round(end, 3) for end in side] for side in bearing_rectangle(joint, slabs, centres)]
     [[0.12, 0.25], [-0.08, 0.08]]
     """
-    above = stones[joint.upper]
-    below = above if joint.lower < 0 else stones[joint.lower]
-    smaller, at = (above, joint.upper) if above.width * above.depth <= below.width * below.depth else (below, joint.lower)
-    depths = above.inset.of(smaller.width), above.inset.of(smaller.depth)
-    x, y = (span(centres[at][k], smaller.size[k] - 2.0 * depths[k]) for k in (0, 1))
+    upper_stone = stones[joint.upper]
+    lower_stone = upper_stone if joint.lower < 0 else stones[joint.lower]
+    smaller_stone, index = (
+        (upper_stone, joint.upper)
+        if upper_stone.width * upper_stone.depth <= lower_stone.width * lower_stone.depth
+        else (lower_stone, joint.lower)
+    )
+    depths = upper_stone.inset.inset(smaller_stone.width), upper_stone.inset.inset(smaller_stone.depth)
+    x, y = (span(centres[index][k], smaller_stone.size[k] - 2.0 * depths[k]) for k in (0, 1))
     return (max(x[0], joint.x[0]), min(x[1], joint.x[1])), (max(y[0], joint.y[0]), min(y[1], joint.y[1]))
 
 
-def lies_over(centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other: PileStone) -> bool:
+def overlaps_in_plan(
+    centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other_stone: PileStone
+) -> bool:
     """Return whether two stones share more than a touch in plan, m.
 
     Examples
     --------
     >>> drum, slab = PileStone("drum", 1.0, 1.0, 0.5, shape="round"), PileStone("slab", 1.0, 1.0, 0.5)
-    >>> lies_over((0.0, 0.0, 0.0), slab, (0.9, 0.9, 0.0), slab), lies_over((0.0, 0.0, 0.0), drum, (0.9, 0.9, 0.0), slab)
+    >>> overlaps_in_plan((0.0, 0.0, 0.0), slab, (0.9, 0.9, 0.0), slab), overlaps_in_plan((0.0, 0.0, 0.0), drum, (0.9, 0.9, 0.0), slab)
     (True, False)
     """
-    away = [abs(centre[k] - other_centre[k]) for k in (0, 1)]
-    if stone.is_round and other.is_round:
-        return 0.5 * (stone.width + other.width) - math.hypot(*away) > TOUCHING
-    apart = [away[k] - sum(0.5 * each.size[k] for each in (stone, other) if not each.is_round) for k in (0, 1)]
-    reach = sum(0.5 * each.width for each in (stone, other) if each.is_round)
-    if reach == 0.0:
-        return max(apart) < -TOUCHING
-    return reach - math.hypot(*(max(0.0, gap) for gap in apart)) > TOUCHING
+    offsets = [abs(centre[k] - other_centre[k]) for k in (0, 1)]
+    if stone.is_round and other_stone.is_round:
+        return 0.5 * (stone.width + other_stone.width) - math.hypot(*offsets) > CONTACT_TOLERANCE
+    gaps = [offsets[k] - sum(0.5 * body.size[k] for body in (stone, other_stone) if not body.is_round) for k in (0, 1)]
+    radius_sum = sum(0.5 * body.width for body in (stone, other_stone) if body.is_round)
+    if radius_sum == 0.0:
+        return max(gaps) < -CONTACT_TOLERANCE
+    return radius_sum - math.hypot(*(max(0.0, gap) for gap in gaps)) > CONTACT_TOLERANCE
 
 
 def span(centre: float, size: float) -> tuple[float, float]:
@@ -203,6 +210,6 @@ def span(centre: float, size: float) -> tuple[float, float]:
     return centre - 0.5 * size, centre + 0.5 * size
 
 
-def overlap(a: float, size_a: float, b: float, size_b: float) -> tuple[float, float]:
+def interval_overlap(a: float, size_a: float, b: float, size_b: float) -> tuple[float, float]:
     """Return the part that two sides share; its ends are in the wrong order where there is none."""
     return max(a - 0.5 * size_a, b - 0.5 * size_b), min(a + 0.5 * size_a, b + 0.5 * size_b)

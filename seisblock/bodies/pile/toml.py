@@ -8,26 +8,26 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from seisblock import checks
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.stone import GRANITE, GROUND, RECTANGULAR, ROUND, PileStone
-from seisblock.bodies.ranges import ranges_of
+from seisblock.bodies.pile.stone import GRANITE_DENSITY, GROUND, RECTANGULAR, ROUND, PileStone
 from seisblock.bodies.toml import (
-    inset_of,
-    length,
-    lengths,
-    number,
-    of_kind,
-    read_table,
-    refuse_unknown,
-    source_of,
-    text,
-    text_groups,
-    texts,
+    check_keys,
+    check_kind,
+    get_edge_wear,
+    get_length,
+    get_lengths,
+    get_number,
+    get_text,
+    get_text_groups,
+    get_texts,
+    read_body_toml,
+    source_name,
 )
-from seisblock.errors import BodyError
-from seisblock.limits import check_budget
-from seisblock.words import noted, said
+from seisblock.bodies.uncertainty import parse_ranges
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_limit
 
 _PILE_KEYS = {"name", "kind", "mu", "mu_kinetic", "density", "inset", "reinforced", "fixed", "stone", "note", "ranges"}
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "mu_kinetic", "bottom", "shape", "inset"}
@@ -60,63 +60,65 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     ('gedai', 'mizubachi', 'chudai', 'jodai', 'sao')
     """
     if mu is not None:
-        checks.not_negative("friction of the pile {name}", mu, error=BodyError, name=str(name))
-    table = read_table(name, kind="pile")
-    of_kind(table, "pile")
-    source = source_of(table)
-    refuse_unknown(table, _PILE_KEYS)
+        checks.non_negative("friction of the pile {name}", mu, error=BodyError, name=str(name))
+    table = read_body_toml(name, kind="pile")
+    check_kind(table, "pile")
+    source = source_name(table)
+    check_keys(table, _PILE_KEYS)
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
         raise BodyError("{source}: a pile needs at least one [[stone]] table", source=source)
-    check_budget(noted("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", where=source, error=BodyError)
+    check_limit(N_("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", source=source, error=BodyError)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
-        below = stones[-1].name if stones else GROUND
-        stones.append(_stone({**entry, "source": said("{source}: stone {number}", source=source, number=rank)}, below, table))
+        support = stones[-1].name if stones else GROUND
+        stones.append(
+            _parse_stone({**entry, "source": lazy_gettext("{source}: stone {number}", source=source, number=rank)}, support, table)
+        )
     if mu is not None:
         stones = [replace(stone, mu=None, mu_kinetic=None) for stone in stones]
-    dowels = text_groups(table, "reinforced")
+    dowels = get_text_groups(table, "reinforced")
     if reinforced and not dowels:
         raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
-    own = number(table, "mu")
-    friction = mu if mu is not None else Pile.mu if own is None else own
-    name_of, fixed, kinetic = text(table, "name", Path(source).stem), texts(table, "fixed"), number(table, "mu_kinetic")
-    with _saying(source):
-        pile = Pile(name_of, tuple(stones), dowels if reinforced else (), fixed, friction, mu_kinetic=None if mu is not None else kinetic)
-    whole = pile.as_block()
-    return replace(pile, ranges=ranges_of(table, {"width": whole.width, "height": whole.height, "inset": whole.inset, "mu": own}))
+    file_mu = get_number(table, "mu")
+    friction = mu if mu is not None else Pile.mu if file_mu is None else file_mu
+    pile_name, fixed, kinetic = get_text(table, "name", Path(source).stem), get_texts(table, "fixed"), get_number(table, "mu_kinetic")
+    with _prefix_errors(source):
+        pile = Pile(pile_name, tuple(stones), dowels if reinforced else (), fixed, friction, mu_kinetic=None if mu is not None else kinetic)
+    block = pile.as_block()
+    return replace(pile, ranges=parse_ranges(table, {"width": block.width, "height": block.height, "inset": block.inset, "mu": file_mu}))
 
 
-def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> PileStone:
+def _parse_stone(entry: Mapping[str, Any], default_support: str, table: Mapping[str, Any]) -> PileStone:
     """Return one stone of a file."""
-    refuse_unknown(entry, _STONE_KEYS)
+    check_keys(entry, _STONE_KEYS)
     if not isinstance(entry.get("name"), str):
         raise BodyError("{source}: name is missing", source=entry["source"])
-    x, y = lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
-    own, common = number(entry, "density"), number(table, "density")
-    shape = text(entry, "shape", RECTANGULAR)
-    described = (
+    x, y = get_lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
+    own_density, pile_density = get_number(entry, "density"), get_number(table, "density")
+    shape = get_text(entry, "shape", RECTANGULAR)
+    arguments = (
         entry["name"],
-        length(entry, "width"),
-        length(entry, "width" if shape == ROUND and "depth" not in entry else "depth"),
-        length(entry, "height"),
+        get_length(entry, "width"),
+        get_length(entry, "width" if shape == ROUND and "depth" not in entry else "depth"),
+        get_length(entry, "height"),
         (x, y),
-        text(entry, "on", below),
-        own if own is not None else GRANITE if common is None else common,
-        number(entry, "mu"),
-        length(entry, "bottom") if "bottom" in entry else None,
+        get_text(entry, "on", default_support),
+        own_density if own_density is not None else GRANITE_DENSITY if pile_density is None else pile_density,
+        get_number(entry, "mu"),
+        get_length(entry, "bottom") if "bottom" in entry else None,
         shape,
-        inset_of(entry if "inset" in entry else table),
-        number(entry, "mu_kinetic"),
+        get_edge_wear(entry if "inset" in entry else table),
+        get_number(entry, "mu_kinetic"),
     )
-    with _saying(source_of(table)):
-        return PileStone(*described)
+    with _prefix_errors(source_name(table)):
+        return PileStone(*arguments)
 
 
 @contextmanager
-def _saying(source: str) -> Iterator[None]:
+def _prefix_errors(source: str) -> Iterator[None]:
     """Have what is wrong with a pile, or with a stone of it, said with the file in front."""
     try:
         yield
     except BodyError as error:
-        raise BodyError("{source}: {why}", source=source, why=error.said) from None
+        raise BodyError("{source}: {why}", source=source, why=error.message) from None

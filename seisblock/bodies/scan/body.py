@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import LEAST, SHARP, Inset
-from seisblock.bodies.scan.polygon import depth_within, least_width, nearest_side, reach, shrunk
-from seisblock.errors import BodyError, ComponentError
+from seisblock.bodies.edge_wear import MIN_SHARE, SHARP_EDGES, EdgeWear
+from seisblock.bodies.scan.polygon import interior_distance, min_width, nearest_edge, offset_polygon, support_distance
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, ComponentError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
 from seisblock.records import Motion
-from seisblock.typing import FloatArray
-from seisblock.words import said
 
 EAST = 90.0
 """Azimuth of +x where nothing is said: x to the east and y to the north, as on a map."""
@@ -65,29 +65,29 @@ class ScannedBody:
     centre: Triple
     inertia: tuple[Triple, Triple, Triple]
     base: tuple[Pair, ...]
-    inset: Inset = SHARP
+    inset: EdgeWear = SHARP_EDGES
     facing: float = EAST
 
     def __post_init__(self) -> None:
-        checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=said("mass"))
-        checks.positive("{name}: {what}", self.height, "m", error=BodyError, name=self.name, what=said("height"))
-        checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=said("azimuth of +x"))
+        checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=lazy_gettext("mass"))
+        checks.positive("{name}: {what}", self.height, "m", error=BodyError, name=self.name, what=lazy_gettext("height"))
+        checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=lazy_gettext("azimuth of +x"))
         tensor, corners = np.array(self.inertia, dtype=np.float64), self.corners
         if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
             raise BodyError("{name}: the inertia must be three rows of three numbers, the same across its diagonal", name=self.name)
-        least, middle, largest = np.linalg.eigvalsh(tensor)
-        if not (least > 0.0 and largest <= (least + middle) * (1.0 + 1e-9)):
+        smallest, middle, largest = np.linalg.eigvalsh(tensor)
+        if not (smallest > 0.0 and largest <= (smallest + middle) * (1.0 + 1e-9)):
             raise BodyError(
                 "{name}: no body has principal moments of inertia of {moments} kg m^2",
                 name=self.name,
-                moments=[f"{moment:.4g}" for moment in (least, middle, largest)],
+                moments=[f"{moment:.4g}" for moment in (smallest, middle, largest)],
             )
         if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) < 3 or not np.isfinite(corners).all():
             raise BodyError("{name}: the base must be three corners or more, each an x and a y", name=self.name)
         sides = np.roll(corners, -1, axis=0) - corners
-        turns = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
+        cross_products = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
         area = 0.5 * float(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - np.roll(corners[:, 0], -1) * corners[:, 1]))
-        if not (area > 0.0 and turns.min() >= -1e-9 * area):
+        if not (area > 0.0 and cross_products.min() >= -1e-9 * area):
             raise BodyError("{name}: the corners of the base must go round a convex polygon, counter-clockwise", name=self.name)
         if not (len(self.centre) == 3 and 0.0 < self.centre[2] < self.height):
             raise BodyError(
@@ -96,14 +96,14 @@ class ScannedBody:
                 height=self.height,
                 centre=str(self.centre),
             )
-        if not depth_within(corners, self.centre[:2]) > 0.0:
+        if not interior_distance(corners, self.centre[:2]) > 0.0:
             raise BodyError("{name}: the centre of gravity does not lie above the base", name=self.name)
-        if not depth_within(self.carrying, self.centre[:2]) > 0.0:
+        if not interior_distance(self.support_polygon, self.centre[:2]) > 0.0:
             raise BodyError(
                 "{name}: an inset of {inset:.4g} m leaves nothing of the base under the centre of gravity, which lies {depth:.4g} m inside",
                 name=self.name,
                 inset=self.inset_m,
-                depth=depth_within(corners, self.centre[:2]),
+                depth=interior_distance(corners, self.centre[:2]),
             )
 
     @cached_property
@@ -114,22 +114,22 @@ class ScannedBody:
     @cached_property
     def inset_m(self) -> float:
         """How far in from each side of its base it turns, m."""
-        if self.inset == SHARP:
+        if self.inset == SHARP_EDGES:
             return 0.0
-        width = least_width(self.corners)
+        width = min_width(self.corners)
         depth = self.inset.length_m + self.inset.share * width
-        return depth if depth >= LEAST * width else 0.0
+        return depth if depth >= MIN_SHARE * width else 0.0
 
     @cached_property
-    def carrying(self) -> FloatArray:
+    def support_polygon(self) -> FloatArray:
         """The base within its worn edges, (n, 2), m."""
-        return shrunk(self.corners, self.inset_m)
+        return offset_polygon(self.corners, self.inset_m)
 
-    def worn(self, inset: Inset | float) -> ScannedBody:
-        """Return the body with other worn edges: a share of its base's least width per side, or an :class:`Inset`."""
-        return replace(self, inset=inset if isinstance(inset, Inset) else Inset(share=inset))
+    def with_wear(self, inset: EdgeWear | float) -> ScannedBody:
+        """Return the body with other worn edges: a share of its base's least width per side, or an :class:`EdgeWear`."""
+        return replace(self, inset=inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
 
-    def towards(self, azimuth: float) -> Block:
+    def block_toward(self, azimuth: float) -> Block:
         """Return the block as which it rocks, slides and flies in a vertical plane whose +x has an azimuth.
 
         The plane is that of the motion: it turns about the level line across it that touches its base, and its inertia is that about the
@@ -146,15 +146,15 @@ class ScannedBody:
             Its inset is the mean of both sides', its arms are exact.
         """
         turn = math.radians(self.facing - checks.finite("the azimuth", azimuth, "degrees"))
-        ahead, aside = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
-        sharp, worn = self.corners - self.centre[:2], self.carrying - self.centre[:2]
-        right, left = reach(worn, ahead), reach(worn, -ahead)
-        width = reach(sharp, ahead) + reach(sharp, -ahead)
-        axis = np.array([*aside, 0.0])
+        forward, lateral = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+        sharp_base, worn_base = self.corners - self.centre[:2], self.support_polygon - self.centre[:2]
+        right, left = support_distance(worn_base, forward), support_distance(worn_base, -forward)
+        width = support_distance(sharp_base, forward) + support_distance(sharp_base, -forward)
+        axis = np.array([*lateral, 0.0])
         return Block(
             width,
             self.height,
-            reach(sharp, aside) + reach(sharp, -aside),
+            support_distance(sharp_base, lateral) + support_distance(sharp_base, -lateral),
             self.mass,
             centroid_height=self.centre[2],
             centroid_offset=0.5 * (left - right),
@@ -163,7 +163,7 @@ class ScannedBody:
             inset=max(0.5 * (width - (right + left)), 0.0),
         )
 
-    def along(self, motion: Motion) -> Block:
+    def block_for_motion(self, motion: Motion) -> Block:
         """Return the block as which it follows a motion, towards its azimuth.
 
         Raises
@@ -178,18 +178,18 @@ class ScannedBody:
                 name=self.name,
                 component=motion.name or "+x",
             )
-        return self.towards(azimuth)
+        return self.block_toward(azimuth)
 
 
-def weakest(body: ScannedBody) -> tuple[float, float]:
+def min_slenderness(body: ScannedBody) -> tuple[float, float]:
     """Return the least alpha of a body, rad, and towards which azimuth, degrees: that of the nearest side of its base (derived here).
 
     Examples
     --------
     >>> from seisblock.bodies.scan.toml import load_scan
-    >>> alpha, azimuth = weakest(load_scan("boulder"))
+    >>> alpha, azimuth = min_slenderness(load_scan("boulder"))
     >>> round(alpha, 3), round(azimuth)
     (0.183, 226)
     """
-    depth, turn = nearest_side(body.carrying, body.centre[:2])
+    depth, turn = nearest_edge(body.support_polygon, body.centre[:2])
     return math.atan2(depth, body.centre[2]), (body.facing - math.degrees(turn)) % 360.0

@@ -11,19 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.contents import contents
-from seisblock.errors import BodyError
-from seisblock.limits import check_budget
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_
+from seisblock.core.io.files import read_bytes
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.core.units import LENGTH_UNITS
 from seisblock.samples import find_sample
-from seisblock.typing import FloatArray, IntArray
-from seisblock.units import LENGTH_UNITS
-from seisblock.words import noted
 
 SUFFIXES = (".stl", ".ply", ".obj")
 """Formats of meshes that are read."""
 
-UPWARD = {
+AXIS_ROTATIONS = {
     "x": ((2, -1), (1, 1), (0, 1)),
     "y": ((0, 1), (2, -1), (1, 1)),
     "z": ((0, 1), (1, 1), (2, 1)),
@@ -36,10 +36,10 @@ UPWARD = {
 The body is turned about the file's x, which stays x; where x itself points up or down, about y.
 """
 
-HEAD = 2**14
+HEADER_BYTES = 2**14
 """Bytes in which a file says what it holds."""
 
-_MIXER = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+_HASH_MULTIPLIERS = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
 """Odd numbers that spread the bits of three coordinates over one."""
 
 
@@ -89,46 +89,48 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     """
     if unit not in LENGTH_UNITS:
         raise BodyError("unknown unit {unit!r} of a mesh; known are {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
-    if up not in UPWARD:
-        raise BodyError("{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(UPWARD))
-    data = _bytes_of(name)
+    if up not in AXIS_ROTATIONS:
+        raise BodyError(
+            "{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS)
+        )
+    data = _read_mesh_file(name)
     suffix = Path(name).suffix.lower()
-    check_budget(noted("triangles"), _announced(data, suffix), "SEISBLOCK_TRIANGLES", where=str(name), error=BodyError)
-    vertices, faces = _triangles(io.BytesIO(data), suffix, str(name))
+    check_limit(N_("triangles"), _declared_triangles(data, suffix), "SEISBLOCK_TRIANGLES", source=str(name), error=BodyError)
+    vertices, faces = _load_triangles(io.BytesIO(data), suffix, str(name))
     if faces.size == 0:
         raise BodyError("{name} holds no triangles: expected a surface, as a scanner's program exports it", name=str(name))
-    whole = np.isfinite(vertices[:, 0]) & np.isfinite(vertices[:, 1]) & np.isfinite(vertices[:, 2])
-    if not whole[faces].all():
+    is_finite = np.isfinite(vertices[:, 0]) & np.isfinite(vertices[:, 1]) & np.isfinite(vertices[:, 2])
+    if not is_finite[faces].all():
         raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
-    vertices, faces = _shared(vertices * LENGTH_UNITS[unit], faces)
-    turned = np.column_stack([sign * vertices[:, axis] for axis, sign in UPWARD[up]])
-    return Mesh(turned, faces, str(name), hashlib.sha256(data).hexdigest())
+    vertices, faces = _merge_vertices(vertices * LENGTH_UNITS[unit], faces)
+    rotated = np.column_stack([sign * vertices[:, axis] for axis, sign in AXIS_ROTATIONS[up]])
+    return Mesh(rotated, faces, str(name), hashlib.sha256(data).hexdigest())
 
 
-def _bytes_of(name: str | Path) -> bytes:
+def _read_mesh_file(name: str | Path) -> bytes:
     """Return what a file of a mesh holds, if it is one by its name and not too large."""
     path = Path(checks.path(name))
     bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
     path = path if bundled is None else bundled
     if path.suffix.lower() not in SUFFIXES:
         raise BodyError("{name} is no mesh by its name: expected {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
-    data = contents(path, str(name), BodyError)
+    data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty", name=str(name))
     return data
 
 
-def _announced(data: bytes, suffix: str) -> int:
+def _declared_triangles(data: bytes, suffix: str) -> int:
     """Return how many triangles a file says that it holds, or has room for, before any of them is made."""
     if suffix == ".obj":
         return data.count(b"\nf ") + data.startswith(b"f ")
     if suffix == ".ply":
-        told = re.search(rb"element\s+face\s+(\d{1,18})\b", data[:HEAD])
-        return int(told[1]) if told else 0
-    return data.count(b"endfacet") if data[:5] == b"solid" and b"facet" in data[:HEAD] else (len(data) - 84) // 50
+        match = re.search(rb"element\s+face\s+(\d{1,18})\b", data[:HEADER_BYTES])
+        return int(match[1]) if match else 0
+    return data.count(b"endfacet") if data[:5] == b"solid" and b"facet" in data[:HEADER_BYTES] else (len(data) - 84) // 50
 
 
-def _triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, IntArray]:
+def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, IntArray]:
     """Return vertices and faces as a file has them; no other file is opened that it may name."""
     try:
         import trimesh
@@ -136,29 +138,29 @@ def _triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, 
         raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
     try:
         with np.errstate(all="ignore"):  # what is no number is told below
-            loaded: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
-        faces = np.asarray(loaded.faces, dtype=np.int64).reshape(-1, 3)
-        vertices = np.asarray(loaded.vertices, dtype=np.float64).reshape(-1, 3)
-        inside = faces.size == 0 or (faces.min() >= 0 and faces.max() < len(vertices))
+            mesh: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
+        faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
+        vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
+        indices_valid = faces.size == 0 or (faces.min() >= 0 and faces.max() < len(vertices))
     except MemoryError:
         raise
     except Exception as error:
         raise BodyError("{name} is damaged, or no mesh: export it again", name=name) from error
-    if not inside:
+    if not indices_valid:
         raise BodyError("{name} is damaged: a triangle names a vertex that is not there", name=name)
     return vertices, faces
 
 
-def _shared(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+def _merge_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
     """Return a mesh in which equal vertices are one, without triangles that have two corners in one, and vertices that have none."""
-    used, faces = np.unique(faces, return_inverse=True)
-    points = np.ascontiguousarray(vertices[used]) + 0.0  # of the two zeros one
+    vertex_ids, faces = np.unique(faces, return_inverse=True)
+    points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # of the two zeros one
     bits = points.view(np.uint64)
-    bits = (bits ^ (bits >> np.uint64(29))) * _MIXER
-    mixed = (bits ^ (bits >> np.uint64(32))).sum(axis=1, dtype=np.uint64)
-    _, first, number = np.unique(mixed, return_index=True, return_inverse=True)
+    bits = (bits ^ (bits >> np.uint64(29))) * _HASH_MULTIPLIERS
+    hashes = (bits ^ (bits >> np.uint64(32))).sum(axis=1, dtype=np.uint64)
+    _, first, number = np.unique(hashes, return_index=True, return_inverse=True)
     if not np.array_equal(points[first][number], points):  # two points of one number: slower, and never wrong
         _, first, number = np.unique(points, axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces.reshape(-1, 3)]
-    whole = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
-    return points[first], corners[whole]
+    is_nondegenerate = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
+    return points[first], corners[is_nondegenerate]

@@ -8,26 +8,26 @@ from pathlib import Path
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import DENSITY
-from seisblock.bodies.inset import SHARP, Inset
-from seisblock.bodies.scan.body import EAST, Pair, ScannedBody, Triple, weakest
-from seisblock.bodies.scan.enclosed import enclosed_by
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.bodies.scan.body import EAST, Pair, ScannedBody, Triple, min_slenderness
+from seisblock.bodies.scan.mass_properties import mass_properties
 from seisblock.bodies.scan.mesh import read_mesh
-from seisblock.bodies.scan.polygon import hull
-from seisblock.bodies.scan.resting import resting
-from seisblock.errors import BodyError
+from seisblock.bodies.scan.polygon import convex_hull
+from seisblock.bodies.scan.resting_pose import find_resting_pose
+from seisblock.core import checks
+from seisblock.core.errors import BodyError
 
-TOLERANCE = 0.002
+DEFAULT_TOLERANCE_SHARE = 0.002
 """How far above the ground a point may lie that carries, a share of the body's largest extent: what scanners leave of a plane."""
 
 
-ROUND_OFF = 1e-12
+ROUND_OFF_SHARE = 1e-12
 """A product of inertia below this share of the trace is what sums over triangles leave of zero."""
 
 
 @dataclass(frozen=True)
-class Scanned:
+class Scan:
     """A body from a scan, and what the scan was like.
 
     Parameters
@@ -45,7 +45,7 @@ class Scanned:
         Extents along x, y and z.
     outline : pairs of floats, m
         x and y of the corners of its convex hull seen from above.
-    nearer, wider : float, rad
+    slenderness_half_tolerance, slenderness_double_tolerance : float, rad
         The least alpha with half and with twice the tolerance; NaN where it would not stand.
     source, sha256 : str
     unit, up : str
@@ -62,8 +62,8 @@ class Scanned:
     pieces: int
     size: Triple
     outline: tuple[Pair, ...]
-    nearer: float
-    wider: float
+    slenderness_half_tolerance: float
+    slenderness_double_tolerance: float
     source: str
     sha256: str
     unit: str
@@ -74,13 +74,13 @@ def scan_body(
     name: str | Path,
     *,
     density: float = DENSITY,
-    inset: Inset | float = SHARP,
+    inset: EdgeWear | float = SHARP_EDGES,
     tolerance: float | None = None,
     unit: str = "m",
     up: str = "z",
     facing: float = EAST,
-    called: str | None = None,
-) -> Scanned:
+    body_name: str | None = None,
+) -> Scan:
     """Return the body of a scan: mass, centre and inertia of what its surface encloses, on the polygon of the points that carry it.
 
     Parameters
@@ -99,7 +99,7 @@ def scan_body(
         The file's axis that points upwards: x, y, z, -x, -y or -z.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
-    called : str, optional
+    body_name : str, optional
         Name of the body; that of the file when left out.
 
     Returns
@@ -122,51 +122,55 @@ def scan_body(
     checks.positive("the density", density, "kg/m^3", error=BodyError)
     mesh = read_mesh(name, unit=unit, up=up)
     size = np.ptp(mesh.vertices, axis=0)
-    near = TOLERANCE * float(size.max()) if tolerance is None else checks.positive("`tolerance`", tolerance, "m", error=BodyError)
-    solid = enclosed_by(mesh)
-    mass = density * solid.volume
+    contact_tolerance = (
+        DEFAULT_TOLERANCE_SHARE * float(size.max())
+        if tolerance is None
+        else checks.positive("`tolerance`", tolerance, "m", error=BodyError)
+    )
+    properties = mass_properties(mesh)
+    mass = density * properties.volume
 
-    def standing(within: float, worn: Inset) -> tuple[ScannedBody, float, int]:
+    def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
         """Return the body on the points within a tolerance, by how much it was turned, and how many points they are."""
-        on = resting(mesh.vertices, solid.centre, tolerance=within, source=mesh.source)
-        centre = on.turn @ solid.centre
-        tensor = mass * on.turn @ solid.gyration @ on.turn.T
+        pose = find_resting_pose(mesh.vertices, properties.centre, tolerance=tolerance_m, source=mesh.source)
+        centre = pose.rotation @ properties.centre
+        tensor = mass * pose.rotation @ properties.gyration @ pose.rotation.T
         tensor = 0.5 * (tensor + tensor.T)
-        tensor[np.abs(tensor) < ROUND_OFF * np.trace(tensor)] = 0.0
-        top = float((mesh.vertices @ on.turn[2]).max())
+        tensor[np.abs(tensor) < ROUND_OFF_SHARE * np.trace(tensor)] = 0.0
+        top = float((mesh.vertices @ pose.rotation[2]).max())
         body = ScannedBody(
-            called or Path(name).stem,
+            body_name or Path(name).stem,
             mass,
-            top - on.floor,
-            (float(centre[0]), float(centre[1]), float(centre[2]) - on.floor),
+            top - pose.ground_height,
+            (float(centre[0]), float(centre[1]), float(centre[2]) - pose.ground_height),
             tuple(tuple(row) for row in tensor.tolist()),  # type: ignore[arg-type]
-            tuple(tuple(corner) for corner in on.base.tolist()),  # type: ignore[misc]
-            worn,
+            tuple(tuple(corner) for corner in pose.base.tolist()),  # type: ignore[misc]
+            wear,
             facing,
         )
-        return body, on.tilt, on.touching
+        return body, pose.tilt, pose.touching
 
-    def least(within: float) -> float:
+    def slenderness_at_tolerance(tolerance_m: float) -> float:
         """Return the least alpha with another tolerance."""
         try:
-            return weakest(standing(within, SHARP)[0])[0]
+            return min_slenderness(body_at_tolerance(tolerance_m, SHARP_EDGES)[0])[0]
         except BodyError:
             return math.nan
 
-    body, tilt, touching = standing(near, inset if isinstance(inset, Inset) else Inset(share=inset))
-    return Scanned(
+    body, tilt, touching = body_at_tolerance(contact_tolerance, inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
+    return Scan(
         body,
-        solid.volume,
+        properties.volume,
         density,
-        near,
+        contact_tolerance,
         tilt,
         len(mesh.faces),
         touching,
-        solid.pieces,
+        properties.pieces,
         (float(size[0]), float(size[1]), float(size[2])),
-        tuple((x, y) for x, y in hull(mesh.vertices[:, :2]).tolist()),
-        least(near / 2),
-        least(2 * near),
+        tuple((x, y) for x, y in convex_hull(mesh.vertices[:, :2]).tolist()),
+        slenderness_at_tolerance(contact_tolerance / 2),
+        slenderness_at_tolerance(2 * contact_tolerance),
         mesh.source,
         mesh.sha256,
         unit,

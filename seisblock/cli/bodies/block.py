@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.factory import body_from_table, table_restitution
 from seisblock.bodies.kinds import of_kind
-from seisblock.bodies.library import body_of, restitution_of
 from seisblock.bodies.scan.body import ScannedBody
-from seisblock.bodies.toml import read_table
-from seisblock.errors import BodyError
-from seisblock.present.edges import edges
+from seisblock.bodies.toml import read_body_toml
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import lazy_gettext
 from seisblock.records import Motion
-from seisblock.words import said
+from seisblock.report.describe_wear import describe_edges
 
 
 @dataclass(frozen=True)
@@ -33,16 +33,16 @@ class BodyChoice:
     def towards(self, azimuth: float) -> Block:
         """Return the block that a scan is towards an azimuth, degrees clockwise from north."""
         if not isinstance(self.body, ScannedBody):
-            raise BodyError("{name} is the same block in each direction: leave the azimuth out", name=said(self.body.name))
-        return self.body.towards(azimuth)
+            raise BodyError("{name} is the same block in each direction: leave the azimuth out", name=lazy_gettext(self.body.name))
+        return self.body.block_toward(azimuth)
 
-    def along(self, motion: Motion) -> Block:
+    def block_for_motion(self, motion: Motion) -> Block:
         """Return the block that follows a motion: of a scan that towards its azimuth."""
-        return self.body.along(motion) if isinstance(self.body, ScannedBody) else self.body
+        return self.body.block_for_motion(motion) if isinstance(self.body, ScannedBody) else self.body
 
-    def entry_of(self, block: Block) -> dict[str, Any]:
+    def block_key(self, block: Block) -> dict[str, Any]:
         """Return what is told beside an answer of the block that it is of, nothing where all answers are of one."""
-        from seisblock.present.documents.bodies import block_entry
+        from seisblock.report.json.bodies import block_entry
 
         return {"block": block_entry(block)} if isinstance(self.body, ScannedBody) else {}
 
@@ -52,15 +52,15 @@ class BlockChoice(BodyChoice):
     """A body, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
 
     restitution: float | None
-    says: str
+    description: str
 
 
-def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
+def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     """Return the body that a set of options describes.
 
     Parameters
     ----------
-    asked : mapping
+    params : mapping
         ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI, and ``kind``; ``restitution`` and ``inset``
         override what a file brings along. None where not given. ``gal``: False where lengths are told in m.
 
@@ -70,31 +70,33 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
         If sizes and a named block are mixed, or something needed is missing.
     """
     keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
-    sizes = {key: asked[key] for key in keys if asked.get(key) is not None}
-    restitution = asked.get("restitution")
-    if asked.get("block"):
+    sizes = {key: params[key] for key in keys if params.get(key) is not None}
+    restitution = params.get("restitution")
+    if params.get("block"):
         if sizes:
             raise BodyError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
-        refuse_kind(asked)
-        table = read_table(asked["block"])
+        refuse_kind(params)
+        table = read_body_toml(params["block"])
         if restitution is None:
-            restitution = restitution_of(table, asked["block"])
-        refuse_side(asked, table.get("kind"))
-        body = body_of(table, side=asked.get("side") or "short")
-        origin = said("{name}, from {file}", name=said(body.name), file=asked["block"])
+            restitution = table_restitution(table, params["block"])
+        check_side(params, table.get("kind"))
+        body = body_from_table(table, side=params.get("side") or "short")
+        origin = lazy_gettext("{name}, from {file}", name=lazy_gettext(body.name), file=params["block"])
     else:
-        refuse_side(asked, None)
+        check_side(params, None)
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
                 "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
             )
-        body = of_kind(Block(**sizes), asked.get("kind") or "block")
-        origin = said("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
-    if asked.get("inset") is not None:
-        body = body.worn(asked["inset"])
+        body = of_kind(Block(**sizes), params.get("kind") or "block")
+        origin = lazy_gettext("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
+    if params.get("inset") is not None:
+        body = body.with_wear(params["inset"])
     return BlockChoice(
-        body, restitution, said("{parts}", parts=[part for part in (origin, edges(body, gal=asked.get("gal", True))) if part])
+        body,
+        restitution,
+        lazy_gettext("{parts}", parts=[part for part in (origin, describe_edges(body, gal=params.get("gal", True))) if part]),
     )
 
 
@@ -104,7 +106,7 @@ def refuse_kind(asked: Mapping[str, Any]) -> None:
         raise BodyError("--kind has no effect with --block: give it with --width and --height")
 
 
-def refuse_side(asked: Mapping[str, Any], kind: str | None) -> None:
+def check_side(params: Mapping[str, Any], kind: str | None) -> None:
     """Refuse the side of a body that has but one."""
-    if asked.get("side") is not None and kind != "two-layer":
+    if params.get("side") is not None and kind != "two-layer":
         raise BodyError("--side is of a two-layer --block: leave it out")

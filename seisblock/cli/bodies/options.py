@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from seisblock.bodies.kinds import KINDS
-from seisblock.cli import offered
+from seisblock.cli import shell_completion
 from seisblock.cli.command import option
-from seisblock.cli.meant import OneOf
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import INSET, LENGTH, MASS
 
 _SIZES = (
@@ -16,7 +16,7 @@ _SIZES = (
     option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit."),
 )
 
-_REST = (
+_OPTIONAL_SIZES = (
     option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; only the mass depends on it."),
     option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; the motion depends on it only with --inertia."),
     option("--centroid-height", type=LENGTH, section="Body", help="Height of the centre of gravity, m. [default: half the height]"),
@@ -39,7 +39,7 @@ _REST = (
     ),
     option(
         "--kind",
-        type=OneOf(KINDS),
+        type=SuggestingChoice(KINDS),
         section="Body",
         help="Kind of a body given by its sizes: gravestones have edges worn by 0 to 0.1 of the width, median 0.05; others are sharp. "
         "[default: block]",
@@ -49,13 +49,13 @@ _REST = (
         "--body",
         "block",
         metavar="NAME|FILE",
-        shell_complete=offered.bodies(),
+        shell_complete=shell_completion.complete_bodies(),
         section="Body",
         help="Bundled body (gravestone) or TOML file, instead of sizes.",
     ),
     option(
         "--side",
-        type=OneOf(["short", "long"]),
+        type=SuggestingChoice(["short", "long"]),
         section="Body",
         help="Side of a two-layer --block along the motion. [default: short]",
     ),
@@ -64,22 +64,30 @@ _REST = (
 
 def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--block`` of a two-layer block; one text says what it is there for."""
-    return option("--block", "--body", "block", metavar="NAME|FILE", shell_complete=offered.bodies("two-layer"), section="Body", help=text)
+    return option(
+        "--block",
+        "--body",
+        "block",
+        metavar="NAME|FILE",
+        shell_complete=shell_completion.complete_bodies("two-layer"),
+        section="Body",
+        help=text,
+    )
 
 
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--side`` of a two-layer block, short unless another is asked for."""
-    return option("--side", type=OneOf(["short", "long"]), default="short", show_default=True, section="Body", help=text)
+    return option("--side", type=SuggestingChoice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
 
 
 def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--landing`` of a two-layer block, the paper's unless friction's is asked for."""
-    return option("--landing", type=OneOf(["paper", "friction"]), default="paper", show_default=True, help=text)
+    return option("--landing", type=SuggestingChoice(["paper", "friction"]), default="paper", show_default=True, help=text)
 
 
 def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command the options of one rigid block; it receives them by name, for ``choose_block``."""
-    for declare in reversed((*_SIZES, *_REST)):
+    for declare in reversed((*_SIZES, *_OPTIONAL_SIZES)):
         function = declare(function)
     return function
 

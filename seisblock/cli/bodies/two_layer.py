@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from seisblock.bodies.toml import read_table
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
-from seisblock.errors import BodyError
-from seisblock.words import said
+from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_table, two_layer_from_table
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import lazy_gettext
 
 _CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
@@ -20,15 +20,15 @@ class TwoLayerChoice:
 
     block: TwoLayerBlock
     contact: Contact
-    says: str
+    description: str
 
 
-def two_layer_choice(asked: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
+def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
     """Return the block and contact that a set of options describes.
 
     Parameters
     ----------
-    asked : mapping
+    params : mapping
         ``block``, ``side``, or ``width``, ``depth``, ``heights``, ``masses``; and ``mu``, ``mu_kinetic``, ``restitution_x``,
         ``restitution_y``, which override those that a preset brings along. SI; None where not given.
     default : str
@@ -39,34 +39,34 @@ def two_layer_choice(asked: Mapping[str, Any], *, default: str) -> TwoLayerChoic
     BodyError
         If sizes and a named block are mixed, or something needed is missing.
     """
-    sizes = {key: asked.get(key) for key in ("width", "heights", "masses")}
-    given = [key for key, value in sizes.items() if value is not None]
-    if given and asked.get("block"):
-        raise BodyError("give either --block or sizes ({given}), not both", given=[f"--{name}" for name in given])
+    sizes = {key: params.get(key) for key in ("width", "heights", "masses")}
+    given_sizes = [key for key, value in sizes.items() if value is not None]
+    if given_sizes and params.get("block"):
+        raise BodyError("give either --block or sizes ({given}), not both", given=[f"--{name}" for name in given_sizes])
     preset: Mapping[str, float] = {}
-    if given:
-        block = _from_sizes(asked, sizes)
-        origin = said("sizes as given")
+    if given_sizes:
+        block = _from_sizes(params, sizes)
+        origin = lazy_gettext("sizes as given")
     else:
-        name = asked.get("block") or default
-        table = read_table(name)
-        block, preset = two_layer_block(table, asked.get("side") or "short"), contact(table)
-        origin = said("from {file}", file=name) if asked.get("block") else said("from {file} (the default)", file=name)
-    values = {**preset, **{key: asked[key] for key in _CONTACT if asked.get(key) is not None}}
+        name = params.get("block") or default
+        table = read_body_toml(name)
+        block, preset = two_layer_from_table(table, params.get("side") or "short"), contact_from_table(table)
+        origin = lazy_gettext("from {file}", file=name) if params.get("block") else lazy_gettext("from {file} (the default)", file=name)
+    values = {**preset, **{key: params[key] for key in _CONTACT if params.get(key) is not None}}
     if "mu" not in values:
         raise BodyError("{name} brings no friction of its own: give --mu", name=block.name)
-    met = Contact(**values)
-    told = said(
+    layer_contact = Contact(**values)
+    values_text = lazy_gettext(
         "mu {mu:g}, mu kinetic {kinetic:g}, restitution x {x:g}, restitution y {y:g}",
-        mu=met.mu,
-        kinetic=met.kinetic,
-        x=met.restitution_x,
-        y=met.restitution_y,
+        mu=layer_contact.mu,
+        kinetic=layer_contact.kinetic,
+        x=layer_contact.restitution_x,
+        y=layer_contact.restitution_y,
     )
-    return TwoLayerChoice(block, met, said("{origin}; {values}", origin=origin, values=told))
+    return TwoLayerChoice(block, layer_contact, lazy_gettext("{origin}; {values}", origin=origin, values=values_text))
 
 
-def _from_sizes(asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
+def _from_sizes(params: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
     """Return a block from sizes given one by one."""
     missing = [f"--{key}" for key, value in sizes.items() if value is None]
     if missing:
@@ -74,5 +74,5 @@ def _from_sizes(asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerB
     for key in ("heights", "masses"):
         if len(sizes[key]) != 2:
             raise BodyError("--{key} takes two values, upper and lower layer, found {count}", key=key, count=len(sizes[key]))
-    width, depth = sizes["width"], asked.get("depth")
+    width, depth = sizes["width"], params.get("depth")
     return TwoLayerBlock(width, width if depth is None else depth, *sizes["heights"], *sizes["masses"])

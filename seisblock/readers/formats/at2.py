@@ -7,22 +7,22 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from seisblock.errors import RecordFormatError
-from seisblock.readers.cells import fail
-from seisblock.readers.directions import direction_of
-from seisblock.readers.header import number
-from seisblock.readers.source import Blob, decode
+from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.readers._header import parse_number
+from seisblock.readers.directions import parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, Record
-from seisblock.typing import FloatArray
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import said
 
 FORMAT = "AT2"
 _HEADER_LINES = 12
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _INTERVAL = re.compile(r"\bDT\s*=\s*([\d.]+(?:[ED][-+]?\d+)?)", re.IGNORECASE)
-_OLD = re.compile(r"^\s*(\d+)\s+([\d.]+(?:E[-+]?\d+)?)\s+NPTS,\s*DT", re.IGNORECASE | re.MULTILINE)
-_NAME = re.compile(
+_OLD_STYLE = re.compile(r"^\s*(\d+)\s+([\d.]+(?:E[-+]?\d+)?)\s+NPTS,\s*DT", re.IGNORECASE | re.MULTILINE)
+_FILE_NAME = re.compile(
     r"^(?P<base>.*?[^0-9_-])?[-_ ]*(?P<direction>\d{3}|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V)(?:[-_](?:hor|ver|up|h|v)\w*)?$",
     re.IGNORECASE,
 )
@@ -33,10 +33,10 @@ def is_at2(head: bytes) -> bool:
     text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
     if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
         return False
-    return bool(_OLD.search(text) or (_COUNT.search(text) and _INTERVAL.search(text)))
+    return bool(_OLD_STYLE.search(text) or (_COUNT.search(text) and _INTERVAL.search(text)))
 
 
-def read_at2(blob: Blob) -> Record:
+def read_at2(blob: RawFile) -> Record:
     """Return the one component in an AT2 file.
 
     Notes
@@ -45,15 +45,15 @@ def read_at2(blob: Blob) -> Record:
     as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with the sign turned, which the history says. The header has a date but no time:
     `start` is None, and ``metadata["event"]`` tells which files belong together.
     """
-    lines = decode(blob).split("\n")
-    clock, count, dt = _clock(blob.name, lines)
-    header = " ".join(lines[:clock])
-    stated = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
-    if stated and stated[1].upper() not in ("G", "G'S", "GS"):
+    lines = decode_text(blob).split("\n")
+    sampling_line, count, dt = _parse_sampling(blob.name, lines)
+    header = " ".join(lines[:sampling_line])
+    unit_match = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
+    if unit_match and unit_match[1].upper() not in ("G", "G'S", "GS"):
         raise RecordFormatError(
-            "{name}: an AT2 file is in g, but its header says {found!r}: expected an acceleration in g", name=blob.name, found=stated[1]
+            "{name}: an AT2 file is in g, but its header says {found!r}: expected an acceleration in g", name=blob.name, found=unit_match[1]
         )
-    values = _values(blob.name, lines[clock + 1 :], clock + 2)
+    values = _parse_samples(blob.name, lines[sampling_line + 1 :], sampling_line + 2)
     if values.size != count:
         raise RecordFormatError(
             "{name}: its header promises {count} samples (NPTS), it holds {found}: it is cut or damaged",
@@ -61,54 +61,62 @@ def read_at2(blob: Blob) -> Record:
             count=count,
             found=values.size,
         )
-    event, station, direction = _title(lines[1] if clock > 1 else "", blob.basename)
-    code, azimuth, sign = orientation(direction)
+    event, station, direction = _parse_title(lines[1] if sampling_line > 1 else "", blob.basename)
+    code, azimuth, sign = parse_orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
-    history = (said("turned the sign of {name!r}, which is positive down, to UD, positive up", name=direction),) if sign < 0 else ()
+    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
     return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
 
 
-def orientation(direction: str) -> tuple[str, float | None, float]:
+def parse_orientation(direction: str) -> tuple[str, float | None, float]:
     """Return code, azimuth in degrees clockwise from north, and sign, of a direction as PEER writes it.
 
     Examples
     --------
-    >>> orientation("360"), orientation("090"), orientation("164"), orientation("DWN"), orientation("N21E")
+    >>> parse_orientation("360"), parse_orientation("090"), parse_orientation("164"), parse_orientation("DWN"), parse_orientation("N21E")
     (('NS', 0.0, 1.0), ('EW', 90.0, 1.0), ('164', 164.0, 1.0), ('UD', None, -1.0), ('21', 21.0, 1.0))
     """
-    found = direction_of(direction)
-    if found is None:
+    parsed_direction = parse_direction(direction)
+    if parsed_direction is None:
         return re.sub(r"[\s.]", "", direction.upper()) or "H1", None, 1.0
-    return found.code, found.azimuth_deg, found.sign
+    return parsed_direction.code, parsed_direction.azimuth_deg, parsed_direction.sign
 
 
-def set_name(basename: str) -> tuple[str, str] | None:
+def split_direction(basename: str) -> tuple[str, str] | None:
     """Return a file name without the direction, and the direction, or None when it holds none.
 
     Examples
     --------
-    >>> set_name("RSN1690_NORTH151_SYL360-hor2.AT2"), set_name("I-ELC-UP.AT2"), set_name("elcentro.at2")
+    >>> split_direction("RSN1690_NORTH151_SYL360-hor2.AT2"), split_direction("I-ELC-UP.AT2"), split_direction("elcentro.at2")
     (('RSN1690_NORTH151_SYL', '360'), ('I-ELC', 'UP'), None)
     """
-    match = _NAME.match(re.sub(r"\.at2\Z", "", basename, flags=re.IGNORECASE))
+    match = _FILE_NAME.match(re.sub(r"\.at2\Z", "", basename, flags=re.IGNORECASE))
     if match is None or not match["base"]:
         return None
     return match["base"].rstrip("-_ "), match["direction"]
 
 
-def _clock(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
+def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
     """Return the index of the line with NPTS and DT, and both."""
     for index, line in enumerate(lines[:_HEADER_LINES]):
-        old = _OLD.match(line)
-        count, interval = (old[1], old[2]) if old else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
+        old_match = _OLD_STYLE.match(line)
+        count, interval = (
+            (old_match[1], old_match[2]) if old_match else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
+        )
         if count and interval:
-            told = [set(map(number, found.findall("\n".join(lines[: index + 1])))) for found in (_COUNT, _INTERVAL)]
-            if any(len(values) > 1 for values in told):
-                fail(name, index + 1, said("expected one NPTS and one DT, found several in the header: {text!r}", text=line.strip()[:80]))
-            dt = number(interval)
+            stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
+            if any(len(values) > 1 for values in stated_values):
+                raise_line_error(
+                    name,
+                    index + 1,
+                    lazy_gettext("expected one NPTS and one DT, found several in the header: {text!r}", text=line.strip()[:80]),
+                )
+            dt = parse_number(interval)
             if not dt or dt < 0:
-                fail(name, index + 1, said("expected a sampling interval DT above 0, found {interval!r}", interval=interval))
+                raise_line_error(
+                    name, index + 1, lazy_gettext("expected a sampling interval DT above 0, found {interval!r}", interval=interval)
+                )
             return index, int(count), dt
     raise RecordFormatError(
         "{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {count}",
@@ -117,7 +125,7 @@ def _clock(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
     )
 
 
-def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
+def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
     """Return the samples, g, row after row."""
     tokens = " ".join(lines).split()
     if not tokens:
@@ -129,17 +137,17 @@ def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
     if not np.isfinite(values).all():
         for offset, line in enumerate(lines):
             for cell in line.split():
-                if number(cell) is None:
-                    fail(name, first_line + offset, said("expected accelerations in g, found {cell!r}", cell=cell))
+                if parse_number(cell) is None:
+                    raise_line_error(name, first_line + offset, lazy_gettext("expected accelerations in g, found {cell!r}", cell=cell))
     return values
 
 
-def _title(line: str, basename: str) -> tuple[str, str, str]:
+def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
     """Return event, station and direction from the header's second line, the direction else from the file's name."""
     fields = [field.strip() for field in line.split(",")]
-    named = set_name(basename)
+    name_parts = split_direction(basename)
     if len(fields) >= 4:
         return ", ".join(fields[:2]), ", ".join(fields[2:-1]), fields[-1]
-    if len(fields) == 3 and orientation(fields[-1])[1:] != (None, 1.0):
+    if len(fields) == 3 and parse_orientation(fields[-1])[1:] != (None, 1.0):
         return fields[0], fields[1], fields[2]
-    return line.strip(), named[0] if named else "", named[1] if named else ""
+    return line.strip(), name_parts[0] if name_parts else "", name_parts[1] if name_parts else ""

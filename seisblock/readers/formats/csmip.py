@@ -13,20 +13,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from seisblock.errors import RecordFormatError, UnitError
-from seisblock.readers.cells import fail, to_si
-from seisblock.readers.channels import at_places, place_in, turned
-from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.fields import DOS_END, count_in, fields_of, form_of, lines_for
-from seisblock.readers.header import number
-from seisblock.readers.naming import normal_unit
-from seisblock.readers.peaks import doubts_of_peak, half_unit
-from seisblock.readers.places import degrees_of, moment_of
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Doubt, Record
-from seisblock.records.site import CLOCKS
-from seisblock.typing import FloatArray
-from seisblock.words import noted, said
+from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
+from seisblock.readers._header_text import parse_coordinates, parse_datetime
+from seisblock.readers.channels import make_component, parse_location, split_by_location
+from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.headers import normalize_unit
+from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.records import QCFlag, Record
+from seisblock.records.site import UTC_OFFSETS
 
 FORMAT = "CSMIP"
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
@@ -48,12 +48,12 @@ _UNIT = re.compile(r"(?:units?\s*(?:of|:)|\bin(?! units))\s*([a-z][a-z0-9/]*)", 
 _PEAKS = {1: r"\bmax\s*=\s*(-?[\d.]+)", 2: r"\bpeak acceleration\s*=\s*(-?[\d.]+)"}
 """How the header tells the largest sample, by volume."""
 
-_END = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
-_REFUSED = {
-    "RES": noted("response spectra (volume 3): take volume 2 of the same record"),
-    "FIL": noted("uncorrected, uneven samples in the layout of USC: take corrected, even ones of the same record, volume 2"),
+_END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
+_UNSUPPORTED = {
+    "RES": N_("response spectra (volume 3): take volume 2 of the same record"),
+    "FIL": N_("uncorrected, uneven samples in the layout of USC: take corrected, even ones of the same record, volume 2"),
 }
-_UNEVEN = noted("uneven samples (volume 1, pairs of time and acceleration): take volume 2 of the same record, whose samples are even")
+_UNEVEN = N_("uneven samples (volume 1, pairs of time and acceleration): take volume 2 of the same record, whose samples are even")
 
 
 class _Section(NamedTuple):
@@ -74,7 +74,7 @@ def is_csmip(head: bytes) -> bool:
     return match[1][:3].upper() != b"COR" or b"UNCORRECTED ACCELEROGRAM DATA" in head[:400].upper()
 
 
-def read_csmip(blob: Blob) -> list[Record]:
+def read_csmip(blob: RawFile) -> list[Record]:
     """Return the channels in a CSMIP file of volume 1 or 2, as records of one component each.
 
     Notes
@@ -82,82 +82,92 @@ def read_csmip(blob: Blob) -> list[Record]:
     The azimuths are kept. A file of more than three channels, or of two in one direction, is a structure's: each place in it is a station
     of its own. Peak, count and length that the header tells are compared with the samples.
     """
-    lines = decode(blob).replace(DOS_END, "").split("\n")
+    lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     while lines and not lines[-1].strip():
         lines.pop()
     parts, begin = [], 0
     while begin < len(lines):
-        part, begin = _channel(blob.name, lines, begin)
+        part, begin = _parse_channel(blob.name, lines, begin)
         parts.append(part)
         while begin < len(lines) and not lines[begin].strip():
             begin += 1
-    if not _END.match(lines[-1].strip()):
-        parts = [_cut(part) for part in parts]
-    return at_places(parts)
+    if not _END_MARK.match(lines[-1].strip()):
+        parts = [_flag_truncated(part) for part in parts]
+    return split_by_location(parts)
 
 
-def _cut(part: Record) -> Record:
+def _flag_truncated(part: Record) -> Record:
     """Return a record with the doubt that its file lacks its end."""
-    doubt = Doubt("cut", said("the mark that ends the last channel is missing: the file looks cut"))
-    return replace(part, doubts=(*part.doubts, doubt))
+    flag = QCFlag("cut", lazy_gettext("the mark that ends the last channel is missing: the file looks cut"))
+    return replace(part, doubts=(*part.doubts, flag))
 
 
-def _channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record, int]:
+def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record, int]:
     """Return the channel that begins at a line, and where the next does."""
     title = _TITLE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
-        fail(name, begin + 1, said("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
+        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
     kind = title[1][:3].decode().upper()
-    if kind in _REFUSED:
-        raise RecordFormatError("{name} holds {what}", name=name, what=said(_REFUSED[kind]))
+    if kind in _UNSUPPORTED:
+        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
     volume = _VOLUMES[kind]
-    at = begin + _HEADERS[volume]
-    sections = [_section(name, lines, at, volume)]
+    line_index = begin + _HEADERS[volume]
+    sections = [_parse_section(name, lines, line_index, volume)]
     while _SECTION.match((lines[sections[-1].end : sections[-1].end + 1] or [""])[0]):
-        sections.append(_section(name, lines, sections[-1].end, volume))
+        sections.append(_parse_section(name, lines, sections[-1].end, volume))
     end = sections[-1].end
     if end < len(lines) and not lines[end].startswith("/&"):
-        fail(name, end + 1, said("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
-    found = next((section for section in sections if section.quantity == "accel"), None)
-    if found is None:
+        raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
+    acceleration = next((section for section in sections if section.quantity == "accel"), None)
+    if acceleration is None:
         raise RecordFormatError("{name}, line {line}: there is no acceleration in this channel", name=name, line=begin + 1)
-    return _record(name, lines[begin:at], begin, volume, found), end + 1
+    return _to_record(name, lines[begin:line_index], begin, volume, acceleration), end + 1
 
 
-def _section(name: str, lines: Sequence[str], at: int, volume: int) -> _Section:
+def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int) -> _Section:
     """Return the samples whose count, interval and unit stand in a line."""
-    text = lines[at] if at < len(lines) else ""
+    text = lines[line_index] if line_index < len(lines) else ""
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
-        raise RecordFormatError("{name} holds {what}", name=name, what=said(_UNEVEN))
-    step = number(interval[1]) if interval else None
+        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNEVEN))
+    step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
-        what = said("expected a line with count, interval and unit of the samples below it, found {text!r}", text=text.strip()[:80])
-        fail(name, at + 1, what)
+        message = lazy_gettext(
+            "expected a line with count, interval and unit of the samples below it, found {text!r}", text=text.strip()[:80]
+        )
+        raise_line_error(name, line_index + 1, message)
     dt = step if interval[2].lower() == "sec" else 1.0 / step
-    count, form = count_in(name, at + 1, match[1]), form_of(text) or _FORMS[volume]
-    return _Section(match[2].lower(), dt, unit[1], fields_of(name, lines, at + 1, count, form), at + 1 + lines_for(count, form))
+    count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
+    return _Section(
+        match[2].lower(),
+        dt,
+        unit[1],
+        parse_fixed_width(name, lines, line_index + 1, count, layout),
+        line_index + 1 + count_lines(count, layout),
+    )
 
 
-def _record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
+def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
     """Return one channel."""
-    unit = normal_unit(section.unit)
+    unit = normalize_unit(section.unit)
     if unit is None:
         line = begin + len(text) + 1
         raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=name, line=line, text=section.unit)
-    further = volume - 1
-    channel = re.match(r"\s*CHAN\s+(\S+?)\s*:\s*(\d{1,3}\s*deg\b|\S+)(.*)", text[CHANNEL + further], re.IGNORECASE)
-    station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + further], re.IGNORECASE)
+    line_shift = volume - 1
+    channel = re.match(r"\s*CHAN\s+(\S+?)\s*:\s*(\d{1,3}\s*deg\b|\S+)(.*)", text[CHANNEL + line_shift], re.IGNORECASE)
+    station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + line_shift], re.IGNORECASE)
     if channel is None or station is None:
-        line = begin + 1 + further + (STATION if station is None else CHANNEL)
-        fail(name, line, said("expected a station or a channel, found {text!r}", text=text[line - begin - 1].strip()[:60]))
-    direction = direction_of(channel[2]) or Direction(channel[2].upper())
-    component, history = turned(direction, to_si(section.values, unit), channel[2])
-    start, _ = moment_of(text[TRIGGER + further])
-    metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, further)}
-    metadata |= {"channels": {direction.code: channel[1]}} | ({"place": place_in(channel[3])} if place_in(channel[3]) else {})
+        line = begin + 1 + line_shift + (STATION if station is None else CHANNEL)
+        raise_line_error(
+            name, line, lazy_gettext("expected a station or a channel, found {text!r}", text=text[line - begin - 1].strip()[:60])
+        )
+    direction = parse_direction(channel[2]) or Direction(channel[2].upper())
+    component, history = make_component(direction, to_si(section.values, unit), channel[2])
+    start, _ = parse_datetime(text[TRIGGER + line_shift])
+    metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
+    metadata |= {"channels": {direction.code: channel[1]}} | ({"place": parse_location(channel[3])} if parse_location(channel[3]) else {})
     if start is None:
-        metadata["event"] = " ".join(f"{text[EVENT + further]} {text[ORIGIN + further]}".split())
+        metadata["event"] = " ".join(f"{text[EVENT + line_shift]} {text[ORIGIN + line_shift]}".split())
     return Record(
         (component,),
         section.dt,
@@ -167,58 +177,67 @@ def _record(name: str, text: Sequence[str], begin: int, volume: int, section: _S
         format=FORMAT,
         history=history,
         metadata=metadata,
-        doubts=_doubts(direction.code, " ".join(text), section, volume),
+        doubts=_qc_flags(direction.code, " ".join(text), section, volume),
     )
 
 
-def _metadata(text: Sequence[str], further: int) -> dict[str, object]:
+def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     """Return what the text says of station and earthquake."""
     event, origin, trigger, station, name, hypocentre = (
-        text[line + further] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
+        text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
     )
     words = re.split(r"\s{3,}", name.strip())[0]
     metadata: dict[str, object] = {"station_name": words} if words else {}
     if event.strip() and not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE):
         metadata["event_name"] = re.split(r"\s{3,}", event.strip())[0]
-    places = dict(zip(("station_latitude_deg", "station_longitude_deg"), degrees_of(station), strict=True))
-    places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), degrees_of(hypocentre), strict=True))
+    places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(station), strict=True))
+    places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(hypocentre), strict=True))
     metadata |= {key: value for key, value in places.items() if value is not None}
     depth = re.search(r"\bH\s*=\s*([\d.]+)\s*KM", hypocentre, re.IGNORECASE)
-    metadata |= {"event_depth_km": float(depth[1].rstrip("."))} if depth and number(depth[1]) is not None else {}
-    metadata |= magnitude_in(hypocentre)
-    told, _ = moment_of(origin)
-    metadata |= {"origin_time": told} if told else {}
-    clock = next((word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in CLOCKS and word != "UTC"), "UTC")
+    metadata |= {"event_depth_km": float(depth[1].rstrip("."))} if depth and parse_number(depth[1]) is not None else {}
+    metadata |= parse_magnitude(hypocentre)
+    origin_time, _ = parse_datetime(origin)
+    metadata |= {"origin_time": origin_time} if origin_time else {}
+    clock = next(
+        (word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in UTC_OFFSETS and word != "UTC"), "UTC"
+    )
     return metadata | {"clock": clock}
 
 
-def magnitude_in(text: str) -> dict[str, object]:
+def parse_magnitude(text: str) -> dict[str, object]:
     """Return the magnitude in a text, Mw before ML before Ms, ready for the metadata.
 
     Examples
     --------
-    >>> magnitude_in("MS=6.6(NEIC), MW=6.4(CIT)"), magnitude_in("ML:  To be determined.")
+    >>> parse_magnitude("MS=6.6(NEIC), MW=6.4(CIT)"), parse_magnitude("ML:  To be determined.")
     ({'magnitude': 6.4}, {})
     """
-    told = {kind.upper(): number(value.rstrip(".")) for kind, value in re.findall(r"\b(M[WLS]?)\s*=\s*(\d[\d.]*)", text, re.IGNORECASE)}
-    found = next((told[kind] for kind in ("MW", "ML", "MS", "M") if told.get(kind)), None)
-    return {} if found is None else {"magnitude": found}
+    magnitudes = {
+        kind.upper(): parse_number(value.rstrip(".")) for kind, value in re.findall(r"\b(M[WLS]?)\s*=\s*(\d[\d.]*)", text, re.IGNORECASE)
+    }
+    magnitude = next((magnitudes[kind] for kind in ("MW", "ML", "MS", "M") if magnitudes.get(kind)), None)
+    return {} if magnitude is None else {"magnitude": magnitude}
 
 
-def _doubts(code: str, text: str, section: _Section, volume: int) -> tuple[Doubt, ...]:
+def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
     """Return what the text says of the samples that is not so: peak, count, interval and length of the record."""
     size, dt = section.values.size, section.dt
     peak = re.search(_PEAKS[volume], text, re.IGNORECASE)
-    told = peak[1] if peak else ""
-    found = doubts_of_peak(code, told, section.values, section.unit, half_unit(told))
-    counted = re.search(r"(?:no\. of points\s*=\s*(\d+)|(\d+)\s+points of instrument)", text, re.IGNORECASE)
-    promised = int((counted[1] or counted[2])[:12]) if counted else 0
-    if promised != size:
-        found += (Doubt("count", said("the header promises {promised} samples, the file holds {count}", promised=promised, count=size)),)
+    peak_text = peak[1] if peak else ""
+    flags = flag_peak_mismatch(code, peak_text, section.values, section.unit, half_last_digit(peak_text))
+    count_match = re.search(r"(?:no\. of points\s*=\s*(\d+)|(\d+)\s+points of instrument)", text, re.IGNORECASE)
+    promised_count = int((count_match[1] or count_match[2])[:12]) if count_match else 0
+    if promised_count != size:
+        flags += (
+            QCFlag(
+                "count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=size)
+            ),
+        )
     length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
-    seconds = number(length[1]) if length else None
-    if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_unit(length[1]):
-        what = said("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=length[1] if length else "-",
+    seconds = parse_number(length[1]) if length else None
+    if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
+        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
+        text=length[1] if length else "-",
                     count=size, seconds=size * dt)  # fmt: skip
-        found += (Doubt("count", what),)
-    return found
+        flags += (QCFlag("count", message),)
+    return flags

@@ -12,26 +12,26 @@ from collections.abc import Iterator, Mapping, Sequence
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
-from seisblock.errors import RecordFormatError
-from seisblock.readers.cells import columns_of, fail, to_si
-from seisblock.readers.clock import even_dt
-from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
-from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.header import number
-from seisblock.readers.naming import normal_unit
-from seisblock.readers.peaks import half_unit
-from seisblock.readers.places import moment_of
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Doubt, Record
-from seisblock.records.site import CLOCKS
-from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import half_last_digit
+from seisblock.readers._header_text import parse_datetime
+from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.headers import normalize_unit
+from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
+from seisblock.readers.table.sampling import sampling_interval
+from seisblock.records import Component, QCFlag, Record
+from seisblock.records.site import UTC_OFFSETS
 
 FORMAT = "CWA"
-LOCAL = "GMT+08"
+TAIWAN_CLOCK = "GMT+08"
 """What the header calls the clock of Taiwan."""
 
-LONGEST_S = 1e7
+MAX_FIRST_TIME_S = 1e7
 """A first sample later than this after the instant 0, s, is damage and no time."""
 
 _KEY = re.compile(r"#\s*([^:(]+?)\s*(?:\(([^)]*)\))?\s*:\s*(.*?)\s*$")
@@ -51,7 +51,7 @@ _NUMBERS = {
 class _Entry(NamedTuple):
     """One line of the header: what stands in brackets behind its name, what it says, and its number."""
 
-    within: str
+    qualifier: str
     value: str
     line: int
 
@@ -62,7 +62,7 @@ def is_cwa(head: bytes) -> bool:
     return begins is not None and re.search(rb"^\s*#\s*DataSequence\s*:", head, re.IGNORECASE | re.MULTILINE) is not None
 
 
-def read_cwa(blob: Blob) -> Record:
+def read_cwa(blob: RawFile) -> Record:
     """Return the record in a strong-motion text file of CWA.
 
     Raises
@@ -70,21 +70,23 @@ def read_cwa(blob: Blob) -> Record:
     RecordFormatError
         If the header lacks rate, unit or the sequence of the columns, contradicts the times, or a line breaks the table.
     """
-    lines = decode(blob).split("\n")
+    lines = decode_text(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")), len(lines))
-    header = _header(lines[:body])
-    directions = _directions(blob.name, header)
-    unit = normal_unit(_asked(blob.name, header, "amplitudeunit").value.partition(" ")[0])
+    header = _parse_header(lines[:body])
+    directions = _parse_directions(blob.name, header)
+    unit = normalize_unit(_require_entry(blob.name, header, "amplitudeunit").value.partition(" ")[0])
     if unit is None:
         entry = header["amplitudeunit"]
-        fail(blob.name, entry.line, said("expected a unit of acceleration such as gal, found {text!r}", text=entry.value[:40]))
+        raise_line_error(
+            blob.name, entry.line, lazy_gettext("expected a unit of acceleration such as gal, found {text!r}", text=entry.value[:40])
+        )
     labels = {"Time": 0, **{code: i + 1 for i, code in enumerate(directions)}}
-    rows = columns_of(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
-    dt = _interval(blob.name, header, rows[0], lines[body:])
+    rows = parse_columns(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
+    dt = _sampling_interval(blob.name, header, rows[0], lines[body:])
     samples = dict(zip(directions, rows[1:], strict=True))
-    start = _start(blob.name, header, float(rows[0][0]))
-    doubts = (*_of_count(header, rows[0].size, dt), *_of_extremes(header, samples, unit))
-    doubts += doubts_of_decimals(lines[body:], body + 1, None) + doubts_of_end(lines[body:], None)
+    start = _start_time(blob.name, header, float(rows[0][0]))
+    flags = (*_flag_length(header, rows[0].size, dt), *_flag_extremes(header, samples, unit))
+    flags += flag_missing_points(lines[body:], body + 1, None) + flag_truncated_end(lines[body:], None)
     return Record(
         tuple(Component(code, to_si(row, unit), directions[code].azimuth_deg) for code, row in samples.items()),
         dt,
@@ -93,49 +95,49 @@ def read_cwa(blob: Blob) -> Record:
         source=blob.name,
         format=FORMAT,
         metadata={"unit": unit, **_metadata(header)},
-        doubts=doubts,
+        doubts=flags,
     )
 
 
-def _header(lines: Sequence[str]) -> dict[str, _Entry]:
+def _parse_header(lines: Sequence[str]) -> dict[str, _Entry]:
     """Return what the header says, by its names in small letters without blanks; of one that stands twice the first."""
-    found: dict[str, _Entry] = {}
+    entries: dict[str, _Entry] = {}
     for index, line in enumerate(lines):
         match = _KEY.match(line.lstrip("\ufeff "))
         if match:
-            found.setdefault(re.sub(r"\s", "", match[1]).lower(), _Entry(match[2] or "", match[3], index + 1))
-    return found
+            entries.setdefault(re.sub(r"\s", "", match[1]).lower(), _Entry(match[2] or "", match[3], index + 1))
+    return entries
 
 
-def _asked(name: str, header: Mapping[str, _Entry], key: str) -> _Entry:
+def _require_entry(name: str, header: Mapping[str, _Entry], key: str) -> _Entry:
     """Return a line that the header must have."""
     if key not in header:
-        known = {"amplitudeunit": "#AmplitudeUnit", "samplerate": "#SampleRate(Hz)", "datasequence": "#DataSequence"}
+        line_names = {"amplitudeunit": "#AmplitudeUnit", "samplerate": "#SampleRate(Hz)", "datasequence": "#DataSequence"}
         raise RecordFormatError(
-            "{name}: the header of a CWA file lacks the line {line}: it is cut or damaged, fetch it again", name=name, line=known[key]
+            "{name}: the header of a CWA file lacks the line {line}: it is cut or damaged, fetch it again", name=name, line=line_names[key]
         )
     return header[key]
 
 
-def _directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Direction]:
+def _parse_directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Direction]:
     """Return the directions of the columns behind the time, by their codes, in their order."""
-    entry = _asked(name, header, "datasequence")
+    entry = _require_entry(name, header, "datasequence")
     letters = re.findall(r"([A-Z]+)\(\+\)", entry.value, re.IGNORECASE)
-    told = [direction_of(letter) for letter in letters]
-    found = {direction.code: direction for direction in told if direction is not None and direction.sign > 0.0}
-    if not _SEQUENCE.match(entry.value) or len(found) != len(letters):
-        what = said("expected the sequence of the columns, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
-        fail(name, entry.line, what)
-    return found
+    parsed_directions = [parse_direction(letter) for letter in letters]
+    directions = {direction.code: direction for direction in parsed_directions if direction is not None and direction.sign > 0.0}
+    if not _SEQUENCE.match(entry.value) or len(directions) != len(letters):
+        message = lazy_gettext("expected the sequence of the columns, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
+        raise_line_error(name, entry.line, message)
+    return directions
 
 
-def _interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: Sequence[str]) -> float:
+def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: Sequence[str]) -> float:
     """Return the sampling interval, s, in which the header's rate and the times agree."""
-    entry = _asked(name, header, "samplerate")
-    rate = number(entry.value)
+    entry = _require_entry(name, header, "samplerate")
+    rate = parse_number(entry.value)
     if rate is None or not rate > 0.0:
-        fail(name, entry.line, said("expected samples per second, found {text!r}", text=entry.value[:40]))
-    dt = even_dt(name, times, lambda: [line.split()[0] for line in body if line.strip()])
+        raise_line_error(name, entry.line, lazy_gettext("expected samples per second, found {text!r}", text=entry.value[:40]))
+    dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
     if abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
             "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=name, rate=rate, dt=dt
@@ -143,75 +145,79 @@ def _interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: 
     return 1.0 / rate
 
 
-def _start(name: str, header: Mapping[str, _Entry], first_s: float) -> datetime | None:
+def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> datetime | None:
     """Return the time of the first sample, UTC, so long after the instant 0 of the table; None where the header has none."""
     entry = header.get("starttime")
     if entry is None or not entry.value:
         return None
-    start = _moment(entry)
+    start = _parse_time(entry)
     if start is None:
-        fail(name, entry.line, said("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", text=entry.value[:40]))
-    return start + timedelta(seconds=first_s) if abs(first_s) < LONGEST_S else start
+        raise_line_error(
+            name, entry.line, lazy_gettext("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", text=entry.value[:40])
+        )
+    return start + timedelta(seconds=first_s) if abs(first_s) < MAX_FIRST_TIME_S else start
 
 
-def _moment(entry: _Entry) -> datetime | None:
+def _parse_time(entry: _Entry) -> datetime | None:
     """Return a moment of the header, UTC."""
     day, _, time = re.sub(r"(?<=\d)[T-](?=\d\d?:)", " ", entry.value).partition(" ")
-    told, _ = moment_of(f"{day.replace('-', '/')} {time}")
-    return told - CLOCKS[LOCAL] if told is not None and _is_local(entry) else told
+    local_time, _ = parse_datetime(f"{day.replace('-', '/')} {time}")
+    return local_time - UTC_OFFSETS[TAIWAN_CLOCK] if local_time is not None and _is_local(entry) else local_time
 
 
 def _is_local(entry: _Entry) -> bool:
     """Return whether a time is told by the clock of Taiwan."""
-    return re.fullmatch(r"(?:GMT|UTC)\s*\+\s*0?8(?::?00)?", entry.within.strip(), re.IGNORECASE) is not None
+    return re.fullmatch(r"(?:GMT|UTC)\s*\+\s*0?8(?::?00)?", entry.qualifier.strip(), re.IGNORECASE) is not None
 
 
-def _of_count(header: Mapping[str, _Entry], count: int, dt: float) -> Iterator[Doubt]:
+def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterator[QCFlag]:
     """Yield a doubt about a length of the record that is another than the header's: of all samples, or from the first to the last."""
     entry = header.get("recordlength")
     if entry is None:
         return
-    seconds = number(entry.value)
-    slack = min(half_unit(entry.value), 0.1 * dt)
+    seconds = parse_number(entry.value)
+    slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
-        what = said(
+        message = lazy_gettext(
             "the header tells a duration of {text} s, {count} samples take {seconds:g} s",
             text=entry.value[:20] or "-",
             count=count,
             seconds=count * dt,
         )
-        yield Doubt("count", what)
+        yield QCFlag("count", message)
 
 
-def _of_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[Doubt]:
+def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[QCFlag]:
     """Yield a doubt for each component whose largest and smallest sample are not those of the header."""
     for key, entry in header.items():
-        named = _EXTREMES.fullmatch(key)
-        direction = direction_of(named[1]) if named else None
+        match = _EXTREMES.fullmatch(key)
+        direction = parse_direction(match[1]) if match else None
         if direction is None or direction.code not in samples:
             continue
         row, parts = samples[direction.code], [part.strip() for part in entry.value.split("~")]
-        told = sorted(value for part in parts if (value := number(part)) is not None)
-        found = [float(row.min()), float(row.max())]
-        slack = 2.0 * max(half_unit(part) for part in parts) * (1.0 + 1e-6)
-        if len(told) == 2 and all(abs(a - b) <= slack for a, b in zip(told, found, strict=True)):
+        stated_extremes = sorted(value for part in parts if (value := parse_number(part)) is not None)
+        sample_extremes = [float(row.min()), float(row.max())]
+        slack = 2.0 * max(half_last_digit(part) for part in parts) * (1.0 + 1e-6)
+        if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
-        text = said(
+        text = lazy_gettext(
             "{component}: the header says that the samples lie within {told!r}, they reach from {low:g} to {high:g} {unit}",
             component=direction.code,
             told=entry.value[:40],
-            low=found[0],
-            high=found[1],
+            low=sample_extremes[0],
+            high=sample_extremes[1],
             unit=unit,
         )
-        yield Doubt("header", text, direction.code)
+        yield QCFlag("header", text, direction.code)
 
 
 def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
     """Return what the header says of station and earthquake."""
-    found: dict[str, object] = {"network": "TW"}
-    found |= {"clock": LOCAL} if "starttime" in header and _is_local(header["starttime"]) else {}
-    found |= {"station_name": header["stationname"].value} if header.get("stationname", _Entry("", "", 0)).value else {}
-    found |= {label: value for key, label in _NUMBERS.items() if key in header and (value := number(header[key].value)) is not None}
-    origin = _moment(header["origintime"]) if "origintime" in header else None
-    return found | ({} if origin is None else {"origin_time": origin})
+    metadata: dict[str, object] = {"network": "TW"}
+    metadata |= {"clock": TAIWAN_CLOCK} if "starttime" in header and _is_local(header["starttime"]) else {}
+    metadata |= {"station_name": header["stationname"].value} if header.get("stationname", _Entry("", "", 0)).value else {}
+    metadata |= {
+        label: value for key, label in _NUMBERS.items() if key in header and (value := parse_number(header[key].value)) is not None
+    }
+    origin = _parse_time(header["origintime"]) if "origintime" in header else None
+    return metadata | ({} if origin is None else {"origin_time": origin})

@@ -6,26 +6,26 @@ import re
 from collections.abc import Sequence
 from datetime import datetime
 
-from seisblock.errors import RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, fail, to_si
-from seisblock.readers.channels import turned
-from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.fields import count_in
-from seisblock.readers.header import number
-from seisblock.readers.naming import normal_unit
-from seisblock.readers.peaks import doubts_of_peak, half_unit
-from seisblock.readers.places import moment
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._fixed_width import parse_sample_count
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
+from seisblock.readers._header_text import utc_datetime
+from seisblock.readers.channels import make_component
+from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.headers import normalize_unit
+from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.records import QCFlag, Record
 
 FORMAT = "ESM"
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
-_MOST = 100
+_MAX_HEADER_LINES = 100
 """Lines of a header, of which there are 64."""
 
-_SECONDS = 1.5
+_DURATION_TOLERANCE = 1.5
 """How many intervals the header's duration may lie from the count."""
 
 Header = dict[str, tuple[int, str]]
@@ -37,7 +37,7 @@ def is_esm(head: bytes) -> bool:
     return re.match(rb"(?:\xef\xbb\xbf)?EVENT_NAME:[^\n]*\r?\nEVENT_ID:", head) is not None
 
 
-def read_esm(blob: Blob) -> Record:
+def read_esm(blob: RawFile) -> Record:
     """Return the one component in an ASCII file of ESM.
 
     Notes
@@ -45,21 +45,21 @@ def read_esm(blob: Blob) -> Record:
     Count, peak, time of the peak and duration are the header's own; where the samples differ it is doubted, and a file that ends before
     its count is refused. Velocities, displacements and spectra are refused by what they say they are.
     """
-    lines = decode(blob).split("\n")
-    header, body = _header(blob.name, lines)
-    kind = _value(blob.name, header, "DATA_TYPE")[1]
+    lines = decode_text(blob).split("\n")
+    header, body = _parse_header(blob.name, lines)
+    kind = _get_value(blob.name, header, "DATA_TYPE")[1]
     if kind.upper() != "ACCELERATION":
         raise RecordFormatError("{name} holds {what} by its own header: take the file of accelerations (ACC)", name=blob.name, what=kind)
-    line, written = _value(blob.name, header, "UNITS")
-    unit = normal_unit(written)
+    line, unit_text = _get_value(blob.name, header, "UNITS")
+    unit = normalize_unit(unit_text)
     if unit is None:
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=blob.name, line=line, text=written)
-    line, text = _value(blob.name, header, "SAMPLING_INTERVAL_S")
-    dt = number(text)
+        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=blob.name, line=line, text=unit_text)
+    line, text = _get_value(blob.name, header, "SAMPLING_INTERVAL_S")
+    dt = parse_number(text)
     if not dt or dt < 0:
-        fail(blob.name, line, said("expected a sampling interval above 0 s, found {text!r}", text=text))
-    count = count_in(blob.name, *_value(blob.name, header, "NDATA"))
-    (values,) = columns_of(blob.name, lines[body:], body + 1, {written: 0}, 1, None)
+        raise_line_error(blob.name, line, lazy_gettext("expected a sampling interval above 0 s, found {text!r}", text=text))
+    count = parse_sample_count(blob.name, *_get_value(blob.name, header, "NDATA"))
+    (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
         raise RecordFormatError(
             "{name}: its header promises {count} samples (NDATA), it holds {found}: it is cut or damaged",
@@ -67,62 +67,64 @@ def read_esm(blob: Blob) -> Record:
             count=count,
             found=values.size,
         )
-    stream = _value(blob.name, header, "STREAM")[1]
-    direction = direction_of(stream) or Direction(stream.upper() or "H1")
-    component, history = turned(direction, to_si(values, unit), stream)
+    stream = _get_value(blob.name, header, "STREAM")[1]
+    direction = parse_direction(stream) or Direction(stream.upper() or "H1")
+    component, history = make_component(direction, to_si(values, unit), stream)
     return Record(
         (component,),
         dt,
-        station=_value(blob.name, header, "STATION_CODE")[1],
-        start=_time(_value(blob.name, header, "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS")[1]),
+        station=_get_value(blob.name, header, "STATION_CODE")[1],
+        start=_parse_time(_get_value(blob.name, header, "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS")[1]),
         source=blob.name,
         format=FORMAT,
         history=history,
         metadata={"unit": unit, **_metadata(header)},
-        doubts=_doubts(direction.code, header, values, written, dt) + _doubts_of_end(lines),
+        doubts=_qc_flags(direction.code, header, values, unit_text, dt) + _flag_truncated_end(lines),
     )
 
 
-def _header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
+def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
     """Return the keys of the header, and the index of the first sample."""
     header: Header = {}
-    for index, line in enumerate(lines[:_MOST]):
+    for index, line in enumerate(lines[:_MAX_HEADER_LINES]):
         match = _KEY.match(line.strip("\ufeff\r "))
         if match is None:
-            if number(line) is None:
-                fail(name, index + 1, said("expected KEY: value, or the first sample, found {text!r}", text=line.strip()[:80]))
+            if parse_number(line) is None:
+                raise_line_error(
+                    name, index + 1, lazy_gettext("expected KEY: value, or the first sample, found {text!r}", text=line.strip()[:80])
+                )
             return header, index
         if match[1] in header:
-            fail(name, index + 1, said("the header tells {key} twice", key=match[1]))
+            raise_line_error(name, index + 1, lazy_gettext("the header tells {key} twice", key=match[1]))
         header[match[1]] = (index + 1, (match[2] or "").strip())
-    raise RecordFormatError("{name}: no sample among the first {count} lines: it is cut or damaged", name=name, count=_MOST)
+    raise RecordFormatError("{name}: no sample among the first {count} lines: it is cut or damaged", name=name, count=_MAX_HEADER_LINES)
 
 
-def _value(name: str, header: Header, key: str) -> tuple[int, str]:
+def _get_value(name: str, header: Header, key: str) -> tuple[int, str]:
     """Return the line and the value of a key."""
     if key not in header:
         raise RecordFormatError("{name}: its header has no {key}: it is cut or damaged", name=name, key=key)
     return header[key]
 
 
-def _time(text: str) -> datetime | None:
+def _parse_time(text: str) -> datetime | None:
     """Return the UTC time of ``20190728_160919.870``, None where it is none."""
     match = re.fullmatch(r"(\d{4})(\d\d)(\d\d)_?(\d\d)(\d\d)(\d\d(?:\.\d+)?)", text.strip())
     if match is None:
         return None
     year, month, day, hour, minute = (int(part) for part in match.groups()[:5])
-    return moment(year, month, day, hour, minute, float(match[6]))
+    return utc_datetime(year, month, day, hour, minute, float(match[6]))
 
 
 def _metadata(header: Header) -> dict[str, object]:
     """Return what the header says of station and earthquake."""
 
-    def told(key: str) -> str:
+    def header_value(key: str) -> str:
         return header.get(key, (0, ""))[1]
 
     metadata: dict[str, object] = {}
     names = {"station_name": "STATION_NAME", "event_name": "EVENT_NAME", "network": "NETWORK"}
-    metadata |= {key: told(label) for key, label in names.items() if told(label)}
+    metadata |= {key: header_value(label) for key, label in names.items() if header_value(label)}
     numbers = {
         "event_latitude_deg": "EVENT_LATITUDE_DEGREE",
         "event_longitude_deg": "EVENT_LONGITUDE_DEGREE",
@@ -132,31 +134,32 @@ def _metadata(header: Header) -> dict[str, object]:
         "station_height_m": "STATION_ELEVATION_M",
         "epicentral_distance_km": "EPICENTRAL_DISTANCE_KM",
     }
-    metadata |= {key: value for key, label in numbers.items() if (value := number(told(label))) is not None}
-    magnitude = next((value for key in ("MAGNITUDE_W", "MAGNITUDE_L") if (value := number(told(key))) is not None), None)
-    origin = _time(told("EVENT_DATE_YYYYMMDD") + "_" + told("EVENT_TIME_HHMMSS"))
+    metadata |= {key: value for key, label in numbers.items() if (value := parse_number(header_value(label))) is not None}
+    magnitude = next((value for key in ("MAGNITUDE_W", "MAGNITUDE_L") if (value := parse_number(header_value(key))) is not None), None)
+    origin = _parse_time(header_value("EVENT_DATE_YYYYMMDD") + "_" + header_value("EVENT_TIME_HHMMSS"))
     metadata |= {"origin_time": origin} if origin else {}
     return metadata if magnitude is None else metadata | {"magnitude": magnitude}
 
 
-def _doubts(code: str, header: Header, values: FloatArray, unit: str, dt: float) -> tuple[Doubt, ...]:
+def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: float) -> tuple[QCFlag, ...]:
     """Return what the header says of the samples that is not so: the peak, and the duration."""
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
-    told = header.get(key, (0, ""))[1]
-    found = doubts_of_peak(code, told, values, unit, 2.0 * half_unit(told))
+    peak_text = header.get(key, (0, ""))[1]
+    flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
     text = header.get("DURATION_S", (0, ""))[1]
-    duration = number(text)
-    if duration is None or abs(duration - values.size * dt) > _SECONDS * dt + half_unit(text):
-        found += (
-            Doubt("count", said("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=text[:20] or "-",
+    duration = parse_number(text)
+    if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
+        flags += (
+            QCFlag("count", lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
+            text=text[:20] or "-",
                                 count=values.size, seconds=values.size * dt)),
         )  # fmt: skip
-    return found
+    return flags
 
 
-def _doubts_of_end(lines: Sequence[str]) -> tuple[Doubt, ...]:
+def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
     """Return a doubt about a file whose last sample has fewer decimals than the one before and no end of line."""
     last = lines[-1].strip()
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()
-    return (Doubt("cut", said("the last line has no end: the file looks cut, and its last number with it")),)
+    return (QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")),)

@@ -11,17 +11,17 @@ from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
-from seisblock.readers.cells import fail, to_si
-from seisblock.readers.channels import at_places, turned
-from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.fields import count_in, fields_of, lines_for
-from seisblock.readers.header import number
-from seisblock.readers.peaks import doubts_of_peak, half_unit
-from seisblock.readers.places import degrees_of, moment
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._fixed_width import count_lines, parse_fixed_width, parse_sample_count
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
+from seisblock.readers._header_text import parse_coordinates, utc_datetime
+from seisblock.readers.channels import make_component, split_by_location
+from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.records import QCFlag, Record
 
 FORMAT = "GEONET"
 TEXT, INTEGERS, REALS = 16, 4, 6
@@ -33,23 +33,23 @@ SITE, NAME, EVENT, DAY, EPICENTRE, COMPONENT, PEAK = 1, 2, 6, 7, 8, 12, 13
 """Lines of text."""
 
 SAMPLES, VELOCITIES, DISPLACEMENTS = 33, 34, 35
-BEGUN = (8, 9, 18, 19, 38, 39)
+START_TIME = (8, 9, 18, 19, 38, 39)
 """Places of the integers: counts; year, month, day, hour, minute and milliseconds of the first sample."""
 
-INTERVAL = 25
+INTERVAL_INDEX = 25
 """Place of the interval of the samples among the reals."""
 
 _MONTHS = ("january", "february", "march", "april", "may", "june", "july", "august", "september", "october", "november", "december")
 
 
-class _Block(NamedTuple):
+class _ComponentBlock(NamedTuple):
     """One component: its lines of text, the numbers below, and where the next begins."""
 
     text: Sequence[str]
     integers: list[int]
     reals: FloatArray
     samples: FloatArray
-    first: int
+    first_line: int
     end: int
 
 
@@ -58,117 +58,126 @@ def is_geonet(head: bytes) -> bool:
     return re.match(rb"[ ]*(?:Unc|C)orrected accelerogram [^\n]*GNS Science", head, re.IGNORECASE) is not None
 
 
-def read_geonet(blob: Blob) -> list[Record]:
+def read_geonet(blob: RawFile) -> list[Record]:
     """Return the components in a GeoNet file of volume 1 or 2, as records of one component each.
 
     Notes
     -----
     The azimuths are kept: N10E is called ``10``. The header's peak of each component, and its duration, are compared with the samples.
     """
-    lines = decode(blob).split("\n")
+    lines = decode_text(blob).split("\n")
     while lines and not lines[-1].strip():
         lines.pop()
     parts, begin = [], 0
     while begin < len(lines):
-        block = _block(blob.name, lines, begin)
-        parts.append(_record(blob.name, block))
+        block = _parse_block(blob.name, lines, begin)
+        parts.append(_to_record(blob.name, block))
         begin = block.end
-    return at_places(parts)
+    return split_by_location(parts)
 
 
-def _block(name: str, lines: Sequence[str], begin: int) -> _Block:
+def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock:
     """Return the component that begins at a line."""
     text = lines[begin : begin + TEXT]
     if len(text) < TEXT or not is_geonet(text[0].encode("latin-1", "replace") + b"\n"):
-        found = text[0].strip()[:60] if text else ""
-        fail(name, begin + 1, said("expected the title of a component, found {text!r}", text=found))
-    integers = fields_of(name, lines, begin + TEXT, 10 * INTEGERS, _FORM)
-    whole = [int(value) for value in integers]
-    reals = fields_of(name, lines, begin + TEXT + INTEGERS, 10 * REALS, _FORM)
-    counts = [count_in(name, begin + TEXT + INTEGERS, str(whole[SAMPLES]))]
-    counts += [max(whole[place], 0) for place in (VELOCITIES, DISPLACEMENTS)]
+        title = text[0].strip()[:60] if text else ""
+        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a component, found {text!r}", text=title))
+    integers = parse_fixed_width(name, lines, begin + TEXT, 10 * INTEGERS, _FORM)
+    integer_values = [int(value) for value in integers]
+    reals = parse_fixed_width(name, lines, begin + TEXT + INTEGERS, 10 * REALS, _FORM)
+    counts = [parse_sample_count(name, begin + TEXT + INTEGERS, str(integer_values[SAMPLES]))]
+    counts += [max(integer_values[place], 0) for place in (VELOCITIES, DISPLACEMENTS)]
     first = begin + TEXT + INTEGERS + REALS
-    samples = fields_of(name, lines, first, counts[0], _FORM)
-    end = first + lines_for(counts[0], _FORM)
+    samples = parse_fixed_width(name, lines, first, counts[0], _FORM)
+    end = first + count_lines(counts[0], _FORM)
     for count in filter(None, counts[1:]):
-        fields_of(name, lines, end, count, _FORM)
-        end += lines_for(count, _FORM)
-    return _Block(text, whole, reals, samples, begin + 1, end)
+        parse_fixed_width(name, lines, end, count, _FORM)
+        end += count_lines(count, _FORM)
+    return _ComponentBlock(text, integer_values, reals, samples, begin + 1, end)
 
 
-def _record(name: str, block: _Block) -> Record:
+def _to_record(name: str, block: _ComponentBlock) -> Record:
     """Return one component."""
-    dt = float(block.reals[INTERVAL])
+    dt = float(block.reals[INTERVAL_INDEX])
     if not dt > 0.0:
-        fail(name, block.first + TEXT + INTEGERS + 2, said("expected a sampling interval above 0 s, found {dt:g}", dt=dt))
+        raise_line_error(
+            name, block.first_line + TEXT + INTEGERS + 2, lazy_gettext("expected a sampling interval above 0 s, found {dt:g}", dt=dt)
+        )
     factor = re.search(r"units of\s+([\d.]+)\s*mm/s/s", " ".join(block.text), re.IGNORECASE)
-    scale = number(factor[1]) if factor else 1.0
+    scale = parse_number(factor[1]) if factor else 1.0
     if not scale:
-        fail(name, block.first + 10, said("expected samples in units of mm/s/s, found {text!r}", text=block.text[10].strip()[:60]))
+        raise_line_error(
+            name,
+            block.first_line + 10,
+            lazy_gettext("expected samples in units of mm/s/s, found {text!r}", text=block.text[10].strip()[:60]),
+        )
     words = block.text[COMPONENT].split()
-    written = words[1] if len(words) > 1 and words[0].lower() == "component" else ""
-    direction = direction_of(written)
+    direction_name = words[1] if len(words) > 1 and words[0].lower() == "component" else ""
+    direction = parse_direction(direction_name)
     if direction is None:
-        what = said("expected a component such as N10E or Up, found {text!r}", text=block.text[COMPONENT].strip()[:40])
-        fail(name, block.first + COMPONENT, what)
-    component, history = turned(direction, to_si(scale * block.samples, _UNIT), written)
+        message = lazy_gettext("expected a component such as N10E or Up, found {text!r}", text=block.text[COMPONENT].strip()[:40])
+        raise_line_error(name, block.first_line + COMPONENT, message)
+    component, history = make_component(direction, to_si(scale * block.samples, _UNIT), direction_name)
     return Record(
         (component,),
         dt,
         station=block.text[SITE].split()[1] if len(block.text[SITE].split()) > 1 else "",
-        start=_start(block.integers),
+        start=_start_time(block.integers),
         source=name,
         format=FORMAT,
         history=history,
         metadata=_metadata(block),
-        doubts=_doubts(direction, block, scale, dt),
+        doubts=_qc_flags(direction, block, scale, dt),
     )
 
 
-def _start(integers: Sequence[int]) -> datetime | None:
+def _start_time(integers: Sequence[int]) -> datetime | None:
     """Return the time of the first sample, UTC."""
-    year, month, day, hour, minute, milliseconds = (integers[place] for place in BEGUN)
-    begun = moment(year, month, day, hour, minute, 0.0)
-    return begun + timedelta(milliseconds=milliseconds) if begun is not None and 0 <= milliseconds < 3_600_000 else None
+    year, month, day, hour, minute, milliseconds = (integers[place] for place in START_TIME)
+    start = utc_datetime(year, month, day, hour, minute, 0.0)
+    return start + timedelta(milliseconds=milliseconds) if start is not None and 0 <= milliseconds < 3_600_000 else None
 
 
-def _metadata(block: _Block) -> dict[str, object]:
+def _metadata(block: _ComponentBlock) -> dict[str, object]:
     """Return what the text says of station and earthquake."""
     site, name, event, day, epicentre = (block.text[place] for place in (SITE, NAME, EVENT, DAY, EPICENTRE))
     metadata: dict[str, object] = {"unit": _UNIT, "network": "NZ"}
     metadata |= {"station_name": name.strip()} if name.strip() else {}
     metadata |= {"event_name": event.strip()} if event.strip() else {}
-    places = dict(zip(("station_latitude_deg", "station_longitude_deg"), degrees_of(site), strict=True))
-    places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), degrees_of(epicentre), strict=True))
+    places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(site), strict=True))
+    places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(epicentre), strict=True))
     metadata |= {key: value for key, value in places.items() if value is not None}
     for key, pattern in {
         "epicentral_distance_km": r"Dist\s+([\d.]+)\s*km",
         "event_depth_km": r"Depth\s+([\d.]+)\s*km",
         "magnitude": r"\bM[a-z]\w*\s+([\d.]+)",
     }.items():
-        found = re.search(pattern, epicentre)
-        value = number(found[1]) if found else None
+        match = re.search(pattern, epicentre)
+        value = parse_number(match[1]) if match else None
         metadata |= {} if value is None else {key: value}
-    told = re.match(r"\s*(\d{4})\s+([A-Za-z]+)\s+(\d{1,2})\s+(\d{1,2}):(\d\d):(\d\d)", day)
-    if told and told[2].lower() in _MONTHS:
-        month = _MONTHS.index(told[2].lower()) + 1
-        origin = moment(int(told[1]), month, int(told[3]), int(told[4]), int(told[5]), float(told[6]))
+    date_match = re.match(r"\s*(\d{4})\s+([A-Za-z]+)\s+(\d{1,2})\s+(\d{1,2}):(\d\d):(\d\d)", day)
+    if date_match and date_match[2].lower() in _MONTHS:
+        month = _MONTHS.index(date_match[2].lower()) + 1
+        origin = utc_datetime(int(date_match[1]), month, int(date_match[3]), int(date_match[4]), int(date_match[5]), float(date_match[6]))
         metadata |= {"origin_time": origin} if origin else {}
     return metadata
 
 
-def _doubts(direction: Direction, block: _Block, scale: float, dt: float) -> tuple[Doubt, ...]:
+def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: float) -> tuple[QCFlag, ...]:
     """Return what the text says of the samples that is not so: peak, count and duration."""
     peak = re.search(r"peak\s+(-?[\d.]+)\s*mm/s/s", block.text[PEAK], re.IGNORECASE)
-    told = peak[1] if peak else block.text[PEAK].partition(":")[2].strip()
-    found = doubts_of_peak(direction.code, told, scale * block.samples, "mm/s/s", 2.0 * half_unit(told))
-    counted = re.search(r"points\s+(\d+)\s+Duration\s+([\d.]+)\s*s", block.text[9], re.IGNORECASE)
-    count, text = (int(counted[1][:12]), counted[2]) if counted else (0, "")
-    size, seconds = block.samples.size, number(text)
+    peak_text = peak[1] if peak else block.text[PEAK].partition(":")[2].strip()
+    flags = flag_peak_mismatch(direction.code, peak_text, scale * block.samples, "mm/s/s", 2.0 * half_last_digit(peak_text))
+    count_match = re.search(r"points\s+(\d+)\s+Duration\s+([\d.]+)\s*s", block.text[9], re.IGNORECASE)
+    count, text = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
+    size, seconds = block.samples.size, parse_number(text)
     if count != size:
-        found += (Doubt("count", said("the header promises {promised} samples, the file holds {count}", promised=count, count=size)),)
-    if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_unit(text):
-        what = said("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=text[:20] or "-", count=size,
+        flags += (
+            QCFlag("count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=count, count=size)),
+        )
+    if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
+        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=text[:20] or "-",
+        count=size,
                     seconds=size * dt)  # fmt: skip
-        found += (Doubt("count", what),)
-    return found
+        flags += (QCFlag("count", message),)
+    return flags

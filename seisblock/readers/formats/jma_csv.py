@@ -6,15 +6,15 @@ import re
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
-from seisblock.errors import RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, fail, turned_si
-from seisblock.readers.decimals import doubts_of_decimals
-from seisblock.readers.header import JST, number
-from seisblock.readers.lines import lines_of
-from seisblock.readers.naming import code_of, normal_unit
-from seisblock.readers.source import Blob
-from seisblock.records import Component, Doubt, Record
-from seisblock.words import said
+from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.readers._header import JST, parse_number
+from seisblock.readers.lines import read_lines
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.headers import component_code, normalize_unit
+from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si_in_place
+from seisblock.readers.table.precision import flag_missing_points
+from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "JMA-CSV"
 _HEADER_LINES = 40  # 7 in every file seen; old ones may carry more
@@ -28,7 +28,7 @@ def is_jma_csv(head: bytes) -> bool:
     return first == b"SITE CODE"
 
 
-def read_jma_csv(blob: Blob) -> Record:
+def read_jma_csv(blob: RawFile) -> Record:
     """Return the record in a JMA CSV file.
 
     Notes
@@ -36,20 +36,20 @@ def read_jma_csv(blob: Blob) -> Record:
     Header keys may be spelled with or without blanks around ``=``; columns are taken by name in any order; trailing commas, two-digit
     years and UTF-8 re-encodings are accepted. The level is left as published.
     """
-    lines = lines_of(blob)
-    header, last = _read_header(blob.name, lines)
+    lines = read_lines(blob)
+    header, last = _parse_header(blob.name, lines)
     names = [cell.strip().strip('"') for cell in lines[last].split(",")]
     while names and not names[-1]:
         names.pop()
-    columns = _columns(blob.name, last + 1, names)
-    dt = 1.0 / _rate(blob.name, header)
+    columns = _component_columns(blob.name, last + 1, names)
+    dt = 1.0 / _sampling_rate(blob.name, header)
     unit = _unit(blob.name, header)
-    start = _start(blob.name, header)
-    rows = columns_of(blob.name, lines[last + 1 :], last + 2, columns, len(names))
-    components = tuple(Component(code, turned_si(row, unit)) for code, row in zip(columns, rows, strict=True))
-    station, metadata = _site(_value(blob.name, header, "SITE CODE")[1])
+    start = _start_time(blob.name, header)
+    rows = parse_columns(blob.name, lines[last + 1 :], last + 2, columns, len(names))
+    components = tuple(Component(code, to_si_in_place(row, unit)) for code, row in zip(columns, rows, strict=True))
+    station, metadata = _parse_site(_get_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
-        value = number(header[key][1].split(",")[0]) if key in header else None
+        value = parse_number(header[key][1].split(",")[0]) if key in header else None
         if value:  # 0.0000 means unknown
             metadata[label] = value
     metadata |= {"unit": unit, "clock": "JST"}
@@ -61,34 +61,34 @@ def read_jma_csv(blob: Blob) -> Record:
         source=blob.name,
         format=FORMAT,
         metadata=metadata,
-        doubts=_doubts(lines, rows[0].size, dt) + doubts_of_decimals(lines[last + 1 :], last + 2, ","),
+        doubts=_qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ","),
     )
 
 
-def _doubts(lines: Sequence[str], samples: int, dt: float) -> tuple[Doubt, ...]:
+def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ...]:
     """Return what speaks for a file that was cut: JMA ends its last line, and publishes whole seconds."""
-    found = []
+    flags = []
     if lines[-1].strip():
-        found.append(Doubt("cut", said("the last line has no end: the file looks cut, and its last number with it")))
+        flags.append(QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
-        text = said(
+        text = lazy_gettext(
             "{samples} samples are no whole number of seconds ({seconds:.6g} s): lines are missing, or the file was cut",
             samples=samples,
             seconds=seconds,
         )
-        found.append(Doubt("count", text))
-    return tuple(found)
+        flags.append(QCFlag("count", text))
+    return tuple(flags)
 
 
-def _read_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int, str]], int]:
+def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int, str]], int]:
     """Return the header's keys with line number and value, and the index of the line that names the components."""
     header: dict[str, tuple[int, str]] = {}
     for index, line in enumerate(lines[:_HEADER_LINES]):
         match = _KEY.match(line)
         if match:
             header[" ".join(match[1].upper().split())] = (index + 1, match[2].strip())
-        elif len({code_of(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
+        elif len({component_code(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
     raise RecordFormatError(
@@ -96,18 +96,20 @@ def _read_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int, 
     )
 
 
-def _columns(name: str, line: int, names: list[str]) -> dict[str, int]:
+def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]:
     """Return which column holds which component; a column that is none, or stands twice, is refused."""
     columns: dict[str, int] = {}
-    for index, written in enumerate(names):
-        code = code_of(written)
+    for index, heading in enumerate(names):
+        code = component_code(heading)
         if code not in _CODES or code in columns:
-            fail(name, line, said("expected the components NS, EW and UD once each, found {names}", names=[repr(n) for n in names]))
+            raise_line_error(
+                name, line, lazy_gettext("expected the components NS, EW and UD once each, found {names}", names=[repr(n) for n in names])
+            )
         columns[code] = index
     return columns
 
 
-def _value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[int, str]:
+def _get_value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[int, str]:
     """Return the line number and the value of the first of some keys that the header has."""
     for key in keys:
         if key in header:
@@ -117,31 +119,31 @@ def _value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[i
     )
 
 
-def _rate(name: str, header: dict[str, tuple[int, str]]) -> float:
+def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     """Return the sampling rate, Hz."""
-    line, text = _value(name, header, "SAMPLING RATE", "SAMPLING FREQ", "SAMPLING FREQ.")
+    line, text = _get_value(name, header, "SAMPLING RATE", "SAMPLING FREQ", "SAMPLING FREQ.")
     match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
-    rate = number(match[1]) if match else None
+    rate = parse_number(match[1]) if match else None
     if not rate:
-        fail(name, line, said("expected a sampling rate such as 100Hz, found {text!r}", text=text))
+        raise_line_error(name, line, lazy_gettext("expected a sampling rate such as 100Hz, found {text!r}", text=text))
     return rate
 
 
 def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
     """Return the unit the header states."""
-    line, text = _value(name, header, "UNIT")
-    stated = {normal_unit(part.rstrip(") ")) for part in text.split("(")} - {None}
-    if len(stated) > 1:
+    line, text = _get_value(name, header, "UNIT")
+    stated_units = {normalize_unit(part.rstrip(") ")) for part in text.split("(")} - {None}
+    if len(stated_units) > 1:
         raise UnitError("{name}, line {line}: {text!r} states two units: expected gal(cm/s/s)", name=name, line=line, text=text)
-    unit = next(iter(stated), None)
+    unit = next(iter(stated_units), None)
     if unit is None:
         raise UnitError("{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
     return unit
 
 
-def _start(name: str, header: dict[str, tuple[int, str]]) -> datetime:
+def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
     """Return the time of the first sample, UTC."""
-    line, text = _value(name, header, "INITIAL TIME")
+    line, text = _get_value(name, header, "INITIAL TIME")
     parts = re.split(r"[\s/:]+", text)
     try:
         year, month, day, hour, minute = (int(part) for part in parts[:5])
@@ -149,16 +151,16 @@ def _start(name: str, header: dict[str, tuple[int, str]]) -> datetime:
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):
-        fail(name, line, said("expected a time such as 2016 04 16 01 25 00, found {text!r}", text=text))
+        raise_line_error(name, line, lazy_gettext("expected a time such as 2016 04 16 01 25 00, found {text!r}", text=text))
 
 
-def _site(text: str) -> tuple[str, dict[str, object]]:
+def _parse_site(text: str) -> tuple[str, dict[str, object]]:
     """Return the station code, and what else the first line says: name, epicentre, origin time, travel times of P and S."""
-    site, *rest = [part.strip() for part in text.split(",")]
+    site, *extra_fields = [part.strip() for part in text.split(",")]
     match = re.match(r"([0-9A-Za-z]*)\s*(.*)\Z", site)
     code, station_name = (match[1], match[2]) if match else ("", site)
     metadata: dict[str, object] = {"station_name": station_name} if station_name else {}
-    numbers = [number(part) for part in rest]
+    numbers = [parse_number(part) for part in extra_fields]
     labels = ("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude")
     if len(numbers) >= 4 and any(numbers[:4]):
         metadata.update({label: value for label, value in zip(labels, numbers, strict=False) if value is not None})

@@ -9,14 +9,14 @@ from datetime import timedelta
 
 import numpy as np
 
-from seisblock.errors import RecordFormatError
-from seisblock.readers.cells import fail
-from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
-from seisblock.readers.naming import code_of
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.headers import component_code
+from seisblock.readers.table.parse import raise_line_error
+from seisblock.records import Component, QCFlag, Record
 
 FORMAT, KIK_FORMAT = "KNET", "KIKNET"
 TRIGGER_DELAY = timedelta(seconds=15)
@@ -62,8 +62,8 @@ _LABELS = (
     MEMO,
 ) = range(17)
 _CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
-_NAME = re.compile(r"(?:(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)[12]?\Z", re.IGNORECASE)
-_ORACLE = 0.0011
+_FILE_NAME = re.compile(r"(?:(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)[12]?\Z", re.IGNORECASE)
+_MAXIMUM_TOLERANCE = 0.0011
 """The header's maximum has three decimals, gal."""
 
 
@@ -72,7 +72,7 @@ def is_knet(head: bytes) -> bool:
     return head.startswith(b"Origin Time")
 
 
-def read_knet(blob: Blob) -> Record:
+def read_knet(blob: RawFile) -> Record:
     """Return the one component in a K-NET or KiK-net ASCII file.
 
     Notes
@@ -81,24 +81,32 @@ def read_knet(blob: Blob) -> Record:
     kept and told: ``metadata["carries_offset"]`` and ``metadata["offset_gal"]``. ``metadata["level"]`` is the sensor of a KiK-net file.
     The header's ``Max. Acc.`` is compared with the largest deviation from the mean, its duration with the count: a difference is a doubt.
     """
-    lines = decode(blob).split("\n")
-    values = _header(blob.name, lines)
-    code, level = _direction(blob.name, values[DIRECTION])
-    rate = number(re.sub(r"\s*Hz\s*\Z", "", values[RATE], flags=re.IGNORECASE))
-    start = time_in_japan(values[RECORD_TIME])
+    lines = decode_text(blob).split("\n")
+    values = _parse_header(blob.name, lines)
+    code, level = _parse_direction(blob.name, values[DIRECTION])
+    rate = parse_number(re.sub(r"\s*Hz\s*\Z", "", values[RATE], flags=re.IGNORECASE))
+    start = parse_jst(values[RECORD_TIME])
     scale = re.fullmatch(r"([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)", values[SCALE], re.IGNORECASE)
     if not rate or rate < 0:
-        fail(blob.name, RATE + 1, said("expected a sampling frequency such as 100Hz, found {text!r}", text=values[RATE]))
+        raise_line_error(
+            blob.name, RATE + 1, lazy_gettext("expected a sampling frequency such as 100Hz, found {text!r}", text=values[RATE])
+        )
     if start is None:
-        fail(blob.name, RECORD_TIME + 1, said("expected a time such as 2016/04/16 01:25:15, found {text!r}", text=values[RECORD_TIME]))
+        raise_line_error(
+            blob.name,
+            RECORD_TIME + 1,
+            lazy_gettext("expected a time such as 2016/04/16 01:25:15, found {text!r}", text=values[RECORD_TIME]),
+        )
     if scale is None or not float(scale[2]):
-        fail(blob.name, SCALE + 1, said("expected a scale factor such as 3920(gal)/6182761, found {text!r}", text=values[SCALE]))
-    counts = _counts(blob.name, values, lines)
-    doubts = _check_length(blob.name, counts.size, values[DURATION], rate)
+        raise_line_error(
+            blob.name, SCALE + 1, lazy_gettext("expected a scale factor such as 3920(gal)/6182761, found {text!r}", text=values[SCALE])
+        )
+    counts = _decode_counts(blob.name, values, lines)
+    flags = _flag_length(blob.name, counts.size, values[DURATION], rate)
     # one correctly rounded division: counts and factors are whole numbers
     acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
     metadata = _metadata(values, code, level, 100.0 * acceleration)
-    doubts += _check_maximum(code, values[MAXIMUM], 100.0 * acceleration) + _check_name(blob.basename, code, values[STATION])
+    flags += _flag_maximum(code, values[MAXIMUM], 100.0 * acceleration) + _flag_name(blob.basename, code, values[STATION])
     return Record(
         (Component(code, acceleration),),
         1.0 / rate,
@@ -107,129 +115,133 @@ def read_knet(blob: Blob) -> Record:
         source=blob.name,
         format=KIK_FORMAT if level else FORMAT,
         metadata=metadata,
-        doubts=doubts,
+        doubts=flags,
     )
 
 
-def _header(name: str, lines: Sequence[str]) -> list[str]:
+def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
     """Return the 17 values of the header."""
     values = []
     for index, label in enumerate(_LABELS):
         line = lines[index] if index < len(lines) else ""
         if not line.startswith(label.split("|")[0]):
-            wanted = label.replace("|", "")
-            found = said("found {text!r}", text=line.strip()[:40]) if line.strip() else said("the file ends")
+            expected_label = label.replace("|", "")
+            actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("the file ends")
             raise RecordFormatError(
                 "{name}, line {line}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged",
                 name=name,
                 line=index + 1,
-                wanted=wanted,
-                found=found,
+                wanted=expected_label,
+                found=actual,
             )
         values.append(line[18:].strip())
     return values
 
 
-def _direction(name: str, text: str) -> tuple[str, str]:
+def _parse_direction(name: str, text: str) -> tuple[str, str]:
     """Return the component code and, for KiK-net's channel numbers, the level of the sensor."""
     if text in _CHANNELS:
         return _CHANNELS[text], "borehole" if text in "123" else "surface"
-    code = code_of(text)
+    code = component_code(text)
     if code not in ("NS", "EW", "UD"):
-        fail(name, DIRECTION + 1, said("expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}", text=text))
+        raise_line_error(name, DIRECTION + 1, lazy_gettext("expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}", text=text))
     return code, ""
 
 
-def _counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArray:
+def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArray:
     """Return the counts as obspy decodes them."""
     body = lines[len(_LABELS) :]
     if not any(line.strip() for line in body):
         raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=len(_LABELS))
     import obspy  # lazily: it takes longer to import than to read
 
-    text = "\n".join([*_canonical(values), *body])
+    text = "\n".join([*_canonical_header(values), *body])
     try:
         counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
     except (ValueError, IndexError, TypeError) as error:
-        _name_the_line(name, body)
+        _raise_bad_line(name, body)
         raise RecordFormatError("{name}: obspy cannot decode this K-NET file ({error})", name=name, error=error) from error
-    if not (np.abs(counts) < LARGEST_COUNT).all():
-        _name_the_line(name, body)
+    if not (np.abs(counts) < MAX_COUNT).all():
+        _raise_bad_line(name, body)
     return counts
 
 
-def _canonical(values: Sequence[str]) -> list[str]:
+def _canonical_header(values: Sequence[str]) -> list[str]:
     """Return the header as obspy wants it, so that an empty or oddly spelled field that is not needed raises no IndexError."""
-    tame = list(values)
+    fields = list(values)
     for index in (EVENT_LAT, EVENT_LON, DEPTH, MAGNITUDE, LAT, LON, HEIGHT, DURATION, MAXIMUM):
-        tame[index] = values[index] if number(values[index]) is not None else "nan"
+        fields[index] = values[index] if parse_number(values[index]) is not None else "nan"
     for index in (ORIGIN, CORRECTION):
-        tame[index] = values[RECORD_TIME]  # not used: obspy insists on a time
-    tame[STATION] = "STATION"
-    tame[MEMO] = ""
-    return [f"{label.replace('|', ''):<18}{value}" for label, value in zip(_LABELS, tame, strict=True)]
+        fields[index] = values[RECORD_TIME]  # not used: obspy insists on a time
+    fields[STATION] = "STATION"
+    fields[MEMO] = ""
+    return [f"{label.replace('|', ''):<18}{value}" for label, value in zip(_LABELS, fields, strict=True)]
 
 
-def _name_the_line(name: str, body: Sequence[str]) -> None:
+def _raise_bad_line(name: str, body: Sequence[str]) -> None:
     """Raise the error that names the first line with something else than numbers."""
     for offset, line in enumerate(body):
         for cell in line.split():
-            value = number(cell)
-            if value is None or not abs(value) < LARGEST_COUNT:
-                fail(name, len(_LABELS) + 1 + offset, said("expected counts, found {cell!r}", cell=cell))
+            value = parse_number(cell)
+            if value is None or not abs(value) < MAX_COUNT:
+                raise_line_error(name, len(_LABELS) + 1 + offset, lazy_gettext("expected counts, found {cell!r}", cell=cell))
 
 
-def _check_length(name: str, count: int, text: str, rate: float) -> tuple[Doubt, ...]:
+def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag, ...]:
     """Refuse a file that ends before its header says, and doubt one that is longer or does not say."""
-    duration = number(text)
-    if duration is None or not 0 < duration * rate < LARGEST_COUNT:
-        found = said("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
-        return (Doubt("header", found),)
-    promised = round(duration * rate)
-    if count < promised:
+    duration = parse_number(text)
+    if duration is None or not 0 < duration * rate < MAX_COUNT:
+        message = lazy_gettext("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        return (QCFlag("header", message),)
+    promised_count = round(duration * rate)
+    if count < promised_count:
         raise RecordFormatError(
             "{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again",
             name=name,
-            promised=promised,
+            promised=promised_count,
             duration=duration,
             rate=rate,
             count=count,
         )
-    if count > promised:
-        found = said("the header promises {promised} samples, the file holds {count}", promised=promised, count=count)
-        return (Doubt("count", found),)
+    if count > promised_count:
+        message = lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=count)
+        return (QCFlag("count", message),)
     return ()
 
 
-def _check_maximum(code: str, text: str, gal: FloatArray) -> tuple[Doubt, ...]:
+def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Doubt samples whose largest distance from their mean is not the header's own maximum."""
-    told, peak = number(text), float(np.abs(gal - gal.mean()).max())
-    if told is None:
-        found = said(
+    header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
+    if header_maximum is None:
+        message = lazy_gettext(
             "{component}: the header's Max. Acc. is no number ({text!r}): the samples cannot be checked", component=code, text=text[:20]
         )
-        return (Doubt("header", found, code),)
-    if abs(peak - told) > _ORACLE:
-        found = said(
+        return (QCFlag("header", message, code),)
+    if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
+        message = lazy_gettext(
             "{component}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",
             component=code,
-            told=told,
+            told=header_maximum,
             peak=peak,
         )
-        return (Doubt("header", found, code),)
+        return (QCFlag("header", message, code),)
     return ()
 
 
-def _check_name(basename: str, code: str, station: str) -> tuple[Doubt, ...]:
+def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
     """Doubt a file whose name, in the manner of NIED, tells another component or another station than its header."""
-    match = _NAME.match(basename)
+    match = _FILE_NAME.match(basename)
     if match is None:
         return ()
-    told = [(match["station"], station), (match["code"], code)]
+    pairs = [(match["station"], station), (match["code"], code)]
     return tuple(
-        Doubt("header", said("{name}: the name says {named}, the header {told}", name=basename, named=named, told=own), code)
-        for named, own in told
-        if named and own and named.upper() != own.upper()
+        QCFlag(
+            "header",
+            lazy_gettext("{name}: the name says {named}, the header {told}", name=basename, named=file_value, told=header_value),
+            code,
+        )
+        for file_value, header_value in pairs
+        if file_value and header_value and file_value.upper() != header_value.upper()
     )
 
 
@@ -248,15 +260,15 @@ def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> 
         "station_height_m": HEIGHT,
     }
     for label, index in labels.items():
-        value = number(values[index])
+        value = parse_number(values[index])
         if value is not None and not (index == HEIGHT and value == -9999):
             metadata[label] = value
-    origin = time_in_japan(values[ORIGIN])
+    origin = parse_jst(values[ORIGIN])
     if origin is not None:
         metadata["origin_time"] = origin
     if values[MEMO]:
         metadata["memo"] = values[MEMO]
-    told = number(values[MAXIMUM])
-    if told is not None:
-        metadata["header_max_gal"] = {code: told}
+    header_maximum = parse_number(values[MAXIMUM])
+    if header_maximum is not None:
+        metadata["header_max_gal"] = {code: header_maximum}
     return metadata

@@ -9,16 +9,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from seisblock.errors import RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, fail, to_si
-from seisblock.readers.clock import even_dt
-from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
-from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
-from seisblock.readers.naming import TIME, code_of, normal_unit, split_unit
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.headers import TIME, component_code, normalize_unit, split_unit
+from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
+from seisblock.readers.table.sampling import sampling_interval
+from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "KNET-CSV"
 _TIME_OF_DAY = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d{1,6})?")
@@ -31,35 +31,35 @@ def is_knet_csv(head: bytes) -> bool:
     return re.match(rb"(?:\xef\xbb\xbf)?#\s*(?:K-NET|KiK-net)\s*CSV", head, re.IGNORECASE) is not None
 
 
-def read_knet_csv(blob: Blob) -> list[Record]:
+def read_knet_csv(blob: RawFile) -> list[Record]:
     """Return the record in a CSV of NIED; of KiK-net's ``1(gal)`` to ``6(gal)`` two, borehole and surface.
 
     Notes
     -----
     The time column is taken as the true time of the samples, JST: the trigger delay is already off. The offset is kept and told.
     """
-    lines = decode(blob).split("\n")
+    lines = decode_text(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
     header = [line.lstrip("#").strip() for line in lines[:body]]
-    names_at = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
-    if names_at is None:
+    names_line = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
+    if names_line is None:
         raise RecordFormatError(
             "{name}: the K-NET CSV header is cut short: no line names the columns (#Time,RelativeTime(s),...)", name=blob.name
         )
-    names = [cell.strip() for cell in header[names_at].split(",")]
-    sensors = _sensors(blob.name, names)
-    clock = next(i for i, name in enumerate(names) if name.startswith("RelativeTime"))
-    labels = {names[clock]: clock, **{names[i]: i for codes in sensors.values() for i in codes.values()}}
-    columns = dict(zip(labels.values(), columns_of(blob.name, lines[body:], body + 1, labels, len(names)), strict=True))
-    dt = even_dt(blob.name, columns[clock])
-    rate = number(_after(header, "SamplingFrequency(Hz)"))
+    names = [cell.strip() for cell in header[names_line].split(",")]
+    sensors = _sensor_columns(blob.name, names)
+    time_index = next(i for i, name in enumerate(names) if name.startswith("RelativeTime"))
+    labels = {names[time_index]: time_index, **{names[i]: i for codes in sensors.values() for i in codes.values()}}
+    columns = dict(zip(labels.values(), parse_columns(blob.name, lines[body:], body + 1, labels, len(names)), strict=True))
+    dt = sampling_interval(blob.name, columns[time_index])
+    rate = parse_number(_line_after(header, "SamplingFrequency(Hz)"))
     if rate and abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
             "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=blob.name, rate=rate, dt=dt
         )
-    start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
-    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt) + _doubts_of_clock(lines[body:], columns[clock], dt)
-    doubts += doubts_of_decimals(lines[body:], body + 1, ",") + doubts_of_end(lines[body:], ",")
+    start = _start_time(blob.name, lines[body], body + 1, float(columns[time_index][0]))
+    flags = _qc_flags(header, columns[time_index].size, rate or 1.0 / dt) + _flag_clock(lines[body:], columns[time_index], dt)
+    flags += flag_missing_points(lines[body:], body + 1, ",") + flag_truncated_end(lines[body:], ",")
     records = []
     for level, codes in sensors.items():
         rows = {code: columns[i] for code, i in codes.items()}
@@ -67,59 +67,64 @@ def read_knet_csv(blob: Blob) -> list[Record]:
             Record(
                 tuple(Component(code, to_si(row, "gal")) for code, row in rows.items()),
                 1.0 / rate if rate else dt,
-                station=_after(header, "Code,").split(",")[0],
+                station=_line_after(header, "Code,").split(",")[0],
                 start=start,
                 source=blob.name,
                 format=FORMAT,
                 metadata=_metadata(header, level) | {"offset_gal": {code: float(row.mean()) for code, row in rows.items()}},
-                doubts=doubts,
+                doubts=flags,
             )
         )
     return records
 
 
-def _doubts(header: Sequence[str], samples: int, rate: float) -> tuple[Doubt, ...]:
+def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag, ...]:
     """Return what speaks against the count of samples: the header's duration is another, or no number."""
-    text = _after(header, "DurationTime(s)")
-    duration = number(text)
-    if duration is None or not 0 < duration * rate < LARGEST_COUNT:
-        found = said("the header's DurationTime is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
-        return (Doubt("header", found),)
-    promised = round(duration * rate)
-    if samples != promised:
-        return (Doubt("count", said("the header promises {promised} samples, the file holds {count}", promised=promised, count=samples)),)
+    text = _line_after(header, "DurationTime(s)")
+    duration = parse_number(text)
+    if duration is None or not 0 < duration * rate < MAX_COUNT:
+        message = lazy_gettext("the header's DurationTime is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        return (QCFlag("header", message),)
+    promised_count = round(duration * rate)
+    if samples != promised_count:
+        return (
+            QCFlag(
+                "count",
+                lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=samples),
+            ),
+        )
     return ()
 
 
-def _doubts_of_clock(lines: Sequence[str], relative: FloatArray, dt: float) -> tuple[Doubt, ...]:
+def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> tuple[QCFlag, ...]:
     """Return what speaks against the times of the day, which the seconds beside them have to go with."""
-    told = [line.partition(",")[0].strip().replace("/", "-").replace(" ", "T") for line in lines if line.strip(" \t,")]
+    time_texts = [line.partition(",")[0].strip().replace("/", "-").replace(" ", "T") for line in lines if line.strip(" \t,")]
     try:
-        if not all(map(_TIME_OF_DAY.fullmatch, told)):
+        if not all(map(_TIME_OF_DAY.fullmatch, time_texts)):
             raise ValueError
-        since = (np.array(told, dtype="datetime64[us]") - np.datetime64(told[0], "us")) / np.timedelta64(1, "s")
+        elapsed_s = (np.array(time_texts, dtype="datetime64[us]") - np.datetime64(time_texts[0], "us")) / np.timedelta64(1, "s")
     except ValueError:
-        return (Doubt("clock", said("the times of the day in the first column cannot all be read")),)
-    apart = np.flatnonzero(np.abs(since - (relative - relative[0])) > 0.5 * dt)
-    if not apart.size:
+        return (QCFlag("clock", lazy_gettext("the times of the day in the first column cannot all be read")),)
+    mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
+    if not mismatches.size:
         return ()
-    text = said(
+    text = lazy_gettext(
         "the time of the day and the seconds beside it differ in {count} line(s), first at {seconds:.2f} s",
-        count=apart.size,
-        seconds=float(relative[apart[0]]),
+        count=mismatches.size,
+        seconds=float(relative_times[mismatches[0]]),
     )
-    return (Doubt("clock", text),)
+    return (QCFlag("clock", text),)
 
 
-def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
+def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
     """Return, for each sensor (of K-NET one, without a level), which column holds which component."""
     sensors: dict[str, dict[str, int]] = {}
     for index, column in enumerate(names):
-        code, level = _CHANNELS.get(column.split("(")[0], (code_of(column), ""))
+        code, level = _CHANNELS.get(column.split("(")[0], (component_code(column), ""))
         if code == TIME:
             continue
         unit = split_unit(column)[1]
-        if unit and normal_unit(unit) != "gal":
+        if unit and normalize_unit(unit) != "gal":
             raise UnitError(
                 "{name}: column {column!r} is in {unit}, and a K-NET CSV is in gal: the file is damaged",
                 name=name,
@@ -138,21 +143,21 @@ def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
     return sensors
 
 
-def _after(header: Sequence[str], key: str) -> str:
+def _line_after(header: Sequence[str], key: str) -> str:
     """Return the header line that follows the line beginning with a key."""
-    for line, following in pairwise(header):
+    for line, next_line in pairwise(header):
         if line.startswith(key):
-            return following
+            return next_line
     return ""
 
 
-def _start(name: str, line: str, number_of_line: int, relative: float) -> datetime:
+def _start_time(name: str, line: str, line_number: int, relative_time: float) -> datetime:
     """Return the time of the first sample, UTC."""
     text = line.split(",")[0]
-    time = time_in_japan(text)
+    time = parse_jst(text)
     if time is None:
-        fail(name, number_of_line, said("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
-    return time - timedelta(seconds=relative)
+        raise_line_error(name, line_number, lazy_gettext("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
+    return time - timedelta(seconds=relative_time)
 
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
@@ -160,10 +165,10 @@ def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
     metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
     if level:
         metadata["level"] = level
-    event, station = _after(header, "OriginTime").split(","), _after(header, "Code,").split(",")
-    origin = time_in_japan(event[0])
+    event, station = _line_after(header, "OriginTime").split(","), _line_after(header, "Code,").split(",")
+    origin = parse_jst(event[0])
     if origin is not None:
         metadata["origin_time"] = origin
-    told = dict(zip(("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude"), event[1:], strict=False))
-    told |= dict(zip(("station_latitude_deg", "station_longitude_deg"), station[1:], strict=False))
-    return metadata | {label: value for label, text in told.items() if (value := number(text)) is not None}
+    numbers = dict(zip(("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude"), event[1:], strict=False))
+    numbers |= dict(zip(("station_latitude_deg", "station_longitude_deg"), station[1:], strict=False))
+    return metadata | {label: value for label, text in numbers.items() if (value := parse_number(text)) is not None}

@@ -10,36 +10,36 @@ from functools import partial
 
 import numpy as np
 
-from seisblock.errors import InputError, ParameterError, RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, turned_si
-from seisblock.readers.clock import even_dt
-from seisblock.readers.columns import Column, Columns, columns_of_header
-from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
-from seisblock.readers.formats.table_comments import doubts_of_comments
-from seisblock.readers.formats.table_layout import FORTRAN, is_data, layout_of, preamble
-from seisblock.readers.formats.table_names import CLIMBING, LOOKED_AT, name_of_first
-from seisblock.readers.header import JST
-from seisblock.readers.lines import lines_of, mapped
-from seisblock.readers.moments import Moment, moment_in, seconds_instead
-from seisblock.readers.naming import TIME, split_unit, zone_of
-from seisblock.readers.source import Blob
-from seisblock.records import Component, Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import noted, said
+from seisblock.core.errors import InputError, ParameterError, RecordFormatError, UnitError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._header import JST
+from seisblock.readers.lines import map_lines, read_lines
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.columns import Column, TableColumns, parse_header
+from seisblock.readers.table.comments import flag_comment_mismatch
+from seisblock.readers.table.header_rows import INSPECTED_LINES, TIME_HEADING, guess_first_name
+from seisblock.readers.table.headers import TIME, split_unit, zone_offset_s
+from seisblock.readers.table.layout import FORTRAN_EXPONENT, find_layout, is_data_line, preamble_error
+from seisblock.readers.table.parse import parse_columns, to_si_in_place
+from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
+from seisblock.readers.table.sampling import sampling_interval
+from seisblock.readers.table.timestamps import Timestamp, parse_timestamp, seconds_replacer
+from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
-_CLIMBS = noted("took the first column, which climbs evenly, as the time in s")
+_TIME_GUESSED_NOTE = N_("took the first column, which climbs evenly, as the time in s")
 
 
-def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = None) -> Record:
+def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
     """Return the record in a plain table.
 
     Parameters
     ----------
     blob : Blob
         Cells are separated by commas, semicolons (then a decimal comma is allowed), tabs or blanks; ``#`` starts a comment. The first line
-        may name the columns (:func:`seisblock.readers.columns.columns_of_header`), a unit may stand in a name: ``EW (gal)``, ``ew_gal``,
+        may name the columns (:func:`seisblock.readers.table.columns.parse_header`), a unit may stand in a name: ``EW (gal)``, ``ew_gal``,
         ``NS[m/s^2]``, or in a line of units below the names. A time column gives the sampling interval and must be even within the digits
         printed; where a clock tells the times (``16:10:10.25``, ``2024-01-01T16:10:10Z``) the first with its date is the start. Without
         names, a first column that climbs evenly is the time.
@@ -57,152 +57,168 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     ParameterError
         If the sampling interval is missing, or contradicts the time column.
     """
-    lines = lines_of(blob)
-    layout = layout_of(blob.name, lines)
-    body = mapped(lines[layout.body :], lambda line: line if is_data(line) else "")
+    lines = read_lines(blob)
+    layout = find_layout(blob.name, lines)
+    body = map_lines(lines[layout.body :], lambda line: line if is_data_line(line) else "")
     if layout.decimal_comma:
-        body = mapped(body, lambda line: line.replace(",", "."))
+        body = map_lines(body, lambda line: line.replace(",", "."))
     if any('"' in line for line in body[:3]):
-        body = mapped(body, partial(_QUOTED.sub, r"\1"))
-    if any(FORTRAN.search(line) for line in body[:LOOKED_AT]):
-        body = mapped(body, partial(FORTRAN.sub, "E"))
-    named = any(layout.names)
-    nameless = named and not layout.names[0].strip()
-    if nameless:
-        layout = replace(layout, names=(name_of_first(body[:LOOKED_AT], layout.separator), *layout.names[1:]))
-    told = _told(blob.name, lines, layout.names, units) if named else _unnamed(len(layout.names))
-    told = replace(told, remarks=(*told.remarks, said(_CLIMBS))) if nameless and layout.names[0] == CLIMBING else told
-    if named and dt is None and not any(column.code == TIME for column in told.read):
-        raise _without_interval(blob.name)  # before a day of numbers is read
-    clock, body = _clock(told, body, layout.separator)
-    labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in told.read}
-    rows = columns_of(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
-    if not named:
-        told = _guessed(blob.name, rows, units)
-    pairs = list(zip(told.read, rows, strict=True))
+        body = map_lines(body, partial(_QUOTED.sub, r"\1"))
+    if any(FORTRAN_EXPONENT.search(line) for line in body[:INSPECTED_LINES]):
+        body = map_lines(body, partial(FORTRAN_EXPONENT.sub, "E"))
+    has_names = any(layout.names)
+    first_unnamed = has_names and not layout.names[0].strip()
+    if first_unnamed:
+        layout = replace(layout, names=(guess_first_name(body[:INSPECTED_LINES], layout.separator), *layout.names[1:]))
+    columns = _parse_columns(blob.name, lines, layout.names, units) if has_names else _unnamed_columns(len(layout.names))
+    columns = (
+        replace(columns, notes=(*columns.notes, lazy_gettext(_TIME_GUESSED_NOTE)))
+        if first_unnamed and layout.names[0] == TIME_HEADING
+        else columns
+    )
+    if has_names and dt is None and not any(column.code == TIME for column in columns.columns):
+        raise _missing_interval_error(blob.name)  # before a day of numbers is read
+    first_timestamp, body = _replace_timestamps(columns, body, layout.separator)
+    labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in columns.columns}
+    rows = parse_columns(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
+    if not has_names:
+        columns = _guess_columns(blob.name, rows, units)
+    pairs = list(zip(columns.columns, rows, strict=True))
     metadata: dict[str, object] = {}
     for column, row in pairs:
         if column.code == TIME:
-            dt = _interval(blob.name, column, row, body, layout.separator, dt)
-            if row[0] and clock is None:
+            dt = _column_interval(blob.name, column, row, body, layout.separator, dt)
+            if row[0] and first_timestamp is None:
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
-        raise _without_interval(blob.name)
-    components = [Component(c.code, turned_si(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
+        raise _missing_interval_error(blob.name)
+    components = [Component(c.code, to_si_in_place(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(
             "{name} holds no acceleration: expected at least one such column, found {columns}",
             name=blob.name,
-            columns=[name.strip() for name in layout.names] if named else [said("time")],
+            columns=[name.strip() for name in layout.names] if has_names else [lazy_gettext("time")],
         )
-    start, remarks = _start(clock, _zone(told))
-    clocked = any(column.code == TIME for column in told.read)
-    doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
-    doubts += doubts_of_comments(lines[: layout.body], told.read, rows[0].size, dt)
-    if not any(doubt.kind == "cut" for doubt in doubts):
-        doubts += doubts_of_end(body, layout.separator)
+    start, start_notes = _start_time(first_timestamp, _zone_offset_s(columns))
+    has_time = any(column.code == TIME for column in columns.columns)
+    flags = _qc_flags(lines, layout.body, has_time=has_time) + flag_missing_points(body, layout.body + 1, layout.separator)
+    flags += flag_comment_mismatch(lines[: layout.body], columns.columns, rows[0].size, dt)
+    if not any(flag.kind == "cut" for flag in flags):
+        flags += flag_truncated_end(body, layout.separator)
     return Record(
         tuple(components),
         dt,
         start=start,
         source=blob.name,
         format=FORMAT,
-        history=(*told.remarks, *remarks),
-        metadata=metadata | ({"clock": "JST"} if start and clock and JST.total_seconds() in (clock.zone_s, _zone(told)) else {}),
-        doubts=doubts,
+        history=(*columns.notes, *start_notes),
+        metadata=metadata
+        | (
+            {"clock": "JST"}
+            if start and first_timestamp and JST.total_seconds() in (first_timestamp.utc_offset_s, _zone_offset_s(columns))
+            else {}
+        ),
+        doubts=flags,
     )
 
 
-def _clock(told: Columns, body: Sequence[str], separator: str | None) -> tuple[Moment | None, Sequence[str]]:
+def _replace_timestamps(columns: TableColumns, body: Sequence[str], separator: str | None) -> tuple[Timestamp | None, Sequence[str]]:
     """Return the first moment of a column of times that a clock tells, None where it holds seconds, and the body with seconds in it."""
-    column = next((c for c in told.read if c.code == TIME), None)
+    column = next((c for c in columns.columns if c.code == TIME), None)
     cells = next((line for line in body if line.strip()), "").split(separator)
-    first = moment_in(cells[column.index]) if column is not None and column.index < len(cells) else None
+    first = parse_timestamp(cells[column.index]) if column is not None and column.index < len(cells) else None
     if column is None or first is None:
         return None, body
-    return first, mapped(body, seconds_instead(column.index, separator, first))
+    return first, map_lines(body, seconds_replacer(column.index, separator, first))
 
 
-def _zone(told: Columns) -> int | None:
+def _zone_offset_s(columns: TableColumns) -> int | None:
     """Return how far the clock that the name of the column of times tells is ahead of UTC, s: ``time (JST)``."""
-    return next((zone_of(split_unit(column.label)[1]) for column in told.read if column.code == TIME), None)
+    return next((zone_offset_s(split_unit(column.label)[1]) for column in columns.columns if column.code == TIME), None)
 
 
-def _start(clock: Moment | None, zone_s: int | None) -> tuple[datetime | None, tuple[str, ...]]:
+def _start_time(timestamp: Timestamp | None, zone_s: int | None) -> tuple[datetime | None, tuple[str, ...]]:
     """Return the start that a clock tells, UTC, and what is to be said of it."""
-    if clock is None or clock.utc is None:
+    if timestamp is None or timestamp.utc is None:
         return None, ()
-    if clock.zone_s is None and zone_s is not None:
-        return clock.utc - timedelta(seconds=zone_s), ()
-    return clock.utc, () if clock.zone_s is not None else (said("took the times of the file as UTC: no time zone stands beside them"),)
+    if timestamp.utc_offset_s is None and zone_s is not None:
+        return timestamp.utc - timedelta(seconds=zone_s), ()
+    return timestamp.utc, () if timestamp.utc_offset_s is not None else (
+        lazy_gettext("took the times of the file as UTC: no time zone stands beside them"),
+    )
 
 
-def _told(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> Columns:
+def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> TableColumns:
     """Return what the columns are by their names; where these are not understood and a table begins further down, that is said."""
     try:
-        return columns_of_header(name, names, units)
+        return parse_header(name, names, units)
     except InputError:
-        below = preamble(name, lines)
-        if below is None:
+        error = preamble_error(name, lines)
+        if error is None:
             raise
-        raise below from None
+        raise error from None
 
 
-def _without_interval(name: str) -> ParameterError:
+def _missing_interval_error(name: str) -> ParameterError:
     """Return the error of a table that does not say how far apart its samples are."""
     return ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=name)
 
 
-def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, ...]:
+def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFlag, ...]:
     """Return what speaks for lines that were lost: one that is empty where nothing else counts them, and a last one cut short."""
-    found = []
-    last = max(i for i, line in enumerate(lines) if is_data(line))
-    empty = [] if clocked else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
-    if empty:
-        text = said(
+    flags = []
+    last = max(i for i, line in enumerate(lines) if is_data_line(line))
+    empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
+    if empty_lines:
+        text = lazy_gettext(
             "{count} line(s) are empty (the first is line {line}) where each stands for a sample: if samples are missing there, all later "
             "ones come too early",
-            count=len(empty),
-            line=empty[0],
+            count=len(empty_lines),
+            line=empty_lines[0],
         )
-        found.append(Doubt("line", text))
-    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data(line)):
-        found.append(Doubt("cut", said("the last line is the shortest and has no end: the file looks cut, and its last number with it")))
-    return tuple(found)
+        flags.append(QCFlag("line", text))
+    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
+        flags.append(
+            QCFlag("cut", lazy_gettext("the last line is the shortest and has no end: the file looks cut, and its last number with it"))
+        )
+    return tuple(flags)
 
 
-def _unnamed(width: int) -> Columns:
+def _unnamed_columns(width: int) -> TableColumns:
     """Return the columns of a table without names, before anything is known of them."""
-    return Columns(tuple(Column(i, f"number {i + 1}", "") for i in range(width)))
+    return TableColumns(tuple(Column(i, f"number {i + 1}", "") for i in range(width)))
 
 
-def _guessed(name: str, rows: Sequence[FloatArray], units: str | None) -> Columns:
+def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> TableColumns:
     """Return what the columns of a table without names are: a first one that climbs evenly is the time, the others are accelerations."""
-    first = rows[0]
-    steps = np.diff(first)
-    clock = len(rows) > 1 and first.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
-    names = ["time" if clock and i == 0 else f"C{i + 1}" for i in range(len(rows))]
-    if len(rows) - clock == 1:
+    first_column = rows[0]
+    steps = np.diff(first_column)
+    has_time = len(rows) > 1 and first_column.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
+    names = ["time" if has_time and i == 0 else f"C{i + 1}" for i in range(len(rows))]
+    if len(rows) - has_time == 1:
         names[-1] = "ACC"
     if units is None:
         raise UnitError(
             "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
             name=name,
-            column=1 + clock,
+            column=1 + has_time,
         )
-    told = columns_of_header(name, names, units)
-    return Columns(told.read, (said(_CLIMBS),) if clock else ())
+    columns = parse_header(name, names, units)
+    return TableColumns(columns.columns, (lazy_gettext(_TIME_GUESSED_NOTE),) if has_time else ())
 
 
-def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
+def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
     """Return the sampling interval that a column of times gives, s, which an interval given beside it must not contradict."""
 
-    def written() -> list[str]:
+    def printed_times() -> list[str]:
         return [line.split(separator)[column.index].strip() for line in body if line.strip()][: row.size]
 
-    found = even_dt(name, row, written, unit=column.seconds)
-    if dt is not None and abs(dt - found) > 1e-6:
+    interval = sampling_interval(name, row, printed_times, unit=column.seconds)
+    if dt is not None and abs(dt - interval) > 1e-6:
         raise ParameterError(
-            "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out", name=name, found=found, dt=dt
+            "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out",
+            name=name,
+            found=interval,
+            dt=dt,
         )
-    return found
+    return interval

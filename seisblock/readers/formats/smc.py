@@ -10,20 +10,20 @@ from __future__ import annotations
 import re
 from datetime import datetime, timedelta
 
-from seisblock.errors import RecordFormatError
-from seisblock.readers.cells import fail, to_si
-from seisblock.readers.channels import turned
-from seisblock.readers.directions import Direction, direction_of, towards
-from seisblock.readers.fields import DOS_END, count_in, fields_of
-from seisblock.readers.peaks import doubts_of_peak
-from seisblock.readers.places import moment
-from seisblock.readers.source import Blob, decode
-from seisblock.records import Doubt, Record
-from seisblock.typing import FloatArray
-from seisblock.words import noted, said
+from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.readers._fixed_width import DOS_EOF, parse_fixed_width, parse_sample_count
+from seisblock.readers._header_check import flag_peak_mismatch
+from seisblock.readers._header_text import utc_datetime
+from seisblock.readers.channels import make_component
+from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
+from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.records import QCFlag, Record
 
 FORMAT = "SMC"
-_FIRST = re.compile(
+_TITLE_LINE = re.compile(
     rb"[ ]*(?:[0-9][ ]+)?((?:UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTR\w*|\*)[ ]*\r?\n", re.IGNORECASE
 )
 TEXT, INTEGERS, REALS = 11, 6, 10
@@ -49,30 +49,30 @@ RATE, EVENT_LATITUDE, EVENT_LONGITUDE, DEPTH, MAGNITUDES, LATITUDE, LONGITUDE, H
 )
 """Places of the reals, from 0."""
 
-UNTOLD = 1e38
+MISSING = 1e38
 """Reals beyond this say nothing."""
 
-_SLACK = 6e-5
+_SAMPLE_TOLERANCE = 6e-5
 """Half a unit of the fifth digit, relatively: what samples are printed to."""
 
-_REFUSED = {
-    "UNCORRECTED ACCELEROGRAM": noted("an uncorrected accelerogram, whose samples are uneven: take the corrected file of the same record"),
-    "VELOCITY": noted("a velocity: take the corrected accelerogram of the same record"),
-    "DISPLACEMENT": noted("a displacement: take the corrected accelerogram of the same record"),
-    "RESPONSE": noted("a response spectrum: take the corrected accelerogram of the same record"),
-    "*": noted("a file that does not say what its samples are, as raw counts do: take the corrected accelerogram"),
+_UNSUPPORTED = {
+    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected accelerogram, whose samples are uneven: take the corrected file of the same record"),
+    "VELOCITY": N_("a velocity: take the corrected accelerogram of the same record"),
+    "DISPLACEMENT": N_("a displacement: take the corrected accelerogram of the same record"),
+    "RESPONSE": N_("a response spectrum: take the corrected accelerogram of the same record"),
+    "*": N_("a file that does not say what its samples are, as raw counts do: take the corrected accelerogram"),
 }
 
 
 def is_smc(head: bytes) -> bool:
     """Return whether a file's first bytes are those of an SMC file: its title, then a line with a star, then integers in columns."""
-    if _FIRST.match(head) is None:
+    if _TITLE_LINE.match(head) is None:
         return False
     lines = head.decode("latin-1").splitlines()
     return len(lines) > TEXT and lines[1].strip() == "*" and re.fullmatch(r"(?:\s*-?\d+){8}\s*", lines[TEXT]) is not None
 
 
-def read_smc(blob: Blob) -> Record:
+def read_smc(blob: RawFile) -> Record:
     """Return the one component in a corrected SMC file.
 
     Notes
@@ -80,71 +80,77 @@ def read_smc(blob: Blob) -> Record:
     Start and sampling are those of the header; a file that tells no seconds begins at the full minute, and its times are those of the
     trigger. The header's largest and smallest sample are compared with the file's: a difference is a doubt.
     """
-    lines = decode(blob).replace(DOS_END, "").split("\n")
+    lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     name = blob.name
-    _refuse_others(name, lines[0])
-    told = fields_of(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
-    integers = [int(value) for value in told]
-    untold = integers[0]
-    reals = fields_of(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
+    _check_title(name, lines[0])
+    integer_values = parse_fixed_width(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
+    integers = [int(value) for value in integer_values]
+    missing_value = integers[0]
+    reals = parse_fixed_width(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
-            fail(name, index + 1, said("expected one of {count} comments that begin with |", count=integers[COMMENTS]))
+            raise_line_error(name, index + 1, lazy_gettext("expected one of {count} comments that begin with |", count=integers[COMMENTS]))
     rate = float(reals[RATE])
-    if not 0.0 < rate < UNTOLD:
-        fail(name, TEXT + INTEGERS + 1, said("expected samples per second, found {rate:g}: the samples may be uneven", rate=rate))
-    count = count_in(name, TEXT + 3, str(integers[SAMPLES]))
-    gal = fields_of(name, lines, first, count, _SAMPLE)
-    after = first + -(-count // 8)
-    if any(line.strip() for line in lines[after:]):
-        fail(name, after + 1, said("expected the end after {count} samples, found {text!r}", count=count, text=lines[after].strip()[:40]))
-    direction, written = _direction(lines, integers, untold)
-    component, history = turned(direction, to_si(gal, "gal"), written)
+    if not 0.0 < rate < MISSING:
+        raise_line_error(
+            name, TEXT + INTEGERS + 1, lazy_gettext("expected samples per second, found {rate:g}: the samples may be uneven", rate=rate)
+        )
+    count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
+    gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
+    end_line = first + -(-count // 8)
+    if any(line.strip() for line in lines[end_line:]):
+        raise_line_error(
+            name,
+            end_line + 1,
+            lazy_gettext("expected the end after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]),
+        )
+    direction, direction_name = _parse_direction(lines, integers, missing_value)
+    component, history = make_component(direction, to_si(gal, "gal"), direction_name)
     return Record(
         (component,),
         1.0 / rate,
-        station=_station(lines, integers, untold),
-        start=_start(integers, untold),
+        station=_station_code(lines, integers, missing_value),
+        start=_start_time(integers, missing_value),
         source=name,
         format=FORMAT,
         history=history,
         metadata=_metadata(lines, integers, reals),
-        doubts=_doubts(direction.code, reals, gal),
+        doubts=_qc_flags(direction.code, reals, gal),
     )
 
 
-def _refuse_others(name: str, title: str) -> None:
+def _check_title(name: str, title: str) -> None:
     """Refuse what is no corrected accelerogram, by what its title says it is."""
-    match = _FIRST.match(title.encode("latin-1", "replace") + b"\n")
+    match = _TITLE_LINE.match(title.encode("latin-1", "replace") + b"\n")
     kind = match[1].decode("latin-1").upper() if match else "*"
-    found = next((what for word, what in _REFUSED.items() if kind.startswith(word)), None)
-    if found is not None:
-        raise RecordFormatError("{name}: this SMC file holds {what}", name=name, what=said(found))
+    reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if kind.startswith(word)), None)
+    if reason is not None:
+        raise RecordFormatError("{name}: this SMC file holds {what}", name=name, what=lazy_gettext(reason))
 
 
-def _direction(lines: list[str], integers: list[int], untold: int) -> tuple[Direction, str]:
+def _parse_direction(lines: list[str], integers: list[int], missing_value: int) -> tuple[Direction, str]:
     """Return the direction of the component, and its name in the text: upright sensors by their angle from the vertical."""
-    written = lines[5].partition("component")[2].lstrip("= ").strip()
+    direction_name = lines[5].partition("component")[2].lstrip("= ").strip()
     if integers[VERTICAL] in (0, 180):
-        return Direction("UD", sign=1.0 if integers[VERTICAL] == 0 else -1.0), written
-    if integers[AZIMUTH] != untold and 0 <= integers[AZIMUTH] <= 360:
-        return towards(float(integers[AZIMUTH])), written
-    return direction_of(written) or Direction("H1"), written
+        return Direction("UD", sign=1.0 if integers[VERTICAL] == 0 else -1.0), direction_name
+    if integers[AZIMUTH] != missing_value and 0 <= integers[AZIMUTH] <= 360:
+        return direction_from_azimuth(float(integers[AZIMUTH])), direction_name
+    return parse_direction(direction_name) or Direction("H1"), direction_name
 
 
-def _station(lines: list[str], integers: list[int], untold: int) -> str:
+def _station_code(lines: list[str], integers: list[int], missing_value: int) -> str:
     """Return the number of the station, else the code in the text, and the floor of a building."""
-    code = lines[2].strip("* \0") if integers[NUMBER] in (untold, 0) else str(integers[NUMBER])
-    return code if integers[FLOOR] == untold else f"{code} floor {integers[FLOOR]}"
+    code = lines[2].strip("* \0") if integers[NUMBER] in (missing_value, 0) else str(integers[NUMBER])
+    return code if integers[FLOOR] == missing_value else f"{code} floor {integers[FLOOR]}"
 
 
-def _start(integers: list[int], untold: int) -> datetime | None:
+def _start_time(integers: list[int], missing_value: int) -> datetime | None:
     """Return the time of the first sample, UTC, as far as the integers tell it."""
     year, day, hour, minute = (integers[place] for place in (YEAR, DAY, HOUR, MINUTE))
-    second, millisecond = (0 if integers[place] == untold else integers[place] for place in (SECOND, MILLISECOND))
-    begun = moment(year, 1, 1, hour, minute, second + millisecond / 1000.0)
-    return begun + timedelta(days=day - 1) if begun is not None and 1 <= day <= 366 else None
+    second, millisecond = (0 if integers[place] == missing_value else integers[place] for place in (SECOND, MILLISECOND))
+    start = utc_datetime(year, 1, 1, hour, minute, second + millisecond / 1000.0)
+    return start + timedelta(days=day - 1) if start is not None and 1 <= day <= 366 else None
 
 
 def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[str, object]:
@@ -156,10 +162,10 @@ def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[
     event = re.match(r"\s*(\d{4})\s+(\d{1,2})\s+(\d{1,2})\s+(\d{2})(\d{2})\s*(.*)", lines[3])
     if event:
         year, month, day, hour, minute = (int(part) for part in event.groups()[:5])
-        origin = moment(year, month, day, hour, minute, 0.0)
+        origin = utc_datetime(year, month, day, hour, minute, 0.0)
         metadata |= {"origin_time": origin} if origin else {}
         metadata |= {"event_name": event[6].strip()} if event[6].strip() else {}
-    told = {
+    real_indices = {
         "event_latitude_deg": EVENT_LATITUDE,
         "event_longitude_deg": EVENT_LONGITUDE,
         "event_depth_km": DEPTH,
@@ -168,13 +174,13 @@ def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[
         "station_height_m": HEIGHT,
         "epicentral_distance_km": DISTANCE,
     }
-    metadata |= {key: float(reals[place]) for key, place in told.items() if abs(reals[place]) < UNTOLD}
-    magnitude = next((float(reals[place]) for place in MAGNITUDES if abs(reals[place]) < UNTOLD), None)
+    metadata |= {key: float(reals[place]) for key, place in real_indices.items() if abs(reals[place]) < MISSING}
+    magnitude = next((float(reals[place]) for place in MAGNITUDES if abs(reals[place]) < MISSING), None)
     return metadata if magnitude is None else metadata | {"magnitude": magnitude}
 
 
-def _doubts(code: str, reals: FloatArray, gal: FloatArray) -> tuple[Doubt, ...]:
+def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Return what speaks against the samples: the header's own peak."""
-    peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < UNTOLD else -1.0)
-    told = repr(peak) if abs(peak) < UNTOLD else ""
-    return doubts_of_peak(code, told, gal, "gal", _SLACK * min(abs(peak), UNTOLD))
+    peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
+    peak_text = repr(peak) if abs(peak) < MISSING else ""
+    return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))

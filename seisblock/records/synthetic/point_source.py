@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.typing import FloatArray
+from seisblock.core import checks
+from seisblock.core.typing import FloatArray
 
 SHEAR_VELOCITY, DENSITY = 3500.0, 2800.0
 """Of the rock at the source, m/s and kg/m^3."""
@@ -25,13 +25,13 @@ QUALITY, QUALITY_POWER = 180.0, 0.45
 KAPPA = 0.04
 """What the uppermost rock takes away, s."""
 
-NEAR = 40e3
+SPREADING_CROSSOVER = 40e3
 """Beyond this the waves spread along the surface, m."""
 
 DURATION_PER_METRE = 0.05e-3
 """How much longer it shakes for each metre of the path, s/m."""
 
-AMPLIFIED_AT = np.array([0.01, 0.09, 0.16, 0.51, 0.84, 1.25, 2.26, 3.17, 6.05, 16.60, 61.20])
+AMPLIFICATION_HZ = np.array([0.01, 0.09, 0.16, 0.51, 0.84, 1.25, 2.26, 3.17, 6.05, 16.60, 61.20])
 AMPLIFICATION = np.array([1.00, 1.10, 1.18, 1.42, 1.58, 1.74, 2.06, 2.25, 2.58, 3.13, 4.00])
 """By how much generic rock amplifies, and at which frequencies, Hz; between them linear in the logarithm of the frequency."""
 
@@ -69,8 +69,8 @@ class PointSource:
     distance_m: float
 
     def __post_init__(self) -> None:
-        checks.within("the magnitude", self.magnitude, "[4, 8.5]")
-        checks.within("the distance", self.distance_m, "[1e3, 3e5]", "m")
+        checks.in_interval("the magnitude", self.magnitude, "[4, 8.5]")
+        checks.in_interval("the distance", self.distance_m, "[1e3, 3e5]", "m")
 
     @property
     def moment(self) -> float:
@@ -106,10 +106,10 @@ class PointSource:
         ([Boore2003]_ method: source, path, site). It falls with f^2 towards zero: the ground comes to rest.
         """
         f = np.asarray(frequency, dtype=np.float64)
-        far = self.effective_distance_m
+        distance = self.effective_distance_m
         constant = RADIATION * FREE_SURFACE * PARTITION / (4.0 * math.pi * DENSITY * SHEAR_VELOCITY**3)
         source = constant * self.moment * (2.0 * math.pi * f) ** 2 / (1.0 + (f / self.corner_hz) ** 2)
-        spread = 1.0 / far if far <= NEAR else 1.0 / math.sqrt(NEAR * far)
-        lost = math.pi * far / (QUALITY * SHEAR_VELOCITY) * f ** (1.0 - QUALITY_POWER) + math.pi * KAPPA * f
-        amplified = np.interp(np.log(np.maximum(f, AMPLIFIED_AT[0])), np.log(AMPLIFIED_AT), AMPLIFICATION)
-        return np.asarray(source * spread * np.exp(-lost) * amplified)
+        spreading = 1.0 / distance if distance <= SPREADING_CROSSOVER else 1.0 / math.sqrt(SPREADING_CROSSOVER * distance)
+        attenuation = math.pi * distance / (QUALITY * SHEAR_VELOCITY) * f ** (1.0 - QUALITY_POWER) + math.pi * KAPPA * f
+        amplification = np.interp(np.log(np.maximum(f, AMPLIFICATION_HZ[0])), np.log(AMPLIFICATION_HZ), AMPLIFICATION)
+        return np.asarray(source * spreading * np.exp(-attenuation) * amplification)

@@ -7,13 +7,13 @@ import re
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.limits import check_budget
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray
 from seisblock.records.record import Component, Record
 from seisblock.records.synthetic.point_source import PointSource
-from seisblock.typing import FloatArray
-from seisblock.words import noted, said
 
 DEFAULT_SUITE = "synthetic:M7:R20:40"
 """What stands for a suite where no records are named."""
@@ -21,19 +21,19 @@ DEFAULT_SUITE = "synthetic:M7:R20:40"
 DT = 0.01
 """Sampling interval, s."""
 
-QUANTUM = 1e6
+ROUNDING_SCALE = 1e6
 """One over the last digit of the samples, s^2/m: what is written with six decimals is the record to the last bit."""
 
-VERTICAL = 2.0 / 3.0
+VERTICAL_RATIO = 2.0 / 3.0
 """The vertical component over a horizontal one."""
 
-EARLY, LATE = 0.2, 0.05
+ENVELOPE_PEAK, ENVELOPE_TAIL = 0.2, 0.05
 """When the envelope is highest, as a share of when it is told; and how high it is then."""
 
-TOLD_AT, FOLLOWED_TO = 2.0, 3.0
+TAIL_TIME, CUTOFF_TIME = 2.0, 3.0
 """When that is, and how far the envelope is followed, in durations."""
 
-_SPELLING = re.compile(r"synthetic:M(?P<magnitude>[^:]+):R(?P<distance>[^:]+):(?P<count>[^:]+)", re.IGNORECASE)
+_PATTERN = re.compile(r"synthetic:M(?P<magnitude>[^:]+):R(?P<distance>[^:]+):(?P<count>[^:]+)", re.IGNORECASE)
 
 
 def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: int = 0) -> tuple[Record, ...]:
@@ -73,39 +73,39 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     >>> records[1].source
     'synthetic_M7_R20_002'
     """
-    source = PointSource(magnitude, 1e3 * checks.within("the distance", distance_km, "[1, 300]", "km"))
-    checks.whole("the number of records", count, least=1)
-    shape, before = _envelope(source)
-    check_budget(noted("samples of synthetic records"), 3 * count * shape.size, "SEISBLOCK_READ_SAMPLES")
-    target = source.spectrum(np.asarray(np.fft.rfftfreq(shape.size, DT), dtype=np.float64)) / DT
+    source = PointSource(magnitude, 1e3 * checks.in_interval("the distance", distance_km, "[1, 300]", "km"))
+    checks.integer("the number of records", count, minimum=1)
+    envelope, onset = _envelope(source)
+    check_limit(N_("samples of synthetic records"), 3 * count * envelope.size, "SEISBLOCK_READ_SAMPLES")
+    target = source.spectrum(np.asarray(np.fft.rfftfreq(envelope.size, DT), dtype=np.float64)) / DT
     name = f"synthetic_M{magnitude:g}_R{distance_km:g}"
-    did = said(
+    entry = lazy_gettext(
         "synthetic, no recording: noise with the spectrum of magnitude {magnitude:g} at {distance:g} km on rock, seed {seed}; the noise "
         "begins at {before:.1f} s",
         magnitude=magnitude,
         distance=distance_km,
         seed=seed,
-        before=before,
+        before=onset,
     )
-    found = []
-    for number, dice in enumerate(np.random.default_rng(checks.seed(seed)).spawn(count), start=1):
-        waves = _waves(dice.standard_normal((3, shape.size)) * shape, target)
+    records = []
+    for number, rng in enumerate(np.random.default_rng(checks.seed(seed)).spawn(count), start=1):
+        waves = _waveforms(rng.standard_normal((3, envelope.size)) * envelope, target)
         components = (Component("NS", waves[0]), Component("EW", waves[1]), Component("UD", waves[2]))
-        found.append(
+        records.append(
             Record(
                 components,
                 DT,
                 station=f"SYN{number:03d}",
                 source=f"{name}_{number:03d}",
                 format="synthetic",
-                history=(did,),
+                history=(entry,),
                 metadata={"magnitude": float(magnitude), "distance_km": float(distance_km), "synthetic": True},
             )
         )
-    return tuple(found)
+    return tuple(records)
 
 
-def named_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
+def parse_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
     """Return the suite that a name such as ``synthetic:M7:R20:40`` stands for: magnitude, distance in km, and how many records.
 
     Raises
@@ -115,12 +115,12 @@ def named_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
 
     Examples
     --------
-    >>> len(named_suite("synthetic:M6.5:R30:3"))
+    >>> len(parse_suite("synthetic:M6.5:R30:3"))
     3
     """
-    told = _SPELLING.fullmatch(text.strip())
+    match = _PATTERN.fullmatch(text.strip())
     try:
-        magnitude, distance, count = float(told["magnitude"]), float(told["distance"]), int(told["count"])  # type: ignore[index]
+        magnitude, distance, count = float(match["magnitude"]), float(match["distance"]), int(match["count"])  # type: ignore[index]
     except (TypeError, ValueError):
         raise ParameterError(
             "{text!r} is no suite: expected magnitude, distance in km and how many, such as {example}",
@@ -132,18 +132,18 @@ def named_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
 
 def _envelope(source: PointSource) -> tuple[FloatArray, float]:
     """Return the envelope of the noise, (n,), its squares' sum one, and when it begins, s: the spectrum reaches back from there."""
-    told = TOLD_AT * source.duration_s
-    b = -EARLY * math.log(LATE) / (1.0 + EARLY * (math.log(EARLY) - 1.0))
-    before = 1.0 + 1.0 / source.corner_hz
-    seconds = math.ceil(2.0 * before + FOLLOWED_TO * source.duration_s)
-    t = (np.arange(round(seconds / DT)) * DT - before) / told
-    t[(t < 0.0) | (t > FOLLOWED_TO / TOLD_AT)] = 0.0
-    shape = t**b * np.exp(-b / EARLY * t)
-    return np.asarray(shape / math.sqrt(float(shape @ shape))), before
+    tail_time = TAIL_TIME * source.duration_s
+    b = -ENVELOPE_PEAK * math.log(ENVELOPE_TAIL) / (1.0 + ENVELOPE_PEAK * (math.log(ENVELOPE_PEAK) - 1.0))
+    onset = 1.0 + 1.0 / source.corner_hz
+    seconds = math.ceil(2.0 * onset + CUTOFF_TIME * source.duration_s)
+    t = (np.arange(round(seconds / DT)) * DT - onset) / tail_time
+    t[(t < 0.0) | (t > CUTOFF_TIME / TAIL_TIME)] = 0.0
+    shape = t**b * np.exp(-b / ENVELOPE_PEAK * t)
+    return np.asarray(shape / math.sqrt(float(shape @ shape))), onset
 
 
-def _waves(noise: FloatArray, target: FloatArray) -> FloatArray:
+def _waveforms(noise: FloatArray, target: FloatArray) -> FloatArray:
     """Return the waves of one record, (3, n), m/s^2, rounded to the digits that are written."""
     spectra = np.fft.rfft(noise) * target
-    spectra[2] *= VERTICAL
-    return np.asarray(np.round(QUANTUM * np.fft.irfft(spectra, noise.shape[1])) / QUANTUM + 0.0)
+    spectra[2] *= VERTICAL_RATIO
+    return np.asarray(np.round(ROUNDING_SCALE * np.fft.irfft(spectra, noise.shape[1])) / ROUNDING_SCALE + 0.0)

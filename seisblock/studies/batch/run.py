@@ -9,25 +9,25 @@ from itertools import groupby
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from seisblock import checks
-from seisblock.bodies.roster import ListedBody, read_bodies
-from seisblock.errors import KindError, ParameterError
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import Recording, gather
+from seisblock.bodies.table import BodySpec, read_bodies
+from seisblock.core import checks
+from seisblock.core.errors import KindError, ParameterError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import Progress
+from seisblock.readers.discover import RecordSource, iter_records
+from seisblock.readers.dispatch import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
-from seisblock.studies.batch.azimuths import around, check_around
-from seisblock.studies.batch.models import BatchModel, Placed, batch_model
-from seisblock.studies.batch.table import BatchTable, Row, columns_of
-from seisblock.studies.batch.task import Plan, placed, row_without_answer, rows_of
-from seisblock.studies.runs import RECORDS, in_threads
-from seisblock.typing import Progress
-from seisblock.words import said
+from seisblock.studies.batch.models import BatchModel, SolverBody, batch_model
+from seisblock.studies.batch.table import BatchTable, Row, batch_columns
+from seisblock.studies.batch.task import Plan, build_solver_bodies, failure_row, record_rows
+from seisblock.studies.batch.worst_azimuth import check_all_azimuths, is_all_azimuths
+from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 
 if TYPE_CHECKING:
     from distributed import Client
 
-AS_READ = Preparation()
+NO_PROCESSING = Preparation()
 """Nothing is done to a record but what its format needs."""
 
 Bodies: TypeAlias = "Location | Mapping[str, Any] | Iterable[Any]"
@@ -39,7 +39,7 @@ def run_batch(
     solver: str,
     *,
     components: str | Sequence[str] = (),
-    preparation: Preparation = AS_READ,
+    preparation: Preparation = NO_PROCESSING,
     runs: int = 0,
     seed: int = 0,
     workers: int | None = None,
@@ -54,9 +54,10 @@ def run_batch(
     Parameters
     ----------
     records : path or Record, or several
-        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.gather.gather`; or records as they were read.
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; or records as they
+        were read.
     bodies : path, bodies, or mapping of names to bodies
-        Tables and files, see :func:`~seisblock.bodies.roster.read_bodies`; or bodies of the kind that the solver takes.
+        Tables and files, see :func:`~seisblock.bodies.table.read_bodies`; or bodies of the kind that the solver takes.
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump``, ``uplift`` or ``stack``.
     components : str, or sequence of str
@@ -89,12 +90,12 @@ def run_batch(
     (['gravestone'], [True])
     """
     plan, notes = make_plan(
-        bodies, solver, components=components, preparation=preparation, runs=runs, seed=seed, options=options, reading=Options()
+        bodies, solver, components=components, preparation=preparation, runs=runs, seed=seed, options=options, read_options=ReadOptions()
     )
-    tasks = list(_tasks(records, plan.reading))
-    found = each_record(tasks, plan, total=len(tasks), workers=workers, client=client, progress=progress)
-    rows = [row for some in found for row in some]
-    return BatchTable(columns_of(plan.model, runs=runs, around=around(plan.components)), rows, notes)
+    tasks = list(_tasks(records, plan.read_options))
+    row_groups = iter_record_rows(tasks, plan, total=len(tasks), workers=workers, client=client, progress=progress)
+    rows = [row for group in row_groups for row in group]
+    return BatchTable(batch_columns(plan.model, runs=runs, all_azimuths=is_all_azimuths(plan.components)), rows, notes)
 
 
 def make_plan(
@@ -103,8 +104,8 @@ def make_plan(
     *,
     options: Mapping[str, Any],
     components: str | Sequence[str] = (),
-    preparation: Preparation = AS_READ,
-    reading: Options,
+    preparation: Preparation = NO_PROCESSING,
+    read_options: ReadOptions,
     runs: int = 0,
     seed: int = 0,
     strict: bool = False,
@@ -116,16 +117,16 @@ def make_plan(
         raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and model.chance is None:
         raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=solver)
-    model.refuse_unknown(options)
-    listed = named(bodies, model)
+    model.check_options(options)
+    body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
-    check_around(solver, names, options)
-    plan = Plan(solver, placed(model, listed, options), names, preparation, reading, runs, checks.seed(seed), strict)
-    return plan, unheard(model, listed)
+    check_all_azimuths(solver, names, options)
+    plan = Plan(solver, build_solver_bodies(model, body_list, options), names, preparation, read_options, runs, checks.seed(seed), strict)
+    return plan, ignored_column_notes(model, body_list)
 
 
-def each_record(
-    tasks: Iterable[Recording | Record],
+def iter_record_rows(
+    tasks: Iterable[RecordSource | Record],
     plan: Plan,
     *,
     total: int,
@@ -145,32 +146,32 @@ def each_record(
     workers, client, progress
         As in :func:`run_batch`.
     """
-    work = partial(rows_of, plan=plan)
-    answers: Generator[list[Row], None, None]
+    work = partial(record_rows, plan=plan)
+    results: Generator[list[Row], None, None]
     if client is None:
-        answers = in_threads(work, tasks, workers=workers, ahead=RECORDS)
+        results = map_threads(work, tasks, workers=workers, max_pending=MAX_PENDING_RECORDS)
     else:
-        from seisblock.studies.batch.cluster import on_cluster
+        from seisblock.studies.batch.cluster import map_cluster
 
-        answers = on_cluster(client, work, tasks, lost=partial(row_without_answer, plan))
-    with closing(answers):
-        for done, rows in enumerate(answers, start=1):
+        results = map_cluster(client, work, tasks, on_lost=partial(failure_row, plan))
+    with closing(results):
+        for count, rows in enumerate(results, start=1):
             yield rows
             if progress is not None:
-                progress(done, total)
+                progress(count, total)
 
 
-def _tasks(records: Location | Record | Iterable[Location | Record], reading: Options) -> Iterator[Recording | Record]:
+def _tasks(records: Location | Record | Iterable[Location | Record], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
     """Yield the records of a batch: those that were read already, and those that names stand for."""
-    given: Iterable[Location | Record] = [records] if isinstance(records, (str, PathLike, Record)) else records
-    for kind, some in groupby(given, key=lambda each: isinstance(each, Record)):
+    sources: Iterable[Location | Record] = [records] if isinstance(records, (str, PathLike, Record)) else records
+    for kind, group in groupby(sources, key=lambda source: isinstance(source, Record)):
         if kind:
-            yield from some  # type: ignore[misc]
+            yield from group  # type: ignore[misc]
         else:
-            yield from gather([str(each) for each in some], reading)
+            yield from iter_records([str(source) for source in group], read_options)
 
 
-def named(bodies: Bodies, model: BatchModel) -> list[ListedBody | Placed]:
+def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBody]:
     """Return the bodies of a batch with their names; those that are given as they are take every option as it is given."""
     if isinstance(bodies, (str, PathLike)):
         return list(read_bodies(str(bodies)))
@@ -179,30 +180,30 @@ def named(bodies: Bodies, model: BatchModel) -> list[ListedBody | Placed]:
     if isinstance(bodies, Mapping):
         pairs = [(str(name), body) for name, body in bodies.items()]
     elif isinstance(bodies, Iterable):
-        pairs = [(getattr(body, "name", "") or said("body {number}", number=n), body) for n, body in enumerate(bodies, start=1)]
+        pairs = [(getattr(body, "name", "") or lazy_gettext("body {number}", number=n), body) for n, body in enumerate(bodies, start=1)]
     else:
-        raise KindError("bodies are needed: a table, files, or bodies; found {found}", found=checks.kind_of(bodies))
+        raise KindError("bodies are needed: a table, files, or bodies; found {found}", found=checks.type_name(bodies))
     if not pairs:
         raise ParameterError("no body was named: give at least one")
-    found: list[ListedBody | Placed] = []
+    result: list[BodySpec | SolverBody] = []
     for name, body in pairs:
         if isinstance(body, (str, PathLike)):
-            found += read_bodies(str(body))
-        elif isinstance(body, ListedBody):
-            found.append(body)
+            result += read_bodies(str(body))
+        elif isinstance(body, BodySpec):
+            result.append(body)
         elif isinstance(body, model.kinds):
-            found.append(Placed(name, body, {}))
+            result.append(SolverBody(name, body, {}))
         else:
             raise KindError(
                 "{solver} takes {kinds}, found {found}",
                 solver=model.name,
                 kinds=[kind.__name__ for kind in model.kinds],
-                found=checks.kind_of(body),
+                found=checks.type_name(body),
             )
-    return found
+    return result
 
 
-def unheard(model: BatchModel, bodies: Sequence[ListedBody | Placed]) -> tuple[str, ...]:
+def ignored_column_notes(model: BatchModel, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
     """Return what is to be known of a list of bodies that says more than a solver hears."""
-    unheard = dict.fromkeys(key for body in bodies if isinstance(body, ListedBody) for key in model.unheard(body))
-    return (said("{solver} takes no notice of {columns}", columns=list(unheard), solver=model.name),) if unheard else ()
+    ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_keys(body))
+    return (lazy_gettext("{solver} takes no notice of {columns}", columns=list(ignored), solver=model.name),) if ignored else ()

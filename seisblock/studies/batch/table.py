@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from seisblock.errors import ParameterError
+from seisblock.core.errors import ParameterError
 from seisblock.studies.batch.models import BatchModel
 
 if TYPE_CHECKING:
@@ -14,24 +14,24 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, Any]
 
-KEYS: dict[str, type] = {"record": str, "path": str, "station": str, "start": str, "component": str, "body": str, "solver": str}
+KEY_COLUMNS: dict[str, type] = {"record": str, "path": str, "station": str, "start": str, "component": str, "body": str, "solver": str}
 """The columns that say which row it is."""
 
 REASON, WARNINGS = "failure", "warnings"
 """The columns that say why a row has no answer, and what to know before believing it."""
 
 
-DIRECTIONS, FALLEN = "directions", "directions_overturned"
+DIRECTIONS, FALLEN_DIRECTIONS = "directions", "directions_overturned"
 """The columns of all azimuths: in how many directions was looked, and in how many of them the body falls."""
 
 
-def columns_of(model: BatchModel, *, runs: int = 0, around: bool = False) -> dict[str, type]:
+def batch_columns(model: BatchModel, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
     """Return the columns of a batch of one solver, of perturbed runs and of all directions where there are any, with their types."""
-    chances = (model.chances or {}) if runs else {}
-    directions: dict[str, type] = {DIRECTIONS: int} if around else {}
-    if around and model.happens == "overturned":
-        directions[FALLEN] = int
-    return {**KEYS, **directions, **model.scalars, **chances, WARNINGS: str, REASON: str}
+    probability_columns = (model.chances or {}) if runs else {}
+    directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
+    if all_azimuths and model.happens == "overturned":
+        directions[FALLEN_DIRECTIONS] = int
+    return {**KEY_COLUMNS, **directions, **model.scalars, **probability_columns, WARNINGS: str, REASON: str}
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +74,7 @@ class BatchTable:
 
     def cells(self) -> Iterator[list[Any]]:
         """Yield the cells of each row, in the order of the columns."""
-        return (cells_of(self.columns, row) for row in self.rows)
+        return (row_cells(self.columns, row) for row in self.rows)
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return a DataFrame, its columns of the types that pandas has for values that may be missing.
@@ -92,6 +92,6 @@ class BatchTable:
         return pandas.DataFrame({name: pandas.array(self[name], dtype=kinds[kind]) for name, kind in self.columns.items()})
 
 
-def cells_of(columns: Iterable[str], row: Row) -> list[Any]:
+def row_cells(columns: Iterable[str], row: Row) -> list[Any]:
     """Return the cells of a row, in the order of the columns."""
     return [row.get(name) for name in columns]

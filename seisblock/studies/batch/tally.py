@@ -10,7 +10,7 @@ from seisblock.studies.batch.table import REASON, Row
 
 
 @dataclass
-class Tallied:
+class BodyCounts:
     """Rows of one body: with an answer, without, and those in which it happened."""
 
     body: str
@@ -29,12 +29,12 @@ class Tally:
     """
 
     model: BatchModel
-    bodies: dict[str, Tallied] = field(default_factory=dict)
+    bodies: dict[str, BodyCounts] = field(default_factory=dict)
     records: int = 0
-    unread: int = 0
+    unreadable: int = 0
     reasons: dict[str, int] = field(default_factory=dict)
 
-    def counted(self, rows: Sequence[Row]) -> Sequence[Row]:
+    def add_rows(self, rows: Sequence[Row]) -> Sequence[Row]:
         """Take the rows of one record into account, and return them."""
         self.records += bool(rows)
         for row in rows:
@@ -43,9 +43,9 @@ class Tally:
                 self.reasons[reason] = self.reasons.get(reason, 0) + 1
             body = row.get("body")
             if body is None:
-                self.unread += 1
+                self.unreadable += 1
                 continue
-            count = self.bodies.setdefault(body, Tallied(body))
+            count = self.bodies.setdefault(body, BodyCounts(body))
             if reason:
                 count.failures += 1
                 continue
@@ -61,13 +61,13 @@ class Tally:
     @property
     def failures(self) -> int:
         """Rows without one."""
-        return self.unread + sum(count.failures for count in self.bodies.values())
+        return self.unreadable + sum(count.failures for count in self.bodies.values())
 
     @property
     def happened(self) -> int:
         """Rows in which it happened."""
         return sum(count.happened for count in self.bodies.values())
 
-    def ranked(self) -> list[Tallied]:
+    def ranked(self) -> list[BodyCounts]:
         """Return the counts of the bodies, those to which it happened most often first."""
         return sorted(self.bodies.values(), key=lambda count: -count.happened / max(count.answers, 1))

@@ -7,27 +7,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import Inset
-from seisblock.errors import ParameterError
-from seisblock.limits import check_budget
-from seisblock.records.given import Factor
-from seisblock.studies.fit.axes import ALPHA, FREE, INSET, RESTITUTION, Axis, Bounds, axes_for
-from seisblock.studies.fit.axes import P as FREQUENCY
-from seisblock.studies.fit.blocks import Family, fixed_values
-from seisblock.studies.fit.experiment import FELL, Experiment, Observed, check_folds, dealt, experiment_of, peaks_of
-from seisblock.studies.fit.held_out import HeldOut, foretold, foretold_without, scores
-from seisblock.studies.fit.likelihood import lapses, log_likelihood
-from seisblock.studies.fit.posterior import explore
-from seisblock.studies.fit.remarks import remarks_on
-from seisblock.studies.fit.runs import LEVELS
-from seisblock.studies.fit.summary import Correlation, Marginal, correlations, marginals, medians
-from seisblock.typing import FloatArray, Progress
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.records._validation import Gain
+from seisblock.studies.fit.block_family import BlockFamily, fixed_values
+from seisblock.studies.fit.cross_validation import HeldOutScores, predict, predict_held_out, score_predictions
+from seisblock.studies.fit.dataset import FELL, Experiment, Observation, assign_folds, check_folds, ground_peaks, make_experiment
+from seisblock.studies.fit.importance_sampling import sample_posterior
+from seisblock.studies.fit.likelihood import log_likelihood, make_lapse_rate
+from seisblock.studies.fit.posterior_summary import Correlation, Marginal, correlations, marginals, medians
+from seisblock.studies.fit.priors import ALPHA, FREE_PARAMETERS, INSET, RESTITUTION, Bounds, Prior, make_priors
+from seisblock.studies.fit.priors import P as FREQUENCY
+from seisblock.studies.fit.simulate import SHARE_DENOMINATOR
+from seisblock.studies.fit.warnings import fit_warnings
 
-LEVEL = 0.9
+DEFAULT_LEVEL = 0.9
 """Of the intervals, unless another is asked for."""
 
 RUNS = 16
@@ -36,7 +36,7 @@ RUNS = 16
 FOLDS = 5
 """Parts into which records are dealt, where there are as many."""
 
-SHOWN = 2000
+POSTERIOR_DRAWS = 2000
 """Blocks that stand for all that explain what was seen."""
 
 
@@ -81,7 +81,7 @@ class BlockFit:
     """
 
     experiment: Experiment
-    axes: tuple[Axis, ...]
+    axes: tuple[Prior, ...]
     fixed: dict[str, float | None]
     level: float
     marginals: tuple[Marginal, ...]
@@ -90,7 +90,7 @@ class BlockFit:
     restitution: float | None
     probability: FloatArray
     probability_held_out: FloatArray | None
-    held_out: HeldOut | None
+    held_out: HeldOutScores | None
     pga_m_s2: FloatArray
     pgv_m_s: FloatArray
     draws: dict[str, FloatArray]
@@ -102,32 +102,34 @@ class BlockFit:
 
     def __getitem__(self, name: str) -> Marginal:
         """Return what is known of a parameter."""
-        for each in self.marginals:
-            if each.name == name:
-                return each
-        raise ParameterError("nothing was looked for that is called {name!r}; what was: {known}", name=str(name)[:100], known=self.known)
+        for marginal in self.marginals:
+            if marginal.name == name:
+                return marginal
+        raise ParameterError(
+            "nothing was looked for that is called {name!r}; what was: {known}", name=str(name)[:100], known=self.parameter_names
+        )
 
     @property
-    def known(self) -> list[str]:
+    def parameter_names(self) -> list[str]:
         """The names of what was looked for."""
-        return [each.name for each in self.marginals]
+        return [marginal.name for marginal in self.marginals]
 
 
 def fit_block(
-    outcomes: Iterable[Observed],
+    outcomes: Iterable[Observation],
     *,
     kind: str = FELL,
     free: Sequence[str] | None = None,
     block: Block | None = None,
     restitution: float | None = None,
-    inset: float | Inset | None = None,
+    inset: float | EdgeWear | None = None,
     bounds: Bounds | None = None,
     scatter: float | None = None,
     lapse: float | None = None,
-    vertical: Factor = False,
+    vertical: Gain = False,
     gravity: float = STANDARD_GRAVITY,
     folds: int | None = None,
-    level: float = LEVEL,
+    level: float = DEFAULT_LEVEL,
     runs: int = RUNS,
     seed: int = 0,
     progress: Progress | None = None,
@@ -186,69 +188,71 @@ def fit_block(
     >>> from seisblock import Motion
     >>> time = np.linspace(0.0, 1.0, 101)
     >>> pulses = [Motion.from_arrays(peak * np.sin(2.0 * np.pi * time), 0.01) for peak in (2.0, 3.0, 4.0, 5.0, 6.0, 7.0)]
-    >>> seen = [Observed(pulse, fell) for pulse, fell in zip(pulses, [False, False, False, True, True, True])]
+    >>> seen = [Observation(pulse, fell) for pulse, fell in zip(pulses, [False, False, False, True, True, True])]
     >>> found = fit_block(seen, block=Block(0.24, 0.8), free=["inset"], folds=3)
     >>> found["inset"].interval[0] < 0.2, found.held_out.folds
     (True, 3)
     """
-    experiment = experiment_of(outcomes, kind)
-    given = None if block is None else checks.instance(block, Block)
-    if inset is not None and given is not None:
-        given = given.worn(inset)
-    share = _share(given, inset)
-    family = _family(free, given, share, restitution, inset is not None, bounds or {}, scatter, vertical, gravity)
-    checks.within("the level of the intervals", level, "[0.001, 1)")
+    experiment = make_experiment(outcomes, kind)
+    base_block = None if block is None else checks.instance(block, Block)
+    if inset is not None and base_block is not None:
+        base_block = base_block.with_wear(inset)
+    share = _wear_share(base_block, inset)
+    family = _family(free, base_block, share, restitution, inset is not None, bounds or {}, scatter, vertical, gravity)
+    checks.in_interval("the level of the intervals", level, "[0.001, 1)")
     if lapse is not None:
-        checks.within("the share of lapses", lapse, "[0, 1)")
+        checks.in_interval("the share of lapses", lapse, "[0, 1)")
     _check_runs(runs)
     parts = min(FOLDS, experiment.records) if folds is None else check_folds(folds, experiment)
-    guessed = lapses(lapse)
-    deal = dealt(experiment.records, parts, checks.seed(seed))
-    sampled, effective = explore(experiment, family, guessed, deal[experiment.record], runs=runs, seed=seed, progress=progress)
-    weights = np.exp(sampled.log_weights(log_likelihood(sampled.shares, *experiment.counted(), guessed)))
+    lapse_rate = make_lapse_rate(lapse)
+    record_folds = assign_folds(experiment.records, parts, checks.seed(seed))
+    sample, effective = sample_posterior(
+        experiment, family, lapse_rate, record_folds[experiment.record], runs=runs, seed=seed, progress=progress
+    )
+    weights = np.exp(sample.log_weights(log_likelihood(sample.shares, *experiment.outcome_counts(), lapse_rate)))
     weights /= weights.sum()
-    of_blocks = weights.sum(axis=0)
-    pga, pgv = peaks_of(experiment)
-    held, without = None, None
+    block_weights = weights.sum(axis=0)
+    pga, pgv = ground_peaks(experiment)
+    held_out_scores, held_out_probability = None, None
     if parts > 1:
-        without, fewest = foretold_without(experiment, sampled, guessed, deal)
-        held = scores(experiment, without, pgv, deal, fewest)
-    known = marginals(family, sampled.places, weights, guessed, level)
-    together = correlations(family, sampled.places, of_blocks)
-    middle = medians(sampled.places, of_blocks)[None, :]
-    chosen = np.random.default_rng([seed, 2]).choice(len(of_blocks), SHOWN, p=of_blocks)
+        held_out_probability, min_effective = predict_held_out(experiment, sample, lapse_rate, record_folds)
+        held_out_scores = score_predictions(experiment, held_out_probability, pgv, record_folds, min_effective)
+    parameters = marginals(family, sample.unit_points, weights, lapse_rate, level)
+    parameter_correlations = correlations(family, sample.unit_points, block_weights)
+    median_point = medians(sample.unit_points, block_weights)[None, :]
+    draw_rows = np.random.default_rng([seed, 2]).choice(len(block_weights), POSTERIOR_DRAWS, p=block_weights)
     return BlockFit(
         experiment,
         family.axes,
         dict(fixed_values(family)),
         level,
-        known,
-        together,
-        family.block_at(middle),
-        float(family.values(middle)[RESTITUTION][0]) if RESTITUTION in family.names else restitution,
-        foretold(experiment, sampled, guessed),
-        without,
-        held,
+        parameters,
+        parameter_correlations,
+        family.block_at(median_point),
+        float(family.values(median_point)[RESTITUTION][0]) if RESTITUTION in family.names else restitution,
+        predict(experiment, sample, lapse_rate),
+        held_out_probability,
+        held_out_scores,
         pga,
         pgv,
-        family.values(sampled.places[chosen]),
-        len(sampled.places),
+        family.values(sample.unit_points[draw_rows]),
+        len(sample.unit_points),
         effective,
         runs,
         seed,
-        tuple(remarks_on(experiment, known, together, held, effective)),
+        tuple(fit_warnings(experiment, parameters, parameter_correlations, held_out_scores, effective)),
     )
 
 
-def _share(block: Block | None, inset: float | Inset | None) -> float:
+def _wear_share(block: Block | None, inset: float | EdgeWear | None) -> float:
     """Return how far edges are worn, a share of the width per side."""
     if block is not None:
         return block.inset / block.width
-    worn = inset if isinstance(inset, Inset) else Inset(share=0.0 if inset is None else inset)
-    if worn.length_m:
+    wear = inset if isinstance(inset, EdgeWear) else EdgeWear(share=0.0 if inset is None else inset)
+    if wear.length_m:
         raise ParameterError("an inset of a length needs a `block` with a width; give a share of the width, such as 0.1")
-    worn.of(1.0)
-    return worn.share
+    wear.inset(1.0)
+    return wear.share
 
 
 def _family(
@@ -256,36 +260,41 @@ def _family(
     block: Block | None,
     inset: float,
     restitution: float | None,
-    worn: bool,
+    is_wear_given: bool,
     bounds: Bounds,
     scatter: float | None,
-    vertical: Factor,
+    vertical: Gain,
     gravity: float,
-) -> Family:
+) -> BlockFamily:
     """Return the blocks among which one is looked for, or refuse what cannot be."""
     if free is None:
-        unknown = {ALPHA: block is None, FREQUENCY: block is None, RESTITUTION: restitution is None, INSET: block is not None and not worn}
-        free = [name for name in FREE if unknown[name]]
+        unknown = {
+            ALPHA: block is None,
+            FREQUENCY: block is None,
+            RESTITUTION: restitution is None,
+            INSET: block is not None and not is_wear_given,
+        }
+        free = [name for name in FREE_PARAMETERS if unknown[name]]
     names = [free] if isinstance(free, str) else list(free)
-    axes = axes_for(names, bounds, scatter=scatter, block=block)
+    axes = make_priors(names, bounds, scatter=scatter, block=block)
     if not axes:
-        raise ParameterError("there is nothing to look for: name one of {known} as `free`", known=list(FREE))
+        raise ParameterError("there is nothing to look for: name one of {known} as `free`", known=list(FREE_PARAMETERS))
     if block is None and not {ALPHA, FREQUENCY} <= set(names):
         missing = [name for name in (ALPHA, FREQUENCY) if name not in names]
         raise ParameterError("{missing} must be looked for (`free`) or given: give the `width` and `height` of a block", missing=missing)
-    for name, is_given in ((RESTITUTION, restitution is not None), (INSET, worn)):
+    for name, is_given in ((RESTITUTION, restitution is not None), (INSET, is_wear_given)):
         if name in names and is_given:
             raise ParameterError("the {name} is looked for (`free`) and given at once: leave one out", name=name)
     if restitution is not None:
         checks.fraction("the restitution, a ratio of angular velocities,", restitution)
     if scatter is not None:
-        checks.within("the scatter, a share,", scatter, "[0, 1)")
-    return Family(axes, block, restitution, inset, scatter or 0.0, vertical, checks.gravity(gravity))
+        checks.in_interval("the scatter, a share,", scatter, "[0, 1)")
+    return BlockFamily(axes, block, restitution, inset, scatter or 0.0, vertical, checks.gravity(gravity))
 
 
 def _check_runs(runs: int) -> None:
     """Refuse a number of versions that shares are not kept of."""
-    count = checks.whole("the number of runs", runs, least=1)
-    if count > LEVELS or count & (count - 1):
+    count = checks.integer("the number of runs", runs, minimum=1)
+    if count > SHARE_DENOMINATOR or count & (count - 1):
         raise ParameterError("the number of runs must be one of 1, 2, 4, 8, 16, 32, 64; found {found}", found=count)
-    check_budget(noted("versions"), count, "SEISBLOCK_RUNS")
+    check_limit(N_("versions"), count, "SEISBLOCK_RUNS")

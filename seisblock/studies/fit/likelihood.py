@@ -18,9 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.studies.fit.experiment import Experiment
-from seisblock.studies.fit.runs import LEVELS
-from seisblock.typing import FloatArray, IntArray
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.studies.fit.dataset import Experiment
+from seisblock.studies.fit.simulate import SHARE_DENOMINATOR
 
 LAPSE_STEPS = 24
 """Values of lambda, each as likely as the others."""
@@ -28,12 +28,12 @@ LAPSE_STEPS = 24
 LAPSE_SHAPE = 9
 """Before anything is seen lambda has the density 9 (1 - lambda)^8: 0.1 in the mean."""
 
-FIXED = 1e-6
+MIN_LAPSE_RATE = 1e-6
 """No lambda is smaller: an outcome that no version explains would be impossible."""
 
 
 @dataclass(frozen=True, eq=False)
-class Lapses:
+class LapseRate:
     """Values of lambda that are taken for equally likely.
 
     Parameters
@@ -44,21 +44,21 @@ class Lapses:
     values: FloatArray
 
     @property
-    def of_a_share(self) -> FloatArray:
+    def outcome_probability(self) -> FloatArray:
         """Probability that it happens, (l, 65), where 0, 1 ... 64 of 64 versions say so."""
-        share = np.arange(LEVELS + 1) / LEVELS
+        share = np.arange(SHARE_DENOMINATOR + 1) / SHARE_DENOMINATOR
         return 0.5 * self.values[:, None] + (1.0 - self.values[:, None]) * share
 
 
-def lapses(fixed: float | None) -> Lapses:
+def make_lapse_rate(fixed: float | None) -> LapseRate:
     """Return the values of lambda: those of its density in equal parts, or the one that is given."""
     if fixed is not None:
-        return Lapses(np.array([max(fixed, FIXED)]))
+        return LapseRate(np.array([max(fixed, MIN_LAPSE_RATE)]))
     shares = (np.arange(LAPSE_STEPS) + 0.5) / LAPSE_STEPS
-    return Lapses(1.0 - (1.0 - shares) ** (1.0 / LAPSE_SHAPE))
+    return LapseRate(1.0 - (1.0 - shares) ** (1.0 / LAPSE_SHAPE))
 
 
-def log_likelihood(shares: IntArray, happened: FloatArray, not_happened: FloatArray, lapse: Lapses) -> FloatArray:
+def log_likelihood(shares: IntArray, happened: FloatArray, not_happened: FloatArray, lapse: LapseRate) -> FloatArray:
     """Return ln L of each lambda and each block, (l, n) (derived here).
 
     Parameters
@@ -69,24 +69,24 @@ def log_likelihood(shares: IntArray, happened: FloatArray, not_happened: FloatAr
         How often each shaking made it happen, and did not.
     lapse : Lapses
     """
-    chance = lapse.of_a_share
-    total: FloatArray = np.log(chance) @ _weight_of_shares(shares, happened)
-    total += np.log1p(-chance) @ _weight_of_shares(shares, not_happened)
+    chance = lapse.outcome_probability
+    total: FloatArray = np.log(chance) @ _share_weights(shares, happened)
+    total += np.log1p(-chance) @ _share_weights(shares, not_happened)
     return total
 
 
-def _weight_of_shares(shares: IntArray, weights: FloatArray) -> FloatArray:
+def _share_weights(shares: IntArray, weights: FloatArray) -> FloatArray:
     """Return the weight that each share has in each column, (65, n): few shares stand for many shakings."""
     count = shares.shape[1]
-    found = np.zeros((LEVELS + 1, count))
+    totals = np.zeros((SHARE_DENOMINATOR + 1, count))
     columns = np.arange(count)
     for k in np.flatnonzero(weights):
-        found[shares[k], columns] += weights[k]
-    return found
+        totals[shares[k], columns] += weights[k]
+    return totals
 
 
-def log_likelihoods_without(
-    shares: IntArray, experiment: Experiment, parts: IntArray, lapse: Lapses
+def log_likelihoods_held_out(
+    shares: IntArray, experiment: Experiment, parts: IntArray, lapse: LapseRate
 ) -> Iterator[tuple[IntArray, FloatArray]]:
     """Yield, for each part of the outcomes, which they are, and ln L of all others, (l, n) (derived here).
 
@@ -98,7 +98,7 @@ def log_likelihoods_without(
         Which part each outcome is in.
     lapse : Lapses
     """
-    whole = log_likelihood(shares, *experiment.counted(), lapse)
+    total = log_likelihood(shares, *experiment.outcome_counts(), lapse)
     for part in range(int(parts.max()) + 1):
-        held = np.flatnonzero(parts == part)
-        yield held, whole - log_likelihood(shares, *experiment.counted(held), lapse)
+        rows = np.flatnonzero(parts == part)
+        yield rows, total - log_likelihood(shares, *experiment.outcome_counts(rows), lapse)

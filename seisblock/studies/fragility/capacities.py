@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.studies.fragility.lognormal import Lognormal
-from seisblock.typing import BoolArray, FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,30 +27,30 @@ class Capacities:
     monotone: BoolArray
 
 
-def capacities(passed: BoolArray, log_levels: FloatArray, answered: BoolArray | None = None) -> Capacities:
+def capacities(exceeded: BoolArray, log_levels: FloatArray, answered: BoolArray | None = None) -> Capacities:
     """Return when each row of runs passed a limit first, on rising levels ([Vamvatsikos2002]_ section 4).
 
     Parameters
     ----------
-    passed : (m, n) array of bool
+    exceeded : (m, n) array of bool
     log_levels : (m, n) or (n,) array
         Logarithms of the factors, or of the intensities.
     answered : (m, n) array of bool
         Runs that have an answer; the levels of the others are left out. All when left out.
     """
-    grid = np.broadcast_to(log_levels, passed.shape)
+    grid = np.broadcast_to(log_levels, exceeded.shape)
     if answered is not None and not answered.all():
         # a level without an answer stands for the one below it that has one
-        below = np.maximum.accumulate(np.where(answered, np.arange(passed.shape[1]), -1), axis=1)
+        below = np.maximum.accumulate(np.where(answered, np.arange(exceeded.shape[1]), -1), axis=1)
         first = np.argmax(answered, axis=1)[:, None]
         below = np.where(below < 0, first, below)
-        passed = np.take_along_axis(passed, below, axis=1) & answered.any(axis=1, keepdims=True)
+        exceeded = np.take_along_axis(exceeded, below, axis=1) & answered.any(axis=1, keepdims=True)
         grid = np.take_along_axis(grid, below, axis=1)
-    ever, first = passed.any(axis=1), passed.argmax(axis=1)
-    rows = np.arange(len(passed))
+    any_exceeded, first = exceeded.any(axis=1), exceeded.argmax(axis=1)
+    rows = np.arange(len(exceeded))
     middle = 0.5 * (grid[rows, first] + grid[rows, np.maximum(first - 1, 0)])
-    monotone = np.logical_or.accumulate(passed, axis=1) == passed
-    return Capacities(np.where(ever, middle, np.inf), np.asarray(monotone.all(axis=1)))
+    monotone = np.logical_or.accumulate(exceeded, axis=1) == exceeded
+    return Capacities(np.where(any_exceeded, middle, np.inf), np.asarray(monotone.all(axis=1)))
 
 
 def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tuple[FloatArray, FloatArray]:
@@ -73,17 +73,17 @@ def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tupl
     (b,) arrays
         NaN where fewer than two happened, or all at one level.
     """
-    seen = np.isfinite(log_capacities)
-    value = np.where(seen, log_capacities, 0.0)
-    counted = weights[:, seen].sum(axis=1)
-    censored = weights[:, ~seen].sum(axis=1)
+    observed = np.isfinite(log_capacities)
+    value = np.where(observed, log_capacities, 0.0)
+    observed_weight = weights[:, observed].sum(axis=1)
+    censored = weights[:, ~observed].sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        mean = (weights * value).sum(axis=1) / counted
-        spread = (weights * seen * (value - mean[:, None]) ** 2).sum(axis=1)
-        deviation = np.sqrt(spread / (counted - 1.0))
-    good = (counted >= 2.0) & (spread > 1e-12)
+        mean = (weights * value).sum(axis=1) / observed_weight
+        spread = (weights * observed * (value - mean[:, None]) ** 2).sum(axis=1)
+        deviation = np.sqrt(spread / (observed_weight - 1.0))
+    good = (observed_weight >= 2.0) & (spread > 1e-12)
     for row in np.flatnonzero(good & (censored > 0.0)):
-        mean[row], deviation[row] = _censored(value[seen], weights[row, seen], float(censored[row]), top, mean[row], deviation[row])
+        mean[row], deviation[row] = _censored(value[observed], weights[row, observed], float(censored[row]), top, mean[row], deviation[row])
     return np.where(good, np.exp(mean), np.nan), np.where(good, deviation, np.nan)
 
 
@@ -97,12 +97,12 @@ def _censored(value: FloatArray, weight: FloatArray, censored: float, top: float
         ratio = math.exp(-0.5 * z * z - 0.5 * math.log(2.0 * math.pi) - float(log_ndtr(-z)))
         first = mean + deviation * ratio
         second = mean**2 + deviation**2 + deviation * (top + mean) * ratio
-        new = (float(weight @ value) + censored * first) / (count + censored)
+        new_mean = (float(weight @ value) + censored * first) / (count + censored)
         total = float(weight @ value**2) + censored * second
-        spread = math.sqrt(max(total / (count + censored) - new * new, 1e-24))
-        done = abs(new - mean) + abs(spread - deviation) < 1e-10
-        mean, deviation = new, spread
-        if done:
+        spread = math.sqrt(max(total / (count + censored) - new_mean * new_mean, 1e-24))
+        converged = abs(new_mean - mean) + abs(spread - deviation) < 1e-10
+        mean, deviation = new_mean, spread
+        if converged:
             break
     return mean, deviation
 

@@ -8,33 +8,33 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from seisblock.studies.fragility.answer import Dispersion, Efficiency, Fragility, FragilityLevel, Goodness
+from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.studies.fragility.capacities import Capacities, capacities, moments
-from seisblock.studies.fragility.comparison import efficiency_of_capacities, efficiency_of_cloud
-from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
+from seisblock.studies.fragility.damage_states import LimitState, cumulative_exceedance
+from seisblock.studies.fragility.efficiency import efficiency_of_capacities, efficiency_of_cloud
+from seisblock.studies.fragility.goodness_of_fit import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for
-from seisblock.studies.fragility.limits import LimitState, at_least
-from seisblock.studies.fragility.lognormal import FALLS, Lognormal, curves, curves_together, no_curve
+from seisblock.studies.fragility.lognormal import NOT_INCREASING, Lognormal, fit_lognormals, fit_lognormals_shared_beta, no_curve_reason
+from seisblock.studies.fragility.results import Dispersion, Efficiency, Fragility, FragilityLevel, Goodness
 from seisblock.studies.fragility.suite import Suite
-from seisblock.typing import BoolArray, FloatArray
-from seisblock.words import Said, said
 
 STRIPES, IDA, CLOUD = "stripes", "ida", "cloud"
 METHODS = (STRIPES, IDA, CLOUD)
 
-BEYOND = 1000.0
+MAX_MEDIAN_FACTOR = 1000.0
 """Factor on half of the records at the median beyond which there is no curve: of records of 1 gal those of 1 g."""
 
 
 @dataclass(frozen=True, eq=False)
-class Passed:
+class Exceedances:
     """The runs of one body.
 
     Parameters
     ----------
     body : str
     limits : tuple of LimitState
-    passed : (m, n, v, k) array of bool
+    exceeded : (m, n, v, k) array of bool
         Motions, levels, versions, limits.
     levels : (m, n) array
         Intensities; the same for all motions unless nothing was scaled.
@@ -46,7 +46,7 @@ class Passed:
 
     body: str
     limits: tuple[LimitState, ...]
-    passed: BoolArray
+    exceeded: BoolArray
     levels: FloatArray
     values: Sequence[FloatArray]
     answers: BoolArray | None = None
@@ -54,11 +54,11 @@ class Passed:
     @property
     def answered(self) -> BoolArray:
         """Runs that have an answer, (m, n, v)."""
-        return np.ones(self.passed.shape[:3], dtype=np.bool_) if self.answers is None else self.answers
+        return np.ones(self.exceeded.shape[:3], dtype=np.bool_) if self.answers is None else self.answers
 
 
 @dataclass(frozen=True)
-class Rules:
+class FitOptions:
     """How curves are fitted.
 
     Parameters
@@ -81,167 +81,177 @@ class Rules:
 Band = tuple[tuple[float, float, float], ...] | None
 
 
-def estimate(runs: Passed, suite: Suite, rules: Rules) -> list[tuple[Fragility, Band]]:
+def estimate_curves(exceedances: Exceedances, suite: Suite, options: FitOptions) -> list[tuple[Fragility, Band]]:
     """Return the curves of one body, and the bands of their intervals.
 
     Several limits are fitted with one beta, so that their curves do not cross; a run that passed a later limit is past those before it.
 
     Parameters
     ----------
-    runs : Passed
+    exceedances : Passed
     suite : Suite
-    rules : Rules
+    options : Rules
     """
-    states, answered = at_least(runs.passed), runs.answered
-    dice = np.random.default_rng(rules.seed)
-    weights = np.vstack([np.ones(len(suite.motions)), suite.weights(rules.bootstrap, dice)])
-    shown = rules.measures[0].shown()
-    problems = [_problem(rules.method, runs.levels, states[..., k], answered, shown) for k in range(len(runs.limits))]
+    states, answered = cumulative_exceedance(exceedances.exceeded), exceedances.answered
+    rng = np.random.default_rng(options.seed)
+    weights = np.vstack([np.ones(len(suite.motions)), suite.weights(options.bootstrap, rng)])
+    display_unit = options.measures[0].display_unit()
+    problems = [
+        _problem(options.method, exceedances.levels, states[..., k], answered, display_unit) for k in range(len(exceedances.limits))
+    ]
     good = [k for k, problem in enumerate(problems) if problem is None]
-    alone = [_fitted(rules.method, runs.levels, states[..., [k]], answered, weights) for k in good]
-    together = _fitted(rules.method, runs.levels, states[..., good], answered, weights) if len(good) > 1 else None
-    found: list[tuple[Fragility, Band]] = []
+    single_fits = [_fit_samples(options.method, exceedances.levels, states[..., [k]], answered, weights) for k in good]
+    joint_fits = _fit_samples(options.method, exceedances.levels, states[..., good], answered, weights) if len(good) > 1 else None
+    results: list[tuple[Fragility, Band]] = []
     for k, problem in enumerate(problems):
-        firsts = _firsts(states[..., k], answered, runs.levels)
-        counted = _counted_curve(runs, suite, rules, states[..., k], k, firsts)
+        capacities_by_run = _first_exceedances(states[..., k], answered, exceedances.levels)
+        unfitted = _curve_without_fit(exceedances, suite, options, states[..., k], k, capacities_by_run)
         if problem is not None:
-            found.append((replace(counted, problem=problem), None))
+            results.append((replace(unfitted, problem=problem), None))
             continue
-        own = alone[good.index(k)][:, :, 0]
-        both = own if together is None else together[:, :, good.index(k)]
-        fitted, band = _with_curve(counted, both, runs.levels, rules.confidence)
-        if fitted.median is not None and rules.method != CLOUD and (why := _beyond(fitted.median, runs.values[0], rules.measures[0])):
-            found.append((replace(counted, problem=why), None))
+        single_fit = single_fits[good.index(k)][:, :, 0]
+        curve_fit = single_fit if joint_fits is None else joint_fits[:, :, good.index(k)]
+        fitted, band = _add_fit(unfitted, curve_fit, exceedances.levels, options.confidence)
+        if (
+            fitted.median is not None
+            and options.method != CLOUD
+            and (reason := _median_problem(fitted.median, exceedances.values[0], options.measures[0]))
+        ):
+            results.append((replace(unfitted, problem=reason), None))
             continue
         if fitted.curve is not None:
             fitted = replace(
                 fitted,
-                median_alone=None if together is None else float(own[0, 0]),
-                beta_alone=None if together is None else float(own[1, 0]),
-                dispersion=_dispersion(rules.method, runs.levels, states[..., k], answered),
-                goodness=_goodness(rules.method, fitted.curve, runs.levels, states[..., k], answered, firsts, dice),
-                measures=tuple(_efficiencies(runs, suite, rules, states[..., k], firsts)),
+                median_alone=None if joint_fits is None else float(single_fit[0, 0]),
+                beta_alone=None if joint_fits is None else float(single_fit[1, 0]),
+                dispersion=_dispersion(options.method, exceedances.levels, states[..., k], answered),
+                goodness=_goodness(options.method, fitted.curve, exceedances.levels, states[..., k], answered, capacities_by_run, rng),
+                measures=tuple(_efficiencies(exceedances, suite, options, states[..., k], capacities_by_run)),
             )
-        found.append((fitted, band))
-    return found
+        results.append((fitted, band))
+    return results
 
 
-def _counted_curve(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, limit: int, firsts: Capacities) -> Fragility:
+def _curve_without_fit(
+    exceedances: Exceedances, suite: Suite, options: FitOptions, exceeded: BoolArray, limit: int, capacities_by_run: Capacities
+) -> Fragility:
     """Return what is known of one limit before a curve is fitted."""
     # of versions, most
-    jumps = (~firsts.monotone).reshape(passed.shape[0], passed.shape[2]).mean(axis=1) > 0.5
+    non_monotone = (~capacities_by_run.monotone).reshape(exceeded.shape[0], exceeded.shape[2]).mean(axis=1) > 0.5
     return Fragility(
-        body=runs.body,
-        limit=runs.limits[limit].name,
-        im=rules.measures[0].name,
-        unit=rules.measures[0].unit,
-        method=rules.method,
+        body=exceedances.body,
+        limit=exceedances.limits[limit].name,
+        im=options.measures[0].name,
+        unit=options.measures[0].unit,
+        method=options.method,
         records=len(suite.records),
         motions=len(suite.motions),
-        non_monotone_records=np.unique(suite.owner[jumps]).size,
-        non_monotone_motions=int(jumps.sum()),
-        censored_motions=int((~passed.any(axis=(1, 2)) & runs.answered.any(axis=(1, 2))).sum()),
-        levels=tuple(_counted(rules.method, runs.levels, passed, runs.answered)),
-        no_answer=int((~runs.answered).sum()),
+        non_monotone_records=np.unique(suite.owner[non_monotone]).size,
+        non_monotone_motions=int(non_monotone.sum()),
+        censored_motions=int((~exceeded.any(axis=(1, 2)) & exceedances.answered.any(axis=(1, 2))).sum()),
+        levels=tuple(_level_counts(options.method, exceedances.levels, exceeded, exceedances.answered)),
+        no_answer=int((~exceedances.answered).sum()),
     )
 
 
-def _with_curve(counted: Fragility, samples: FloatArray, levels: FloatArray, confidence: float) -> tuple[Fragility, Band]:
+def _add_fit(unfitted: Fragility, samples: FloatArray, levels: FloatArray, confidence: float) -> tuple[Fragility, Band]:
     """Return a limit with its curve, the first of some samples, and its intervals, those of the others."""
     (median, *medians), (beta, *betas) = samples
     if not math.isfinite(median):
-        return replace(counted, problem=FALLS), None
-    kept = np.isfinite(medians)
+        return replace(unfitted, problem=NOT_INCREASING), None
+    finite = np.isfinite(medians)
     ends = [(1.0 - confidence) / 2.0, (1.0 + confidence) / 2.0]
-    found = replace(counted, median=float(median), beta=float(beta), bootstrap_lost_count=int((~kept).sum()))
-    if kept.sum() < 2:
-        return found, None
-    some = np.array([medians, betas])[:, kept]
-    (low, high), (least, most) = np.quantile(some, ends, axis=1).T.tolist()
-    return replace(found, median_interval=(low, high), beta_interval=(least, most)), _band(some[0], some[1], levels, ends)
+    result = replace(unfitted, median=float(median), beta=float(beta), bootstrap_lost_count=int((~finite).sum()))
+    if finite.sum() < 2:
+        return result, None
+    finite_samples = np.array([medians, betas])[:, finite]
+    (low, high), (beta_low, beta_high) = np.quantile(finite_samples, ends, axis=1).T.tolist()
+    return replace(result, median_interval=(low, high), beta_interval=(beta_low, beta_high)), _band(
+        finite_samples[0], finite_samples[1], levels, ends
+    )
 
 
-def _beyond(median: float, values: FloatArray, measure: IntensityMeasure) -> Said | None:
+def _median_problem(median: float, values: FloatArray, measure: IntensityMeasure) -> Message | None:
     """Return why a curve whose median lies beyond any shaking is none: it goes through what a few versions did there."""
     factor = float(np.median(factors_for(np.full(values.size, median), values, measure)))
-    if factor <= BEYOND:
+    if factor <= MAX_MEDIAN_FACTOR:
         return None
-    return said(
+    return lazy_gettext(
         "half of the runs do it only where the records are scaled by {factor:.2g} and more: to this body it hardly happens", factor=factor
     )
 
 
-def _rows(passed: BoolArray) -> BoolArray:
+def _stacked_runs(exceeded: BoolArray) -> BoolArray:
     """Return runs with a row for each motion and version, and a column for each level."""
-    motions, levels, versions = passed.shape
-    return np.asarray(passed.transpose(0, 2, 1).reshape(motions * versions, levels))
+    motions, levels, versions = exceeded.shape
+    return np.asarray(exceeded.transpose(0, 2, 1).reshape(motions * versions, levels))
 
 
-def _firsts(passed: BoolArray, answered: BoolArray, levels: FloatArray) -> Capacities:
+def _first_exceedances(exceeded: BoolArray, answered: BoolArray, levels: FloatArray) -> Capacities:
     """Return when it happened first, as the logarithm of the intensity, for each motion and version."""
-    return capacities(_rows(passed), np.log(np.repeat(levels, passed.shape[2], axis=0)), _rows(answered))
+    return capacities(_stacked_runs(exceeded), np.log(np.repeat(levels, exceeded.shape[2], axis=0)), _stacked_runs(answered))
 
 
-def _problem(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray, shown: tuple[float, str]) -> Said | None:
+def _problem(method: str, levels: FloatArray, exceeded: BoolArray, answered: BoolArray, display_unit: tuple[float, str]) -> Message | None:
     """Return why no curve follows from the runs of one limit, in the user's unit; None where one does."""
     flat = levels[0] if method != CLOUD else levels[:, 0]
     over = (0, 2) if method != CLOUD else (1, 2)
-    counts, sizes = (each.sum(axis=over).astype(np.float64) for each in (passed, answered))
+    counts, sizes = (each.sum(axis=over).astype(np.float64) for each in (exceeded, answered))
     known = sizes > 0.0
     if not known.any():
-        return said("no run has an answer: all were given up")
-    return no_curve(flat[known], counts[known], sizes[known], shown, scaled=method != CLOUD, first=method == IDA)
+        return lazy_gettext("no run has an answer: all were given up")
+    return no_curve_reason(flat[known], counts[known], sizes[known], display_unit, is_scaled=method != CLOUD, first=method == IDA)
 
 
-def _fitted(method: str, levels: FloatArray, states: BoolArray, answered: BoolArray, weights: FloatArray) -> FloatArray:
+def _fit_samples(method: str, levels: FloatArray, states: BoolArray, answered: BoolArray, weights: FloatArray) -> FloatArray:
     """Return medians and betas, (2, b, k), of some limits, with one beta where there are several, fitted to samples of motions."""
     limits = range(states.shape[3])
     if method == IDA:
         top = math.log(float(levels.max()))
         grid = np.log(np.repeat(levels, states.shape[2], axis=0))
-        known = _rows(answered)
-        every = np.repeat(weights, states.shape[2], axis=1) * known.any(axis=1)
-        found = [moments(capacities(_rows(states[..., k]), grid, known).log_factor, every, top) for k in limits]
-        medians, betas = (np.stack(column, axis=1) for column in zip(*found, strict=True))
-        if len(found) > 1:
+        known = _stacked_runs(answered)
+        run_weights = np.repeat(weights, states.shape[2], axis=1) * known.any(axis=1)
+        fits = [moments(capacities(_stacked_runs(states[..., k]), grid, known).log_factor, run_weights, top) for k in limits]
+        medians, betas = (np.stack(column, axis=1) for column in zip(*fits, strict=True))
+        if len(fits) > 1:
             # one beta for all: the root of the mean square
-            betas = np.tile(np.sqrt((betas**2).mean(axis=1, keepdims=True)), (1, len(found)))
+            betas = np.tile(np.sqrt((betas**2).mean(axis=1, keepdims=True)), (1, len(fits)))
         return np.array([medians, betas])
     if method == CLOUD:
         # each motion is a level of its own
         counts = np.stack([weights * states[:, 0, :, k].sum(axis=1) for k in limits], axis=1)
-        used = (levels[:, 0], counts, weights * answered[:, 0].sum(axis=1))
+        counts_by_level = (levels[:, 0], counts, weights * answered[:, 0].sum(axis=1))
     else:
         counts = np.stack([weights @ states[..., k].sum(axis=2) for k in limits], axis=1)
-        used = (levels[0], counts, weights @ answered.sum(axis=2))
+        counts_by_level = (levels[0], counts, weights @ answered.sum(axis=2))
     if len(limits) == 1:
-        medians, betas = curves(used[0], used[1][:, 0], used[2])
+        medians, betas = fit_lognormals(counts_by_level[0], counts_by_level[1][:, 0], counts_by_level[2])
         return np.array([medians[:, None], betas[:, None]])
-    medians, beta = curves_together(*used)
+    medians, beta = fit_lognormals_shared_beta(*counts_by_level)
     return np.array([medians, np.tile(beta[:, None], (1, len(limits)))])
 
 
-def _counted(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray) -> list[FragilityLevel]:
+def _level_counts(method: str, levels: FloatArray, exceeded: BoolArray, answered: BoolArray) -> list[FragilityLevel]:
     """Return the counts at each level; of each motion where nothing was scaled, in the order of their intensities."""
     if method == CLOUD:
         order = np.argsort(levels[:, 0], kind="stable")
-        return [FragilityLevel(float(levels[m, 0]), int(answered[m].sum()), int(passed[m].sum())) for m in order]
-    counts, sizes = passed.sum(axis=(0, 2)), answered.sum(axis=(0, 2))
+        return [FragilityLevel(float(levels[m, 0]), int(answered[m].sum()), int(exceeded[m].sum())) for m in order]
+    counts, sizes = exceeded.sum(axis=(0, 2)), answered.sum(axis=(0, 2))
     return [FragilityLevel(float(level), int(size), int(count)) for level, size, count in zip(levels[0], sizes, counts, strict=True)]
 
 
-def _dispersion(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray) -> Dispersion | None:
+def _dispersion(method: str, levels: FloatArray, exceeded: BoolArray, answered: BoolArray) -> Dispersion | None:
     """Return the parts of the scatter by the law of total variance (derived here).
 
     Given a version v of the body, ln(intensity) has the mean mu_v and the standard deviation beta_v over the motions. Over both,
     Var = E[beta_v^2] + Var[mu_v]: what records differ, and what is not known of the body. The same versions meet the same motions, so that
     the means differ by the body alone.
     """
-    versions = passed.shape[2]
+    versions = exceeded.shape[2]
     if versions < 2:
         return None
-    alone = np.ones((1, len(passed)))
-    fits = [_fitted(method, levels, passed[:, :, [v], None], answered[:, :, [v]], alone) for v in range(versions)]
+    alone = np.ones((1, len(exceeded)))
+    fits = [_fit_samples(method, levels, exceeded[:, :, [v], None], answered[:, :, [v]], alone) for v in range(versions)]
     medians, betas = np.array(fits)[:, :, 0, 0].T
     good = np.isfinite(medians)
     if good.sum() < 2:
@@ -255,23 +265,23 @@ def _goodness(
     method: str,
     curve: Lognormal,
     levels: FloatArray,
-    passed: BoolArray,
+    exceeded: BoolArray,
     answered: BoolArray,
-    firsts: Capacities,
-    dice: np.random.Generator,
+    capacities_by_run: Capacities,
+    rng: np.random.Generator,
 ) -> Goodness:
     """Return how well a curve fits, from the shares of the runs that have an answer."""
-    versions = passed.shape[2]
+    versions = exceeded.shape[2]
     if method == IDA:
         known: BoolArray = np.asarray(answered.any(axis=1))
-        logs = np.where(known, firsts.log_factor.reshape(-1, versions), 0.0)
+        logs = np.where(known, capacities_by_run.log_factor.reshape(-1, versions), 0.0)
         means = (logs.sum(axis=1) / np.maximum(known.sum(axis=1), 1))[known.any(axis=1)]
-        return goodness_of_capacities(curve, means, math.log(float(levels.max())), dice)
+        return goodness_of_capacities(curve, means, math.log(float(levels.max())), rng)
     if method == CLOUD:
-        some, counts = _shared(passed, answered, (1, 2), versions)
-        return goodness_of_cloud(curve, levels[some, 0], counts, float(versions), dice)
-    some, counts = _shared(passed, answered, (0, 2), len(passed))
-    return goodness_of_stripes(curve, levels[0, some], counts, float(len(passed)), len(passed), dice)
+        some, counts = _shared(exceeded, answered, (1, 2), versions)
+        return goodness_of_cloud(curve, levels[some, 0], counts, float(versions), rng)
+    some, counts = _shared(exceeded, answered, (0, 2), len(exceeded))
+    return goodness_of_stripes(curve, levels[0, some], counts, float(len(exceeded)), len(exceeded), rng)
 
 
 def _shared(passed: BoolArray, answered: BoolArray, over: tuple[int, int], runs: int) -> tuple[BoolArray, FloatArray]:
@@ -281,24 +291,26 @@ def _shared(passed: BoolArray, answered: BoolArray, over: tuple[int, int], runs:
     return known, counts[known] * runs / sizes[known]
 
 
-def _efficiencies(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, firsts: Capacities) -> list[Efficiency]:
+def _efficiencies(
+    exceedances: Exceedances, suite: Suite, options: FitOptions, exceeded: BoolArray, capacities_by_run: Capacities
+) -> list[Efficiency]:
     """Return the measures side by side, where there are several."""
-    if len(rules.measures) < 2:
+    if len(options.measures) < 2:
         return []
     properties = (("ln(pgv/pga)", suite.shapes), ("magnitude", suite.magnitudes))
-    own = rules.measures[0]
-    factors = (firsts.log_factor.reshape(len(passed), -1) - np.log(runs.values[0])[:, None]) / own.power
-    some, happened = _shared(passed, runs.answered, (1, 2), passed.shape[2])
+    main_measure = options.measures[0]
+    factors = (capacities_by_run.log_factor.reshape(len(exceeded), -1) - np.log(exceedances.values[0])[:, None]) / main_measure.power
+    some, happened = _shared(exceeded, exceedances.answered, (1, 2), exceeded.shape[2])
     known = tuple((name, given[some]) for name, given in properties)
-    found = []
-    for measure, values in zip(rules.measures, runs.values, strict=True):
-        each = (
-            efficiency_of_cloud(measure, values[some], happened, float(passed.shape[2]), known)
-            if rules.method == CLOUD
+    results = []
+    for measure, values in zip(options.measures, exceedances.values, strict=True):
+        efficiency = (
+            efficiency_of_cloud(measure, values[some], happened, float(exceeded.shape[2]), known)
+            if options.method == CLOUD
             else efficiency_of_capacities(measure, values, factors, properties)
         )
-        found += [each] if each is not None else []
-    return found
+        results += [efficiency] if efficiency is not None else []
+    return results
 
 
 def _band(medians: FloatArray, betas: FloatArray, levels: FloatArray, ends: list[float]) -> Band:

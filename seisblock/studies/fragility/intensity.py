@@ -6,23 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.errors import ParameterError
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import GAL, KINE
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.intensity import arias_intensity
 from seisblock.measures.peaks import peak_acceleration, peak_displacement, peak_velocity
 from seisblock.measures.spectra import response_spectrum
 from seisblock.records import Motion
-from seisblock.typing import FloatArray
-from seisblock.units import GAL, KINE
 
 PGA, PGV, PGD, SA, ARIAS, P_PGV = "pga", "pgv", "pgd", "sa", "arias", "p*pgv"
 
 _UNITS = {PGA: "m/s^2", PGV: "m/s", PGD: "m", SA: "m/s^2", ARIAS: "m/s", P_PGV: "1"}
-_SHOWN = {PGA: (GAL, "gal"), PGV: (KINE, "kine"), PGD: (0.01, "cm"), SA: (GAL, "gal"), ARIAS: (1.0, "m/s"), P_PGV: (1.0, "")}
-_SHOWN_SI = {PGA: "m/s²", PGV: "m/s", PGD: "m", SA: "m/s²", ARIAS: "m/s", P_PGV: ""}
-_DRAWN = {PGA: "PGA", PGV: "PGV", PGD: "PGD", ARIAS: "Arias", P_PGV: "p PGV/g"}
+_DISPLAY_UNITS = {PGA: (GAL, "gal"), PGV: (KINE, "kine"), PGD: (0.01, "cm"), SA: (GAL, "gal"), ARIAS: (1.0, "m/s"), P_PGV: (1.0, "")}
+_DISPLAY_UNITS_SI = {PGA: "m/s²", PGV: "m/s", PGD: "m", SA: "m/s²", ARIAS: "m/s", P_PGV: ""}
+_AXIS_LABELS = {PGA: "PGA", PGV: "PGV", PGD: "PGD", ARIAS: "Arias", P_PGV: "p PGV/g"}
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class IntensityMeasure:
     @property
     def label(self) -> str:
         """As it stands on an axis: ``PGV``, ``Sa(0.5 s)``."""
-        return _DRAWN[self.kind] if self.period_s is None else f"Sa({self.period_s:g} s)"
+        return _AXIS_LABELS[self.kind] if self.period_s is None else f"Sa({self.period_s:g} s)"
 
     @property
     def unit(self) -> str:
@@ -76,9 +76,9 @@ class IntensityMeasure:
         """How it grows with the motion: twice as strong is so many times a factor of two (the Arias intensity: twice)."""
         return 2 if self.kind == ARIAS else 1
 
-    def shown(self, *, gal: bool = True) -> tuple[float, str]:
+    def display_unit(self, *, gal: bool = True) -> tuple[float, str]:
         """Return the unit in which it is told, SI, and its name: gal, kine and cm, or SI."""
-        return _SHOWN[self.kind] if gal else (1.0, _SHOWN_SI[self.kind])
+        return _DISPLAY_UNITS[self.kind] if gal else (1.0, _DISPLAY_UNITS_SI[self.kind])
 
     def of(self, motion: Motion) -> float:
         """Return its value for a motion, SI; of ``p*pgv`` the velocity alone, to be multiplied by :meth:`share`.

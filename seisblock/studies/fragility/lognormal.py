@@ -7,16 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import ParameterError
-from seisblock.studies.fragility.probit import probits, separated
-from seisblock.typing import ArrayLike, FloatArray
-from seisblock.words import Said, said
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.typing import ArrayLike, FloatArray
+from seisblock.studies.fragility.probit import fit_probit, is_separated
 
-FALLS = said("it does not happen more often at higher levels: no fragility follows; look at more records, or at another measure")
+NOT_INCREASING = lazy_gettext(
+    "it does not happen more often at higher levels: no fragility follows; look at more records, or at another measure"
+)
 """Why counts that do not rise with the level have no curve."""
 
-FARTHEST = 100.0
+MAX_LOG_MEDIAN = 100.0
 """Logarithm of a median beyond which there is no curve."""
 
 
@@ -53,15 +55,15 @@ class Lognormal:
         """Return the probability at some intensities, of the shape in which they come; zero at and below zero."""
         from scipy.special import ndtr
 
-        x = checks.numbers("the intensities", intensity)
+        x = checks.float_array("the intensities", intensity)
         with np.errstate(divide="ignore"):
             return np.asarray(ndtr(np.log(np.maximum(x, 0.0) / self.median) / self.beta))
 
-    def at(self, probability: float) -> float:
+    def quantile(self, probability: float) -> float:
         """Return the intensity at which it happens with a probability between 0 and 1."""
         from scipy.special import ndtri
 
-        share = checks.within("the probability", probability, "(0, 1)")
+        share = checks.in_interval("the probability", probability, "(0, 1)")
         return self.median * math.exp(self.beta * float(ndtri(share)))
 
 
@@ -91,7 +93,7 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
     >>> round(found.median, 3), round(found.beta, 3)
     (2.828, 0.477)
     """
-    x, y, n = (checks.numbers(name, given) for name, given in _named(levels, exceeding, runs))
+    x, y, n = (checks.float_array(name, values) for name, values in _labelled_inputs(levels, exceeding, runs))
     if x.ndim != 1 or x.size < 2 or y.shape != x.shape or n.size not in (1, x.size):
         raise ParameterError(
             "a fragility needs two levels or more, and as many counts; found {levels} levels and {counts} counts",
@@ -103,65 +105,69 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
         raise ParameterError("the levels of a fragility must be positive numbers")
     if not ((y >= 0.0) & (y <= n) & (n > 0.0) & np.isfinite(n)).all():
         raise ParameterError("a count of a fragility lies between 0 and the number of runs, which is positive")
-    why = no_curve(x, y, n)
-    if why:
-        raise ParameterError("{why}", why=why)
-    medians, betas = curves(x, y[None], n[None])
+    reason = no_curve_reason(x, y, n)
+    if reason:
+        raise ParameterError("{why}", why=reason)
+    medians, betas = fit_lognormals(x, y[None], n[None])
     if not math.isfinite(float(medians[0])):
-        raise ParameterError("{why}", why=FALLS)
+        raise ParameterError("{why}", why=NOT_INCREASING)
     return Lognormal(float(medians[0]), float(betas[0]))
 
 
-def _named(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> tuple[tuple[str, ArrayLike], ...]:
+def _labelled_inputs(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> tuple[tuple[str, ArrayLike], ...]:
     """Return what a fit is given, each with its name."""
     return ("the levels", np.atleast_1d(levels)), ("the counts", np.atleast_1d(exceeding)), ("the numbers of runs", np.atleast_1d(runs))
 
 
-def no_curve(
+def no_curve_reason(
     levels: FloatArray,
     exceeding: FloatArray,
     runs: FloatArray,
-    shown: tuple[float, str] = (1.0, ""),
+    display_unit: tuple[float, str] = (1.0, ""),
     *,
-    scaled: bool = True,
+    is_scaled: bool = True,
     first: bool = False,
-) -> Said | None:
+) -> Message | None:
     """Return why no curve follows from counts, and what would tell; None where one does.
 
     Parameters
     ----------
     levels, exceeding, runs : (n,) arrays
-    shown : (float, str)
+    display_unit : (float, str)
         The unit in which levels are told, in that of the levels, and its name.
-    scaled : bool
+    is_scaled : bool
         Whether motions were scaled to the levels, so that other levels may be asked for.
     first : bool
         Whether the levels count at which each motion does it first: two that differ are enough.
     """
-    happened, held = exceeding > 0.0, exceeding < runs
-    size, unit = shown
+    happened, not_exceeded = exceeding > 0.0, exceeding < runs
+    size, unit = display_unit
     ends = {"low": levels.min(), "top": levels.max()}
-    if happened.any() and held.any():
-        ends |= {"held": levels[held].max(), "passed": levels[happened].min()}
-    told = {name: f"{value / size:.4g} {unit}".strip() for name, value in ends.items()}
+    if happened.any() and not_exceeded.any():
+        ends |= {"held": levels[not_exceeded].max(), "passed": levels[happened].min()}
+    level_texts = {name: f"{value / size:.4g} {unit}".strip() for name, value in ends.items()}
     if not happened.any():
-        if not scaled:
-            return said("it happens under none of the motions, up to {top}: give stronger ones, or scale them (stripes)", **told)
-        return said("it happens at no level, up to {top}: ask for higher levels", **told)
-    if not held.any():
-        if not scaled:
-            return said("it happens under all motions, from {low} on: give weaker ones, or scale them (stripes)", **told)
-        return said("it happens in all runs at all levels, from {low} on: ask for lower levels", **told)
-    if not separated(np.log(levels), exceeding[None], runs[None])[0] or (first and ends["held"] >= ends["passed"]):
+        if not is_scaled:
+            return lazy_gettext(
+                "it happens under none of the motions, up to {top}: give stronger ones, or scale them (stripes)", **level_texts
+            )
+        return lazy_gettext("it happens at no level, up to {top}: ask for higher levels", **level_texts)
+    if not not_exceeded.any():
+        if not is_scaled:
+            return lazy_gettext("it happens under all motions, from {low} on: give weaker ones, or scale them (stripes)", **level_texts)
+        return lazy_gettext("it happens in all runs at all levels, from {low} on: ask for lower levels", **level_texts)
+    if not is_separated(np.log(levels), exceeding[None], runs[None])[0] or (first and ends["held"] >= ends["passed"]):
         return None
-    if not scaled:
-        return said("it happens under no motion up to {held} and under all from {passed} on: give more motions between them", **told)
-    if told["held"] == told["passed"]:
-        return said("it never happens below {held} and always above: ask for levels nearer to it, on both sides", **told)
-    return said("it never happens up to {held} and always from {passed} on: ask for levels between them", **told)
+    if not is_scaled:
+        return lazy_gettext(
+            "it happens under no motion up to {held} and under all from {passed} on: give more motions between them", **level_texts
+        )
+    if level_texts["held"] == level_texts["passed"]:
+        return lazy_gettext("it never happens below {held} and always above: ask for levels nearer to it, on both sides", **level_texts)
+    return lazy_gettext("it never happens up to {held} and always from {passed} on: ask for levels between them", **level_texts)
 
 
-def curves(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
+def fit_lognormals(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return medians and betas of several samples of counts at the same levels, NaN where no curve follows ([Baker2015]_ eq. (11)).
 
     Parameters
@@ -172,14 +178,14 @@ def curves(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple
     x = np.log(levels)
     y, n = np.broadcast_arrays(exceeding, runs)
     medians, betas = np.full(len(y), np.nan), np.full(len(y), np.nan)
-    good = ~separated(x, y, n)
+    good = ~is_separated(x, y, n)
     if good.any():
-        b, a = probits(np.column_stack([x, np.ones_like(x)]), y[good], n[good]).coefficients.T
-        medians[good], betas[good] = _medians(-a / b), 1.0 / b
+        b, a = fit_probit(np.column_stack([x, np.ones_like(x)]), y[good], n[good]).coefficients.T
+        medians[good], betas[good] = _medians_from_logs(-a / b), 1.0 / b
     return medians, betas
 
 
-def curves_together(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
+def fit_lognormals_shared_beta(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return medians, (b, k), and the one beta, (b,), of k limits that are fitted together, so that their curves do not cross.
 
     The counts of a limit that is only passed with the one before it are never larger, and with one slope the medians then rise from limit
@@ -194,20 +200,20 @@ def curves_together(levels: FloatArray, exceeding: FloatArray, runs: FloatArray)
     """
     samples, limits, _ = exceeding.shape
     x = np.log(levels)
-    which = np.repeat(np.eye(limits), x.size, axis=0)
-    columns = np.column_stack([np.tile(x, limits), which])
+    limit_columns = np.repeat(np.eye(limits), x.size, axis=0)
+    columns = np.column_stack([np.tile(x, limits), limit_columns])
     y, n = exceeding.reshape(samples, -1), np.tile(runs, (1, limits))
     # one limit that is not separated gives the slope
-    blind = np.stack([separated(x, exceeding[:, k], runs) for k in range(limits)]).all(axis=0)
+    all_separated = np.stack([is_separated(x, exceeding[:, k], runs) for k in range(limits)]).all(axis=0)
     empty = ((exceeding.sum(axis=2) == 0.0) | (exceeding == runs[:, None]).all(axis=2)).any(axis=1)
-    good = ~(blind | empty)
+    good = ~(all_separated | empty)
     medians, betas = np.full((samples, limits), np.nan), np.full(samples, np.nan)
     if good.any():
-        found = probits(columns, y[good], n[good], constants=limits).coefficients
-        medians[good], betas[good] = _medians(-found[:, 1:] / found[:, :1]), 1.0 / found[:, 0]
+        coefficients = fit_probit(columns, y[good], n[good], constants=limits).coefficients
+        medians[good], betas[good] = _medians_from_logs(-coefficients[:, 1:] / coefficients[:, :1]), 1.0 / coefficients[:, 0]
     return medians, betas
 
 
-def _medians(logs: FloatArray) -> FloatArray:
+def _medians_from_logs(logs: FloatArray) -> FloatArray:
     """Return medians from their logarithms; where there is hardly a slope they lie beyond all numbers, and are none."""
-    return np.asarray(np.exp(np.where(np.abs(logs) < FARTHEST, logs, np.nan)))
+    return np.asarray(np.exp(np.where(np.abs(logs) < MAX_LOG_MEDIAN, logs, np.nan)))

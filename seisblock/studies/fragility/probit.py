@@ -10,19 +10,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.typing import BoolArray, FloatArray
+from seisblock.core.typing import BoolArray, FloatArray
 
-MOST_STEPS = 60
-MOST_HALVINGS = 12
-CONVERGED = 1e-10
+MAX_ITERATIONS = 60
+MAX_HALVINGS = 12
+TOLERANCE = 1e-10
 """Change of every coefficient, of a standardised first column, at which a fit stands still."""
 
-FARTHEST = 30.0
+MAX_SCORE = 30.0
 """Scores beyond which a probability differs from 0 or 1 by nothing that a number can hold."""
 
 
 @dataclass(frozen=True, eq=False)
-class Probits:
+class ProbitFits:
     """Fits of several samples.
 
     Parameters
@@ -37,7 +37,7 @@ class Probits:
     log_likelihood: FloatArray
 
 
-def probits(columns: FloatArray, happened: FloatArray, runs: FloatArray, *, constants: int = 1) -> Probits:
+def fit_probit(columns: FloatArray, happened: FloatArray, runs: FloatArray, *, constants: int = 1) -> ProbitFits:
     """Return the coefficients c that make counts most likely where the probability is Phi(columns c) ([Baker2015]_ eq. (11)).
 
     Parameters
@@ -58,15 +58,15 @@ def probits(columns: FloatArray, happened: FloatArray, runs: FloatArray, *, cons
     x = np.column_stack([(columns[:, 0] - middle) / scale, columns[:, 1:]])
     y, n = np.broadcast_arrays(np.asarray(happened, dtype=np.float64), np.asarray(runs, dtype=np.float64))
     # all samples together are a good place to begin
-    start, _ = _climb(x, np.zeros((1, columns.shape[1])), y.sum(axis=0, keepdims=True), n.sum(axis=0, keepdims=True))
-    found, value = _climb(x, np.repeat(start, len(y), axis=0), y, n)
-    found[:, 0] /= scale
-    found[:, 1 : 1 + constants] -= middle * found[:, :1]
-    good = found[:, 0] > 0.0
-    return Probits(np.where(good[:, None], found, np.nan), np.where(good, value, np.nan))
+    start, _ = _maximize(x, np.zeros((1, columns.shape[1])), y.sum(axis=0, keepdims=True), n.sum(axis=0, keepdims=True))
+    coefficients, value = _maximize(x, np.repeat(start, len(y), axis=0), y, n)
+    coefficients[:, 0] /= scale
+    coefficients[:, 1 : 1 + constants] -= middle * coefficients[:, :1]
+    good = coefficients[:, 0] > 0.0
+    return ProbitFits(np.where(good[:, None], coefficients, np.nan), np.where(good, value, np.nan))
 
 
-def separated(x: FloatArray, happened: FloatArray, runs: FloatArray) -> BoolArray:
+def is_separated(x: FloatArray, happened: FloatArray, runs: FloatArray) -> BoolArray:
     """Return where samples are told apart by one level: nothing happened below it, everything above, and no slope is too steep.
 
     Parameters
@@ -85,12 +85,12 @@ def separated(x: FloatArray, happened: FloatArray, runs: FloatArray) -> BoolArra
     return np.asarray(highest_not <= lowest)
 
 
-def _climb(x: FloatArray, c: FloatArray, y: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _maximize(x: FloatArray, c: FloatArray, y: FloatArray, n: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the coefficients at the maxima, (b, k), and the logarithms of the likelihoods there, (b,)."""
     value = _log_likelihood(c @ x.T, y, n)
-    for _ in range(MOST_STEPS):
-        moved, c, value = _uphill(x, c, _step(x, c @ x.T, y, n), value, y, n)
-        if moved < CONVERGED:
+    for _ in range(MAX_ITERATIONS):
+        change, c, value = _line_search(x, c, _newton_step(x, c @ x.T, y, n), value, y, n)
+        if change < TOLERANCE:
             break
     return c, value
 
@@ -99,37 +99,37 @@ def _log_likelihood(score: FloatArray, y: FloatArray, n: FloatArray) -> FloatArr
     """Return the sum over the groups of y ln Phi + (n - y) ln(1 - Phi), (b,)."""
     from scipy.special import log_ndtr
 
-    bounded = np.clip(score, -FARTHEST, FARTHEST)
+    bounded = np.clip(score, -MAX_SCORE, MAX_SCORE)
     return np.asarray((y * log_ndtr(bounded) + (n - y) * log_ndtr(-bounded)).sum(axis=1))
 
 
-def _step(x: FloatArray, score: FloatArray, y: FloatArray, n: FloatArray) -> FloatArray:
+def _newton_step(x: FloatArray, score: FloatArray, y: FloatArray, n: FloatArray) -> FloatArray:
     """Return Newton's step of each sample, (b, k)."""
     from scipy.special import log_ndtr
 
-    bounded = np.clip(score, -FARTHEST, FARTHEST)
+    bounded = np.clip(score, -MAX_SCORE, MAX_SCORE)
     density = -0.5 * bounded * bounded - 0.5 * np.log(2.0 * np.pi)
     rises, falls = np.exp(density - log_ndtr(bounded)), np.exp(density - log_ndtr(-bounded))
     slope = y * rises - (n - y) * falls
-    bend = y * rises * (rises + bounded) + (n - y) * falls * (falls - bounded)
+    curvature = y * rises * (rises + bounded) + (n - y) * falls * (falls - bounded)
     gradient = slope @ x
-    hessian = np.einsum("bn,ni,nj->bij", bend, x, x, optimize=True)
+    hessian = np.einsum("bn,ni,nj->bij", curvature, x, x, optimize=True)
     ridge = 1e-12 * np.trace(hessian, axis1=1, axis2=2)[:, None, None] + 1e-300
-    solved = np.linalg.solve(hessian + ridge * np.eye(x.shape[1]), gradient[:, :, None])
-    return np.asarray(solved[:, :, 0])
+    step = np.linalg.solve(hessian + ridge * np.eye(x.shape[1]), gradient[:, :, None])
+    return np.asarray(step[:, :, 0])
 
 
-def _uphill(
+def _line_search(
     x: FloatArray, c: FloatArray, step: FloatArray, value: FloatArray, y: FloatArray, n: FloatArray
 ) -> tuple[float, FloatArray, FloatArray]:
     """Return how far the samples moved, where they are, and their likelihoods: each step as long as it leads uphill."""
     length = np.ones(len(c))
-    for _ in range(MOST_HALVINGS):
-        there = c + length[:, None] * step
-        found = _log_likelihood(there @ x.T, y, n)
-        worse = found < value - 1e-9 * np.abs(value)
+    for _ in range(MAX_HALVINGS):
+        trial = c + length[:, None] * step
+        trial_value = _log_likelihood(trial @ x.T, y, n)
+        worse = trial_value < value - 1e-9 * np.abs(value)
         if not worse.any():
             break
         length = np.where(worse, 0.5 * length, length)
-    there = np.where(worse[:, None], c, there)
-    return float(np.abs(there - c).max(initial=0.0)), there, np.where(worse, value, found)
+    trial = np.where(worse[:, None], c, trial)
+    return float(np.abs(trial - c).max(initial=0.0)), trial, np.where(worse, value, trial_value)

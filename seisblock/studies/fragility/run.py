@@ -9,32 +9,32 @@ from typing import Any
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.bodies.called import said_name
-from seisblock.bodies.library import along
-from seisblock.errors import ParameterError
-from seisblock.limits import check_budget
+from seisblock.bodies.body_name import body_name
+from seisblock.bodies.factory import block_for_motion
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
+from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
-from seisblock.studies.azimuths import STEP_DEG, azimuths_of
-from seisblock.studies.batch.azimuths import check_around
-from seisblock.studies.batch.models import Placed, batch_model
-from seisblock.studies.batch.run import AS_READ, Bodies, named
-from seisblock.studies.batch.task import Unplaced, placed
-from seisblock.studies.fragility.answer import FragilityStudy
-from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Passed, Rules, estimate
-from seisblock.studies.fragility.followers import FOLLOWERS, PERTURBED, Draws, version_draws
+from seisblock.studies.azimuths import STEP_DEG, sweep_azimuths
+from seisblock.studies.batch.models import SolverBody, batch_model
+from seisblock.studies.batch.run import NO_PROCESSING, Bodies, named_bodies
+from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
+from seisblock.studies.batch.worst_azimuth import check_all_azimuths
+from seisblock.studies.fragility.damage_states import LimitState, describe_limit, limit_states
+from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Exceedances, FitOptions, estimate_curves
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
-from seisblock.studies.fragility.levels import STEPS, chosen_levels, levels_of
-from seisblock.studies.fragility.limits import LimitState, limit_states, said_limit
-from seisblock.studies.fragility.notes import notes_on, ranges_noted, unanswered
-from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
+from seisblock.studies.fragility.levels import DEFAULT_STEPS, check_levels, find_levels
+from seisblock.studies.fragility.results import FragilityStudy
+from seisblock.studies.fragility.runners import RUNNERS, SOLVERS_WITH_VERSIONS, Draws, version_draws
+from seisblock.studies.fragility.suite import Suite, make_suite, read_suite
+from seisblock.studies.fragility.warnings import fragility_warnings, unanswered, version_range_notes
 from seisblock.studies.intervals import CONFIDENCE
-from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
-from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted, said
 
-AROUND = noted(
+ALL_AZIMUTHS_NOTE = N_(
     "each record counts once: it passes a limit where it does so in any direction, in steps of {step:g} degrees; intensities are the "
     "largest of all directions"
 )
@@ -44,7 +44,7 @@ BOOTSTRAP = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class Study:
+class StudyPlan:
     """What is run: bodies and limits under the motions of a suite.
 
     Parameters
@@ -59,31 +59,31 @@ class Study:
     """
 
     solver: str
-    bodies: tuple[Placed, ...]
+    bodies: tuple[SolverBody, ...]
     limits: tuple[LimitState, ...]
     suite: Suite
     values: Sequence[Sequence[FloatArray]]
     draws: Draws
 
-    def passed(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> tuple[BoolArray, BoolArray]:
+    def exceeded(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> tuple[BoolArray, BoolArray]:
         """Return which limits a body passes under a motion times some factors, (n, v, k), and which runs have an answer, (n, v).
 
         A limit is passed where it is in any direction. One direction without an answer leaves the run without one, unless the last limit
         is passed in another.
         """
-        versions, placed = 1 if draws is None else len(draws), self.bodies[body]
-        found = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
+        versions, solver_body = 1 if draws is None else len(draws), self.bodies[body]
+        result = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
         gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
-        for each in self.suite.directions(motion, placed.body):
-            ends = FOLLOWERS[self.solver](replace(placed, body=along(placed.body, each)), each, factors, draws)
-            passed = np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+        for shaking in self.suite.directions(motion, solver_body.body):
+            ends = RUNNERS[self.solver](replace(solver_body, body=block_for_motion(solver_body.body, shaking)), shaking, factors, draws)
+            passed = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
             if ends.gave_up is not None:
                 without = ends.gave_up.reshape(factors.size, versions)
                 passed &= ~without[..., None]
                 gave_up |= without
-            found |= passed
-        answered = ~gave_up | found[..., -1]
-        return found & answered[..., None], answered
+            result |= passed
+        answered = ~gave_up | result[..., -1]
+        return result & answered[..., None], answered
 
 
 def run_fragility(
@@ -95,10 +95,10 @@ def run_fragility(
     im: str | IntensityMeasure | Sequence[str | IntensityMeasure] = "pga",
     method: str = STRIPES,
     levels: ArrayLike | None = None,
-    steps: int = STEPS,
+    steps: int = DEFAULT_STEPS,
     perturb: int = 0,
     components: str | Sequence[str] = (),
-    preparation: Preparation = AS_READ,
+    preparation: Preparation = NO_PROCESSING,
     confidence: float = CONFIDENCE,
     bootstrap: int = BOOTSTRAP,
     seed: int = 0,
@@ -110,7 +110,8 @@ def run_fragility(
     Parameters
     ----------
     records : path or Record, or several
-        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.gather.gather`; or records as they were read.
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; or records as they
+        were read.
     bodies : path, bodies, or mapping of names to bodies
         As of :func:`~seisblock.studies.batch.run.run_batch`.
     solver : str
@@ -163,59 +164,59 @@ def run_fragility(
     >>> [(curve.body, curve.limit, curve.motions) for curve in study.curves]
     [('shelf', 'overturn', 3)]
     """
-    if solver not in FOLLOWERS:
-        raise ParameterError(
-            "there is no solver {name!r} for a fragility; there are {known}", name=str(solver)[:100], known=list(FOLLOWERS)
-        )
+    if solver not in RUNNERS:
+        raise ParameterError("there is no solver {name!r} for a fragility; there are {known}", name=str(solver)[:100], known=list(RUNNERS))
     if method not in METHODS:
         raise ParameterError("there is no method {name!r}; there are {known}", name=str(method)[:100], known=list(METHODS))
     if method == CLOUD and levels is not None:
         raise ParameterError("a cloud takes the records as they are, at no levels: leave `levels` out, or take stripes")
     checks.instance(preparation, Preparation)
-    checks.within("the confidence", confidence, "(0, 1)")
-    checks.whole("the samples of the bootstrap", bootstrap, least=2)
-    checks.whole("the number of versions", perturb, least=0)
-    check_budget(noted("samples of the bootstrap"), bootstrap, "SEISBLOCK_RUNS")
-    if perturb and solver not in PERTURBED:
+    checks.in_interval("the confidence", confidence, "(0, 1)")
+    checks.integer("the samples of the bootstrap", bootstrap, minimum=2)
+    checks.integer("the number of versions", perturb, minimum=0)
+    check_limit(N_("samples of the bootstrap"), bootstrap, "SEISBLOCK_RUNS")
+    if perturb and solver not in SOLVERS_WITH_VERSIONS:
         raise ParameterError("{solver} has no versions of a body: leave `perturb` out", solver=solver)
     states = limit_states(limits, solver)
-    several = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
-    measures = tuple(dict.fromkeys(intensity_measure(each) for each in several))
+    requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
+    measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))
     if not measures:
         raise ParameterError("no intensity measure is given: say pga, pgv, pgd, sa=0.5, arias or p*pgv")
     names = (components,) if isinstance(components, str) else tuple(components)
-    check_around(solver, names, options)
-    stand = bodies_of(bodies, solver, options)
-    found, left_out = read_suite(records)
-    suite = suite_of(found, names, preparation)
-    known = [suite.intensities(measure) for measure in measures]
+    check_all_azimuths(solver, names, options)
+    solver_bodies = prepare_bodies(bodies, solver, options)
+    loaded_records, left_out = read_suite(records)
+    suite = make_suite(loaded_records, names, preparation)
+    intensities = [suite.intensities(measure) for measure in measures]
     gravity = float(options.get("gravity", STANDARD_GRAVITY))
-    values = [[each * m.share(body.body, gravity) for each, m in zip(known, measures, strict=True)] for body in stand]
-    study = Study(solver, stand, states, suite, values, version_draws(perturb, checks.seed(seed)))
-    rules = Rules(method, measures, confidence, bootstrap, seed)
-    grids = _grids(study, rules, levels, steps)
-    every = _follow(study, rules, grids, progress)
-    curves, bands = zip(*(each for runs in every for each in estimate(runs, suite, rules)), strict=True)
+    values = [[item * m.share(body.body, gravity) for item, m in zip(intensities, measures, strict=True)] for body in solver_bodies]
+    study = StudyPlan(solver, solver_bodies, states, suite, values, version_draws(perturb, checks.seed(seed)))
+    fit_options = FitOptions(method, measures, confidence, bootstrap, seed)
+    grids = _grids(study, fit_options, levels, steps)
+    body_runs = _run_all(study, fit_options, grids, progress)
+    curves, bands = zip(*(item for exceedances in body_runs for item in estimate_curves(exceedances, suite, fit_options)), strict=True)
     if all(curve.median is None for curve in curves):
         first = curves[0]
-        raise ParameterError("{body}, {limit}: {why}", body=said_name(first.body), limit=said_limit(first.limit), why=first.problem)
+        raise ParameterError("{body}, {limit}: {why}", body=body_name(first.body), limit=describe_limit(first.limit), why=first.problem)
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
-    range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
-    directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()
-    ranges = ranges_noted(stand, solver) if perturb else []
-    upstairs = (said("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
+    factor_range = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
+    directions = (lazy_gettext(ALL_AZIMUTHS_NOTE, step=STEP_DEG),) if suite.all_azimuths else ()
+    ranges = version_range_notes(solver_bodies, solver) if perturb else []
+    floor_notes = (
+        (lazy_gettext("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
+    )
     notes = (
         *left_out,
         *directions,
-        *upstairs,
-        *unanswered(every, suite, measures[0]),
-        *notes_on(curves, [value[0] for value in values], rules),
+        *floor_notes,
+        *unanswered(body_runs, suite, measures[0]),
+        *fragility_warnings(curves, [value[0] for value in values], fit_options),
         *ranges,
     )
-    return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes, preparation.floor)
+    return FragilityStudy(curves, measures[0], solver, method, confidence, bands, factor_range, suite.records, notes, preparation.floor)
 
 
-def bodies_of(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[Placed, ...]:
+def prepare_bodies(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[SolverBody, ...]:
     """Return bodies as a solver takes them, or refuse the first that it cannot take.
 
     Parameters
@@ -226,54 +227,54 @@ def bodies_of(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[
         Of the solver, for every body that says nothing else.
     """
     model = batch_model(solver)
-    model.refuse_unknown(options)
-    found: list[Placed] = []
-    for each in placed(model, named(bodies, model), options):
-        if isinstance(each, Unplaced):
-            raise ParameterError("{name}: {reason}", name=each.name, reason=each.reason)
-        found.append(each)
-    return tuple(found)
+    model.check_options(options)
+    result: list[SolverBody] = []
+    for body in build_solver_bodies(model, named_bodies(bodies, model), options):
+        if isinstance(body, RejectedBody):
+            raise ParameterError("{name}: {reason}", name=body.name, reason=body.reason)
+        result.append(body)
+    return tuple(result)
 
 
-def _grids(study: Study, rules: Rules, levels: ArrayLike | None, steps: int) -> list[FloatArray]:
+def _grids(study: StudyPlan, fit_options: FitOptions, levels: ArrayLike | None, steps: int) -> list[FloatArray]:
     """Return the intensities of the runs of each body, (m, n): levels, or those of the motions as they are."""
     motions = len(study.suite.motions)
-    if rules.method == CLOUD:
+    if fit_options.method == CLOUD:
         return [values[0][:, None] for values in study.values]
     if levels is None:
 
         def shares_at(level: float) -> FloatArray:
             """Return in which share of the motions that have an answer each body passes each limit."""
             runs = [
-                study.passed(b, m, factors_for(np.array([level]), values[0][m], rules.measures[0]), None)
+                study.exceeded(b, m, factors_for(np.array([level]), values[0][m], fit_options.measures[0]), None)
                 for b, values in enumerate(study.values)
                 for m in range(motions)
             ]
-            passed = np.reshape([each[0, 0] for each, _ in runs], (len(study.bodies), motions, -1))
+            exceeded = np.reshape([each[0, 0] for each, _ in runs], (len(study.bodies), motions, -1))
             answers = np.reshape([each[0, 0] for _, each in runs], (len(study.bodies), motions)).sum(axis=1)
-            return np.asarray(passed.sum(axis=1) / np.maximum(answers, 1)[:, None])
+            return np.asarray(exceeded.sum(axis=1) / np.maximum(answers, 1)[:, None])
 
-        grid = chosen_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
+        grid = find_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
     else:
-        grid = levels_of(levels)
+        grid = check_levels(levels)
     return [np.tile(grid, (motions, 1))] * len(study.bodies)
 
 
-def _follow(study: Study, rules: Rules, grids: list[FloatArray], progress: Progress | None) -> list[Passed]:
+def _run_all(study: StudyPlan, fit_options: FitOptions, grids: list[FloatArray], progress: Progress | None) -> list[Exceedances]:
     """Return the runs of each body."""
     versions = 1 if study.draws is None else len(study.draws)
-    each = grids[0].shape[1] * versions
-    total = each * len(study.suite.motions) * len(study.bodies)
-    directions = max(azimuths_of(body.body).size for body in study.bodies) if study.suite.around else 1
-    check_budget(noted("runs"), total * directions, "SEISBLOCK_CELLS")
-    found, done = [], 0
+    runs_per_motion = grids[0].shape[1] * versions
+    total = runs_per_motion * len(study.suite.motions) * len(study.bodies)
+    directions = max(sweep_azimuths(body.body).size for body in study.bodies) if study.suite.all_azimuths else 1
+    check_limit(N_("runs"), total * directions, "SEISBLOCK_CELLS")
+    results, count = [], 0
     for b, (body, grid, values) in enumerate(zip(study.bodies, grids, study.values, strict=True)):
         runs = []
         for m in range(len(study.suite.motions)):
-            runs.append(study.passed(b, m, factors_for(grid[m], values[0][m], rules.measures[0]), study.draws))
-            done += each
+            runs.append(study.exceeded(b, m, factors_for(grid[m], values[0][m], fit_options.measures[0]), study.draws))
+            count += runs_per_motion
             if progress is not None:
-                progress(done, total)
-        passed, answered = (np.stack(column) for column in zip(*runs, strict=True))
-        found.append(Passed(body.name, study.limits, passed, grid, values, answered))
-    return found
+                progress(count, total)
+        exceeded, answered = (np.stack(column) for column in zip(*runs, strict=True))
+        results.append(Exceedances(body.name, study.limits, exceeded, grid, values, answered))
+    return results

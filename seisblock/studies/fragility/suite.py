@@ -9,18 +9,18 @@ from os import PathLike
 
 import numpy as np
 
-from seisblock.errors import ParameterError, SeisblockError
-from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
+from seisblock.core.errors import ParameterError, SeisblockError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.readers.discover import iter_records
+from seisblock.readers.dispatch import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
-from seisblock.records.site import earthquake_of
-from seisblock.records.turning import oriented_pair
-from seisblock.studies.azimuths import azimuths_of
+from seisblock.records.rotation import oriented_pair
+from seisblock.records.site import get_earthquake
+from seisblock.studies.azimuths import sweep_azimuths
 from seisblock.studies.fragility.intensity import IntensityMeasure
-from seisblock.typing import FloatArray, IntArray
-from seisblock.words import said
 
 ALL, NORTH = "all", "0"
 
@@ -37,7 +37,7 @@ class Suite:
         Which record each motion is of.
     magnitudes : (m,) array
         Of the earthquakes, NaN where the file does not say.
-    around : bool
+    all_azimuths : bool
         Whether each record counts once, in the worst of its directions: then a motion is that to north, and the others are
         :meth:`directions`.
     ground : Suite or None
@@ -48,7 +48,7 @@ class Suite:
     motions: tuple[Motion, ...]
     owner: IntArray
     magnitudes: FloatArray
-    around: bool = False
+    all_azimuths: bool = False
     ground: Suite | None = None
 
     def intensities(self, measure: IntensityMeasure) -> FloatArray:
@@ -59,14 +59,14 @@ class Suite:
         ParameterError
             If there is no shaking in one of them.
         """
-        found = self._measured(measure)
-        for row in np.flatnonzero(~(found > 0.0))[:1]:
+        values = self._measured(measure)
+        for row in np.flatnonzero(~(values > 0.0))[:1]:
             raise ParameterError(
                 "{record}, {name}: there is no shaking in it, so that no factor brings it to a level: leave it out",
-                record=self.records[self.owner[row]].source or said("record"),
+                record=self.records[self.owner[row]].source or lazy_gettext("record"),
                 name=self.motions[row].name,
             )
-        return found
+        return values
 
     @cached_property
     def shapes(self) -> FloatArray:
@@ -76,10 +76,10 @@ class Suite:
 
     def directions(self, motion: int, body: object) -> Iterator[Motion]:
         """Yield a motion in the directions in which a body has to pass a limit, one after another: its own, or all."""
-        if not self.around:
+        if not self.all_azimuths:
             yield self.motions[motion]
             return
-        for azimuth in azimuths_of(body).tolist():
+        for azimuth in sweep_azimuths(body).tolist():
             yield motion_of(self.records[self.owner[motion]], f"{azimuth:g}")
 
     def _measured(self, measure: IntensityMeasure) -> FloatArray:
@@ -88,13 +88,13 @@ class Suite:
             return self.ground._measured(measure)
         return np.array([max(map(measure.of, self.directions(row, None))) for row in range(len(self.motions))])
 
-    def weights(self, samples: int, dice: np.random.Generator) -> FloatArray:
+    def weights(self, samples: int, rng: np.random.Generator) -> FloatArray:
         """Return how often each motion counts in samples that draw whole records, (samples, m)."""
         count = len(self.records)
-        return np.asarray(dice.multinomial(count, np.full(count, 1.0 / count), samples)[:, self.owner], dtype=np.float64)
+        return np.asarray(rng.multinomial(count, np.full(count, 1.0 / count), samples)[:, self.owner], dtype=np.float64)
 
 
-def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation: Preparation) -> Suite:
+def make_suite(records: Sequence[Record], components: tuple[str, ...], preparation: Preparation) -> Suite:
     """Return the motions of some records: of each component asked for, or of all horizontals.
 
     Parameters
@@ -119,32 +119,32 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
         )
     prepared = tuple(preparation.apply(record) for record in records)
     motions, owner, magnitudes = [], [], []
-    asked_for, around = components, any(name.lower() == ALL_AZIMUTHS for name in components)
-    if around:
+    requested, all_azimuths = components, any(name.lower() == ALL_AZIMUTHS for name in components)
+    if all_azimuths:
         components = (NORTH,)
     for index, record in enumerate(prepared):
-        if around:
+        if all_azimuths:
             oriented_pair(record)
-        asked = components and not any(name.lower() == ALL for name in components)
-        for name in components if asked else tuple(component.code for component in record.horizontals) or (ALL,):
+        is_explicit = components and not any(name.lower() == ALL for name in components)
+        for name in components if is_explicit else tuple(component.code for component in record.horizontals) or (ALL,):
             motions.append(motion_of(record, name))
             owner.append(index)
-            shook = earthquake_of(record)
-            magnitudes.append(np.nan if shook is None or shook.magnitude is None else shook.magnitude)
+            earthquake = get_earthquake(record)
+            magnitudes.append(np.nan if earthquake is None or earthquake.magnitude is None else earthquake.magnitude)
     # a storey is linear: a factor on the ground is one on it
-    ground = None if preparation.floor is None else suite_of(records, asked_for, replace(preparation, floor=None))
-    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), around, ground)
+    ground = None if preparation.floor is None else make_suite(records, requested, replace(preparation, floor=None))
+    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), all_azimuths, ground)
 
 
 def read_suite(
-    records: Location | Record | Sequence[Location | Record], reading: Options | None = None, *, strict: bool = False
+    records: Location | Record | Sequence[Location | Record], read_options: ReadOptions | None = None, *, strict: bool = False
 ) -> tuple[list[Record], tuple[str, ...]]:
     """Return the records that some names stand for, and a sentence for each file that could not be read.
 
     Parameters
     ----------
     records : path or Record, or several
-    reading : Options
+    read_options : Options
         What the caller says of files that do not say it themselves.
     strict : bool
         Whether a file that cannot be read is refused.
@@ -154,21 +154,21 @@ def read_suite(
     RecordError
         If none can be read, or one cannot and all must.
     """
-    known = reading or Options()
-    given = [records] if isinstance(records, (str, PathLike, Record)) else list(records)
-    found: list[Record] = []
+    options = read_options or ReadOptions()
+    sources = [records] if isinstance(records, (str, PathLike, Record)) else list(records)
+    loaded: list[Record] = []
     left_out: list[str] = []
     failure: SeisblockError | None = None
-    for one in given:
-        for each in [one] if isinstance(one, Record) else gather([str(one)], known):
+    for source in sources:
+        for recording in [source] if isinstance(source, Record) else iter_records([str(source)], options):
             try:
-                found.append(each if isinstance(each, Record) else each.read(known))
+                loaded.append(recording if isinstance(recording, Record) else recording.read(options))
             except SeisblockError as error:
                 failure = error
                 if strict:
                     raise
-                left_out.append(said("left out: {why}", why=error.said))
-    if failure is not None and not found:
+                left_out.append(lazy_gettext("left out: {why}", why=error.message))
+    if failure is not None and not loaded:
         raise failure
-    wanted = [record for record in found if known.station in (None, record.station)]
-    return wanted, tuple(left_out)
+    selected = [record for record in loaded if options.station in (None, record.station)]
+    return selected, tuple(left_out)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
-from seisblock.errors import HazardError
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.core import checks
+from seisblock.core.errors import HazardError
+from seisblock.core.typing import ArrayLike, FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,8 +46,8 @@ class HazardCurve:
     weight: float = 1.0
 
     def __post_init__(self) -> None:
-        x = checks.numbers("the levels of a hazard curve", self.levels)
-        rate = checks.numbers("the frequencies of a hazard curve", self.rates)
+        x = checks.float_array("the levels of a hazard curve", self.levels)
+        rate = checks.float_array("the frequencies of a hazard curve", self.rates)
         if x.ndim != 1 or x.size < 2 or rate.shape != x.shape:
             raise HazardError(
                 "a hazard curve needs two levels or more, each with its frequency; found {levels} and {rates}",
@@ -57,14 +57,16 @@ class HazardCurve:
         for row in (x, rate):
             if not (np.isfinite(row).all() and (row > 0.0).all()):
                 raise HazardError("the levels and frequencies of a hazard curve must be positive numbers")
-        back, up = np.flatnonzero(np.diff(x) <= 0.0), np.flatnonzero(np.diff(rate) > 0.0)
-        if back.size:
-            raise HazardError("the levels of a hazard curve must rise: {level:.4g} is there twice or out of order", level=x[back[0] + 1])
-        if up.size:
+        level_drops, rate_rises = np.flatnonzero(np.diff(x) <= 0.0), np.flatnonzero(np.diff(rate) > 0.0)
+        if level_drops.size:
+            raise HazardError(
+                "the levels of a hazard curve must rise: {level:.4g} is there twice or out of order", level=x[level_drops[0] + 1]
+            )
+        if rate_rises.size:
             raise HazardError(
                 "stronger shaking cannot be more frequent than weaker, as it is in this hazard curve from {low:.4g} to {high:.4g}",
-                low=x[up[0]],
-                high=x[up[0] + 1],
+                low=x[rate_rises[0]],
+                high=x[rate_rises[0] + 1],
             )
         if rate[-1] == rate[-2]:
             raise HazardError("this hazard curve does not fall at its end: add a stronger level, or leave out the last ones")
@@ -80,7 +82,7 @@ class HazardCurve:
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
         """Return the annual frequency, 1/year, with which some positive intensities are exceeded, of the shape in which they come."""
-        u = np.log(checks.numbers("the intensities", intensity))
+        u = np.log(checks.float_array("the intensities", intensity))
         logs = np.log(self.levels)
         piece = np.searchsorted(logs, u)
         anchor = np.maximum(piece - 1, 0)
@@ -89,9 +91,9 @@ class HazardCurve:
     def with_levels(self, levels: FloatArray) -> HazardCurve:
         """Return the same curve with further levels between its own and beyond them."""
         union = np.union1d(np.asarray(self.levels), levels)
-        own = np.isin(union, self.levels)
+        is_original = np.isin(union, self.levels)
         rates = self.rate(union)
-        rates[own] = self.rates
+        rates[is_original] = self.rates
         return HazardCurve(union, np.minimum.accumulate(rates), self.name, self.weight)
 
 
@@ -124,7 +126,7 @@ class Hazard:
 
     def __post_init__(self) -> None:
         total = sum(branch.weight for branch in self.branches)
-        if not self.branches or abs(total - 1.0) > SUM_OF_WEIGHTS:
+        if not self.branches or abs(total - 1.0) > WEIGHT_SUM_TOLERANCE:
             raise HazardError("the weights of the branches of a hazard have the sum {total:.4g}: it must be 1", total=total)
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
@@ -132,5 +134,5 @@ class Hazard:
         return np.asarray(sum(branch.weight * branch.rate(intensity) for branch in self.branches))
 
 
-SUM_OF_WEIGHTS = 0.001
+WEIGHT_SUM_TOLERANCE = 0.001
 """How far from 1 the sum of printed weights may be."""

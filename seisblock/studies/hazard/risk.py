@@ -24,16 +24,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
+from seisblock.core import checks
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.typing import FloatArray
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
-from seisblock.typing import FloatArray
-from seisblock.words import said
 
-FAR_BEYOND = 10.0
+MAX_MEDIAN_RATIO = 10.0
 """So many times the last level of a hazard, or its first over so much, and a median is doubted: gal for m/s^2, or cm/s for m/s, are 100."""
 
-LARGE_OUTSIDE = 0.02
+MAX_EXTRAPOLATED_SHARE = 0.02
 """Share of the frequency from beyond the ends of a hazard curve, from which on it is said."""
 
 
@@ -165,14 +165,14 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     weights /= weights.sum()
     rates = np.array([row.sum() for row in shares])
     total = float(weights @ rates)
-    outside = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
+    outside_rate = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
     standing = None if stood_years is None else np.exp(-rates * stood_years)
-    after = None if stood_years is None else _updated(weights, -rates * stood_years)
+    posterior_weights = None if stood_years is None else _posterior_weights(weights, -rates * stood_years)
     return Risk(
         fragility=fragility,
         hazard=hazard,
         annual_rate=total,
-        return_period_years=1.0 / total if total > 1.0 / checks.LARGEST else None,
+        return_period_years=1.0 / total if total > 1.0 / checks.MAX_MAGNITUDE else None,
         probability=ProbabilityInYears(float(years), -math.expm1(-total * years)),
         branches=tuple(
             BranchRisk(
@@ -180,15 +180,15 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
                 float(weights[i]),
                 float(rates[i]),
                 None if standing is None else float(standing[i]),
-                None if after is None else float(after[i]),
+                None if posterior_weights is None else float(posterior_weights[i]),
             )
             for i, branch in enumerate(hazard.branches)
         ),
-        disaggregation=_disaggregated(union, weights @ np.array(shares), total),
-        beyond_levels_share=outside / total if total > 0.0 else 0.0,
+        disaggregation=_disaggregate(union, weights @ np.array(shares), total),
+        beyond_levels_share=outside_rate / total if total > 0.0 else 0.0,
         stood_years=None if stood_years is None else float(stood_years),
-        annual_rate_after=None if after is None else float(after @ rates),
-        notes=(*hazard.notes, *(_far(fragility, hazard, union) or _doubts(outside, total))),
+        annual_rate_after=None if posterior_weights is None else float(posterior_weights @ rates),
+        notes=(*hazard.notes, *(_median_warnings(fragility, hazard, union) or _extrapolation_warnings(outside_rate, total))),
     )
 
 
@@ -200,9 +200,9 @@ def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
     k, anchor = curve.slopes, np.maximum(np.arange(u.size + 1) - 1, 0)
     z = np.concatenate([[-np.inf], (u - mu) / beta, [np.inf]])
     logs = np.log(np.asarray(curve.rates))[anchor] - k * (mu - u[anchor]) + 0.5 * (k * beta) ** 2
-    within = np.exp(logs + _log_between(z[:-1] + k * beta, z[1:] + k * beta))
+    inside = np.exp(logs + _log_between(z[:-1] + k * beta, z[1:] + k * beta))
     edge = np.concatenate([[0.0], ndtr(z[1:-1]) * np.asarray(curve.rates), [0.0]])
-    return np.asarray(np.maximum(within - np.diff(edge), 0.0))
+    return np.asarray(np.maximum(inside - np.diff(edge), 0.0))
 
 
 def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
@@ -216,13 +216,13 @@ def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
         return np.asarray(top + np.log1p(-np.exp(log_ndtr(a) - top)))
 
 
-def _updated(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
+def _posterior_weights(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
     """Return the weights of branches after what each made so likely."""
-    grown = weights * np.exp(log_likelihood - log_likelihood.max())
-    return np.asarray(grown / grown.sum())
+    scaled_weights = weights * np.exp(log_likelihood - log_likelihood.max())
+    return np.asarray(scaled_weights / scaled_weights.sum())
 
 
-def _disaggregated(levels: FloatArray, rates: FloatArray, total: float) -> tuple[RiskShare, ...]:
+def _disaggregate(levels: FloatArray, rates: FloatArray, total: float) -> tuple[RiskShare, ...]:
     """Return what each stretch of intensities contributes."""
     ends = [None, *(float(level) for level in levels), None]
     return tuple(
@@ -231,23 +231,23 @@ def _disaggregated(levels: FloatArray, rates: FloatArray, total: float) -> tuple
     )
 
 
-def _far(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -> tuple[str, ...]:
+def _median_warnings(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -> tuple[str, ...]:
     """Return what is to be said of a median that no level of the table is near."""
-    least, most = float(levels[0]), float(levels[-1])
-    if least / FAR_BEYOND <= fragility.median <= FAR_BEYOND * most:
+    lowest, highest = float(levels[0]), float(levels[-1])
+    if lowest / MAX_MEDIAN_RATIO <= fragility.median <= MAX_MEDIAN_RATIO * highest:
         return ()
     text = "the median, {median:.4g} {unit}, is far from every level of the hazard, {least:.4g} to {most:.4g} {unit}: is its unit right?"
-    return (said(text, median=fragility.median, unit=hazard.unit, least=least, most=most),)
+    return (lazy_gettext(text, median=fragility.median, unit=hazard.unit, least=lowest, most=highest),)
 
 
-def _doubts(outside: float, total: float) -> tuple[str, ...]:
+def _extrapolation_warnings(outside_rate: float, total: float) -> tuple[str, ...]:
     """Return what is to be said of what lies beyond the table."""
-    if outside <= LARGE_OUTSIDE * total:
+    if outside_rate <= MAX_EXTRAPOLATED_SHARE * total:
         return ()
     return (
-        said(
+        lazy_gettext(
             "{share:.0%} of the frequency comes from beyond the levels of the hazard, where its curve is continued with its slope: "
             "more levels would tell",
-            share=outside / total,
+            share=outside_rate / total,
         ),
     )

@@ -9,14 +9,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from seisblock import checks
-from seisblock.bodies.sheet import cells_of, number_of, plain, row_of, rows_of, separator_of, sheet_text
-from seisblock.errors import BodyError, HazardError, InputError
-from seisblock.samples import file_or_sample
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, HazardError, InputError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.io.csv_table import data_lines, find_separator, normalize_heading, parse_number_cell, read_text, row_dict, split_cells
+from seisblock.core.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS
+from seisblock.samples import resolve_file_or_sample
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
-from seisblock.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS
-from seisblock.words import said
 
 UNITS_OF: Mapping[str, Mapping[str, float]] = {
     "m/s^2": ACCELERATION_UNITS,
@@ -33,11 +33,11 @@ _PERIOD = re.compile(r"\d*\.?\d+")
 _RATES = frozenset(
     {"annualrate", "annualfrequency", "rate", "frequency", "lambda", "annualrateofexceedance", "年超過頻度", "年超過率", "頻度"}
 )
-_ANNUAL = frozenset({"annualprobability", "annualpoe", "probability", "poe", "年超過確率"})
+_ANNUAL_PROBABILITIES = frozenset({"annualprobability", "annualpoe", "probability", "poe", "年超過確率"})
 _IN_YEARS = re.compile(r"(?:poe|probability)(?:in)?(\d+)(?:years?|yr|y)|(\d+)年超過確率")
-_OTHERS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
+_BRANCH_COLUMNS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
 
-TOLD_AS = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
+COLUMN_EXAMPLES = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
 """Headings of levels, for messages."""
 
 
@@ -85,36 +85,36 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
     ('pgv', 'm/s', ['often', 'rare'])
     """
     try:
-        text = sheet_text(_path(path), str(path))
+        text = read_text(_path(path), str(path))
     except BodyError as error:
-        raise HazardError("{text}", text=error.said) from None
+        raise HazardError("{text}", text=error.message) from None
     try:
         return _hazard(text, None if im is None else intensity_measure(im))
     except InputError as error:
-        raise HazardError("{source}: {text}", source=Path(path).name, text=error.said) from None
+        raise HazardError("{source}: {text}", source=Path(path).name, text=error.message) from None
 
 
 def _path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled hazard."""
     path = Path(checks.path(name))
-    return file_or_sample(path, "hazard") or path
+    return resolve_file_or_sample(path, "hazard") or path
 
 
-def _hazard(text: str, wanted: IntensityMeasure | None) -> Hazard:
+def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
     """Return the hazard of a table's text."""
-    rows = rows_of(text)
+    rows = data_lines(text)
     if len(rows) < 2:
         raise HazardError("there is no hazard in it: give a header, and a line for each level")
-    separator = separator_of(rows[0][1])
-    columns = _columns(cells_of(rows[0][1], separator), wanted)
-    found: dict[str, list[_Row]] = {}
+    separator = find_separator(rows[0][1])
+    columns = _columns(split_cells(rows[0][1], separator), measure)
+    rows_by_branch: dict[str, list[_Row]] = {}
     for line, cells in rows[1:]:
         try:
-            row = _row(row_of(columns.names, cells_of(cells, separator)), columns)
+            row = _row(row_dict(columns.names, split_cells(cells, separator)), columns)
         except InputError as error:
-            raise HazardError("line {line}: {text}", line=line, text=error.said) from None
-        found.setdefault(row.branch, []).append(row)
-    branches, notes = _branches(found, columns.factor)
+            raise HazardError("line {line}: {text}", line=line, text=error.message) from None
+        rows_by_branch.setdefault(row.branch, []).append(row)
+    branches, notes = _branches(rows_by_branch, columns.factor)
     return Hazard(columns.measure.name, columns.measure.unit, branches, (*columns.notes, *notes), columns.factor)
 
 
@@ -138,81 +138,83 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
     period = _PERIOD.search(name)
     measure = intensity_measure(f"sa={period[0]}" if period else name.replace("ppgv", "p*pgv"))
     units = UNITS_OF[measure.unit]
-    spelled = {**units, **{key.replace("/", "_").replace("^", ""): value for key, value in units.items()}} or {"": 1.0, "1": 1.0}
-    if unit not in spelled:
-        known = [*units]
+    unit_factors = {**units, **{key.replace("/", "_").replace("^", ""): value for key, value in units.items()}} or {"": 1.0, "1": 1.0}
+    if unit not in unit_factors:
+        unit_names = [*units]
         if not unit:
-            raise HazardError("the column {heading!r} has no unit: name it for example {known}", heading=heading[:40], known=TOLD_AS)
+            raise HazardError(
+                "the column {heading!r} has no unit: name it for example {known}", heading=heading[:40], known=COLUMN_EXAMPLES
+            )
         raise HazardError(
-            "the column {heading!r} has the unknown unit {unit!r}: use one of {known}", heading=heading[:40], unit=unit, known=known
+            "the column {heading!r} has the unknown unit {unit!r}: use one of {known}", heading=heading[:40], unit=unit, known=unit_names
         )
-    return measure, spelled[unit]
+    return measure, unit_factors[unit]
 
 
-def _columns(cells: Sequence[str], wanted: IntensityMeasure | None) -> _Columns:
+def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Columns:
     """Return what the columns of a table mean."""
-    names, passed, measures, others, rates = [], [], {}, [], {}
+    names, ignored, measures, other_measures, rates = [], [], {}, [], {}
     for cell in cells:
-        told, key = measure_of(cell), plain(cell)
+        heading_measure, key = measure_of(cell), normalize_heading(cell)
         years = _IN_YEARS.fullmatch(key)
-        if told is not None and wanted in (None, told[0]):
-            measures[cell] = told
+        if heading_measure is not None and requested in (None, heading_measure[0]):
+            measures[cell] = heading_measure
             names.append("level")
-        elif key in _RATES or key in _ANNUAL or years:
+        elif key in _RATES or key in _ANNUAL_PROBABILITIES or years:
             rates[cell] = None if key in _RATES else float(next(filter(None, years.groups()))) if years else 1.0
             names.append("rate")
         else:
-            names.append(_OTHERS.get(key, ""))
-            others += [] if told is None else [told[0].name]
-            passed += [] if names[-1] or not cell else [cell]
-    if not measures and others and wanted is not None:
+            names.append(_BRANCH_COLUMNS.get(key, ""))
+            other_measures += [] if heading_measure is None else [heading_measure[0].name]
+            ignored += [] if names[-1] or not cell else [cell]
+    if not measures and other_measures and requested is not None:
         text = "its levels are of {found}, and {im} is asked for: give a hazard in {im}, or a fragility in {found}"
-        raise HazardError(text, found=others, im=wanted.name)
+        raise HazardError(text, found=other_measures, im=requested.name)
     if len(measures) != 1:
         text = "expected one column of levels, such as {known}; found {found}"
-        raise HazardError(text, known=TOLD_AS, found=list(measures) or list(cells))
+        raise HazardError(text, known=COLUMN_EXAMPLES, found=list(measures) or list(cells))
     if len(rates) != 1:
         text = "expected one column annual_rate, or annual_poe, or poe_50_years; found {found}"
         raise HazardError(text, found=list(rates) or list(cells))
     if names.count("branch") > 1 or names.count("weight") > 1:
         raise HazardError("two columns mean the same: leave one branch and one weight")
-    notes = (said("{columns} of the hazard were passed over", columns=passed),) if passed else ()
+    notes = (lazy_gettext("{columns} of the hazard were passed over", columns=ignored),) if ignored else ()
     ((measure, factor),) = measures.values()
     return _Columns(names, measure, factor, next(iter(rates.values())), notes)
 
 
 def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
     """Return one row of a table."""
-    level = checks.positive("the level", number_of(cells.get("level", ""), "level")) * columns.factor
-    given = number_of(cells.get("rate", ""), "rate")
+    level = checks.positive("the level", parse_number_cell(cells.get("level", ""), "level")) * columns.factor
+    value = parse_number_cell(cells.get("rate", ""), "rate")
     if columns.years is None:
-        rate = checks.not_negative("the annual frequency", given)
+        rate = checks.non_negative("the annual frequency", value)
     else:
-        probability = checks.fraction("the probability of being exceeded", given)
+        probability = checks.fraction("the probability of being exceeded", value)
         rate = -math.log1p(-probability) / columns.years if probability < 1.0 else math.inf
-    weight = number_of(cells["weight"], "weight") if cells.get("weight") else None
+    weight = parse_number_cell(cells["weight"], "weight") if cells.get("weight") else None
     return _Row(cells.get("branch", ""), level, rate, weight)
 
 
-def _branches(found: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[HazardCurve, ...], list[str]]:
+def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[HazardCurve, ...], list[str]]:
     """Return the curves of a table, and what was left out of it."""
-    curves, left = [], 0
-    for name, rows in found.items():
-        kept = sorted((row for row in rows if 0.0 < row.rate < math.inf), key=lambda row: row.level)
-        left += len(rows) - len(kept)
+    curves, dropped = [], 0
+    for name, rows in rows_by_branch.items():
+        used_rows = sorted((row for row in rows if 0.0 < row.rate < math.inf), key=lambda row: row.level)
+        dropped += len(rows) - len(used_rows)
         weights = {row.weight for row in rows if row.weight is not None}
         if len(weights) > 1:
             raise HazardError("the branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
-        weight = weights.pop() if weights else 1.0 if len(found) == 1 else None
+        weight = weights.pop() if weights else 1.0 if len(rows_by_branch) == 1 else None
         if weight is None:
             raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
         try:
-            rates = [row.rate for row in kept]
+            rates = [row.rate for row in used_rows]
             HazardCurve(
-                [row.level / unit for row in kept], rates
+                [row.level / unit for row in used_rows], rates
             )  # refused in the numbers of the table, where there is something to refuse
-            curves.append(HazardCurve([row.level for row in kept], rates, name, weight))
+            curves.append(HazardCurve([row.level for row in used_rows], rates, name, weight))
         except InputError as error:
-            raise (HazardError("the branch {name!r}: {text}", name=name, text=error.said) if name else error) from None
-    text = said("{count} levels of the hazard that are never, or surely, exceeded were left out", count=left)
-    return tuple(curves), [text] if left else []
+            raise (HazardError("the branch {name!r}: {text}", name=name, text=error.message) if name else error) from None
+    text = lazy_gettext("{count} levels of the hazard that are never, or surely, exceeded were left out", count=dropped)
+    return tuple(curves), [text] if dropped else []

@@ -8,14 +8,14 @@ from typing import Unpack
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import gathered
+from seisblock.bodies.block_array import to_block_array
 from seisblock.bodies.scan.body import ScannedBody
+from seisblock.core.typing import Progress
+from seisblock.models.rock.params import RockOptions, rock_batch_params
+from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Record, motion_of
-from seisblock.solvers.rock.rocker import RockOptions, rockers
-from seisblock.solvers.rock.solve import solve_rock
-from seisblock.studies.azimuths import STEP_DEG, sweep
-from seisblock.studies.rocking.verdicts import all_verdicts
-from seisblock.typing import Progress
+from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
+from seisblock.studies.rocking.verdicts import parallel_verdicts
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,8 @@ def rock_directions(
 ) -> list[RockAzimuth]:
     """Return what becomes of a block, or of a scan, in every direction of a record, the worst first.
 
-    Directions are those of :func:`~seisblock.studies.azimuths.sweep`; all of them go through the record side by side. One in which it
+    Directions are those of :func:`~seisblock.studies.azimuths.make_azimuth_sweep`; all of them go through the record side by side. One
+    in which it
     falls is worse than one in which it does not, one in which it falls sooner worse than one in which it falls later, and of two in which
     it stands the one in which it leans further over alpha is worse.
 
@@ -72,7 +73,7 @@ def rock_directions(
     progress : callable
         Told the number of runs done and the number in all.
     options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
     Examples
     --------
@@ -81,27 +82,27 @@ def rock_directions(
     >>> worst.azimuth_deg, worst.overturned
     (90.0, True)
     """
-    around = sweep(body, record, step_deg=step_deg, vertical=options.get("vertical", False))
-    some = rockers(gathered(around.blocks), around.motion, **options)
-    found = all_verdicts(some, around.motion, around.gains, progress=progress)
+    azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.get("vertical", False))
+    params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, **options)
+    verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains, progress=progress)
     directions = []
-    for row, (azimuth, block) in enumerate(zip(around.azimuths.tolist(), around.blocks, strict=True)):
-        fallen, time = bool(found.overturned[row]), float(found.lies_down_s[row])
+    for row, (azimuth, block) in enumerate(zip(azimuth_sweep.azimuths.tolist(), azimuth_sweep.blocks, strict=True)):
+        fallen, time = bool(verdicts.overturned[row]), float(verdicts.overturning_time_s[row])
         if fallen and np.isnan(time):  # after the record, where energy decides
-            after = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options).outcome.overturning_time_s
+            fall_time = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options).outcome.overturning_time_s
         else:
-            after = around.motion.start_s + time if fallen else None
-        gave_up = bool(found.gave_up[row])
-        ratio = 0.0 if gave_up else float(found.max_rotation_ratio[row])
-        towards = ("+x" if found.towards[row] > 0 else "-x") if fallen else None
-        directions.append(RockAzimuth(azimuth, fallen, towards, after, ratio, block.slenderness, gave_up))
+            fall_time = azimuth_sweep.motion.start_s + time if fallen else None
+        gave_up = bool(verdicts.gave_up[row])
+        ratio = 0.0 if gave_up else float(verdicts.max_rotation_ratio[row])
+        direction = ("+x" if verdicts.direction[row] > 0 else "-x") if fallen else None
+        directions.append(RockAzimuth(azimuth, fallen, direction, fall_time, ratio, block.slenderness, gave_up))
     return sorted(directions, key=_severity, reverse=True)
 
 
-def _severity(each: RockAzimuth) -> tuple[bool, float]:
+def _severity(direction: RockAzimuth) -> tuple[bool, float]:
     """Return what makes one direction worse than another."""
-    if each.gave_up:
+    if direction.gave_up:
         return False, -1.0
-    if each.overturned:
-        return True, -(each.overturning_time_s if each.overturning_time_s is not None else np.inf)
-    return False, round(each.max_rotation_ratio, 12)
+    if direction.overturned:
+        return True, -(direction.overturning_time_s if direction.overturning_time_s is not None else np.inf)
+    return False, round(direction.max_rotation_ratio, 12)

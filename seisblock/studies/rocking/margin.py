@@ -15,29 +15,29 @@ from typing import Unpack
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.errors import ParameterError
-from seisblock.limits import check_budget
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_limit
+from seisblock.core.results import Response
+from seisblock.core.typing import BoolArray, FloatArray, Progress
+from seisblock.models.rock.outcome import RockOutcome
+from seisblock.models.rock.params import RockOptions, RockParams, rock_params
 from seisblock.records import Motion
-from seisblock.results import Response
-from seisblock.solvers.rock.outcome import RockOutcome
-from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
 from seisblock.studies.rocking.verdicts import overturns_at
-from seisblock.typing import BoolArray, FloatArray, Progress
-from seisblock.words import noted, said
 
-LIMIT = 3.0
+MAX_FACTOR = 3.0
 """Default largest factor of the scan."""
 
 STEP = 0.002
 """Default step of the scan, in the factor."""
 
-SHARP = 1e-6
+FLIP_TOLERANCE = 1e-6
 """A change of verdict is located to this, in the factor."""
 
-NEAR = 0.02
+NEARBY_SHARE = 0.02
 """A verdict that changes within this share of the record's amplitude is fragile."""
 
-NEAR_STEPS = 41
+NEARBY_STEPS = 41
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def find_margin(
     block: Block,
     motion: Motion,
     *,
-    limit: float = LIMIT,
+    limit: float = MAX_FACTOR,
     step: float = STEP,
     progress: Progress | None = None,
     **options: Unpack[RockOptions],
@@ -101,7 +101,7 @@ def find_margin(
     progress : callable
         Told the number of runs done and the number in all.
     options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
     Raises
     ------
@@ -117,53 +117,55 @@ def find_margin(
     """
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
-    one = rocker(block, motion, **options)
-    check_budget(noted("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
-    even = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
-    grid = np.unique(np.concatenate([even, _near()]))
+    params = rock_params(block, motion, **options)
+    check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
+    regular_factors = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    grid = np.unique(np.concatenate([regular_factors, _nearby_factors()]))
     factors = grid[grid <= limit]
-    verdicts = overturns_at(one, motion, factors, progress=progress)
-    flips = _bisected(one, motion, factors, verdicts)
+    verdicts = overturns_at(params, motion, factors, progress=progress)
+    flips = _bisect_flips(params, motion, factors, verdicts)
     edges = (0.0, *flips, limit)
     windows = tuple(FactorRange(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
-    at_one = bool(verdicts[factors == 1.0][0] if limit >= 1.0 else overturns_at(one, motion, [1.0])[0])
+    overturns_at_one = bool(verdicts[factors == 1.0][0] if limit >= 1.0 else overturns_at(params, motion, [1.0])[0])
     first = next((window.first for window in windows if window.overturned), None)
-    above = np.isin(factors, even) & (factors >= factors[int(verdicts.argmax())])
-    share = float(verdicts[above].mean()) if verdicts.any() else None
-    return Margin(at_one, windows, flips, nearest, first, share, step, limit)
+    from_first_fall = np.isin(factors, regular_factors) & (factors >= factors[int(verdicts.argmax())])
+    share = float(verdicts[from_first_fall].mean()) if verdicts.any() else None
+    return Margin(overturns_at_one, windows, flips, nearest, first, share, step, limit)
 
 
-def _bisected(block: Rocker, motion: Motion, factors: FloatArray, verdicts: BoolArray) -> tuple[float, ...]:
+def _bisect_flips(block: RockParams, motion: Motion, factors: FloatArray, verdicts: BoolArray) -> tuple[float, ...]:
     """Return the factors at which the verdict changes, all bisected at once."""
     changes = np.flatnonzero(verdicts[1:] != verdicts[:-1])
-    low, high, above = factors[changes], factors[changes + 1], verdicts[changes + 1]
-    while changes.size and (high - low).max() > SHARP:
+    low, high, upper_verdicts = factors[changes], factors[changes + 1], verdicts[changes + 1]
+    while changes.size and (high - low).max() > FLIP_TOLERANCE:
         middle = 0.5 * (low + high)
-        same = overturns_at(block, motion, middle) == above
+        same = overturns_at(block, motion, middle) == upper_verdicts
         low, high = np.where(same, low, middle), np.where(same, middle, high)
     return tuple(float(flip) for flip in 0.5 * (low + high))
 
 
-def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
+def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
     """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
     options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
     factor = nearest_flip(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
     if factor is not None:
         text = "{name}: a change of the record by less than 2 %, to {factor:.3f} times itself, changes the verdict"
-        warnings = (*warnings, said(text, name=response.motion.name or "x", factor=factor))
+        warnings = (*warnings, lazy_gettext(text, name=response.motion.name or "x", factor=factor))
     outcome = replace(response.outcome, verdict_flips_within_2_percent=factor is not None, flips_at_factor=factor)
     return replace(response, outcome=outcome, warnings=warnings)
 
 
-def flips_nearby(block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Unpack[RockOptions]) -> bool:
+def has_nearby_flip(
+    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
+) -> bool:
     """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
     return nearest_flip(block, motion, share=share, steps=steps, **options) is not None
 
 
 def nearest_flip(
-    block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Unpack[RockOptions]
+    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
 ) -> float | None:
     """Return the factor nearest to 1, of so many within `share` of it, whose verdict is another than that at 1.
 
@@ -189,12 +191,12 @@ def nearest_flip(
     >>> nearest_flip(Block(0.24, 0.8), pulses[0]) is None, nearest_flip(Block(0.24, 0.8), pulses[1])
     (True, 1.011)
     """
-    factors = _near(share, steps)
-    verdicts = overturns_at(rocker(block, motion, **options), motion, factors)
-    others = factors[verdicts != verdicts[steps // 2]]
-    return round(float(others[np.abs(others - 1.0).argmin()]), 12) if others.size else None
+    factors = _nearby_factors(share, steps)
+    verdicts = overturns_at(rock_params(block, motion, **options), motion, factors)
+    flipped_factors = factors[verdicts != verdicts[steps // 2]]
+    return round(float(flipped_factors[np.abs(flipped_factors - 1.0).argmin()]), 12) if flipped_factors.size else None
 
 
-def _near(share: float = NEAR, steps: int = NEAR_STEPS) -> FloatArray:
+def _nearby_factors(share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS) -> FloatArray:
     """Return the factors near 1 that are always looked at, (steps,)."""
     return np.linspace(1.0 - share, 1.0 + share, steps)

@@ -7,23 +7,23 @@ from typing import Unpack
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import samples
-from seisblock.bodies.ranges import Ranges
-from seisblock.limits import check_budget
+from seisblock.bodies.block_array import samples
+from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core import checks
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.models.rock.params import RockBatchParams, RockOptions, rock_batch_params
 from seisblock.records import Motion
-from seisblock.records.given import check_call
-from seisblock.solvers.rock.rocker import Rockers, RockOptions, rockers
+from seisblock.records._validation import validate_inputs
 from seisblock.studies.intervals import wilson_interval
-from seisblock.studies.rocking.verdicts import all_verdicts
-from seisblock.typing import FloatArray, Progress
-from seisblock.words import noted
+from seisblock.studies.rocking.verdicts import parallel_verdicts
 
-OWN_SCATTER = noted("this model's own scatter")
+MODEL_SCATTER = N_("this model's own scatter")
 """What a share of perturbed runs, and its interval, are of."""
 
-AMPLITUDE, TURN = 3, 4
+AMPLITUDE, AZIMUTH = 3, 4
 """Columns of the draws that change the shaking."""
 
 
@@ -50,12 +50,12 @@ class Spread:
     inset: float = 0.1
 
     def __post_init__(self) -> None:
-        checks.within("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.within("the spread of the slenderness, a share,", self.slenderness, "[0, 1)")
-        checks.within("the spread of the restitution, a share,", self.restitution, "[0, 1)")
-        checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
-        checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
-        checks.within("the spread of the inset, a share,", self.inset, "[0, 1)")
+        checks.in_interval("the spread of the size, a share,", self.size, "[0, 1)")
+        checks.in_interval("the spread of the slenderness, a share,", self.slenderness, "[0, 1)")
+        checks.in_interval("the spread of the restitution, a share,", self.restitution, "[0, 1)")
+        checks.in_interval("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
+        checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
+        checks.in_interval("the spread of the inset, a share,", self.inset, "[0, 1)")
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,8 @@ class Perturbation:
     probability_interval: tuple[float, float]
     spread: Spread
     seed: int
-    interval_of: str = OWN_SCATTER
-    ranges: Ranges | None = None
+    interval_of: str = MODEL_SCATTER
+    ranges: ParameterRanges | None = None
     no_answer: tuple[int, ...] = ()
 
 
@@ -115,7 +115,7 @@ def perturb(
     progress : callable
         Told the number of runs done and the number in all.
     options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`; the restitution is the
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`; the restitution is the
         middle value, that of each changed block's angular momentum when left out, and never above 1.
 
     Raises
@@ -132,17 +132,17 @@ def perturb(
     (20, 20)
     """
     checks.instance(spread, Spread)
-    checks.whole("the number of runs", runs, least=1)
-    check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
-    check_call(block, Block, motion)
-    turns = spread.azimuth_deg if motion.transverse.any() else 0.0
-    draws = draws_of(runs, checks.seed(seed))
-    some = changed_rockers(block, motion, spread, draws, **options)
-    factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(turns * draws[:, TURN])
+    checks.integer("the number of runs", runs, minimum=1)
+    check_limit(N_("versions"), runs, "SEISBLOCK_RUNS")
+    validate_inputs(block, Block, motion)
+    azimuth_width = spread.azimuth_deg if motion.transverse.any() else 0.0
+    draws = draw_samples(runs, checks.seed(seed))
+    params = perturbed_rock_params(block, motion, spread, draws, **options)
+    factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(azimuth_width * draws[:, AZIMUTH])
     # +x turned clockwise, seen from above
-    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
-    found = all_verdicts(some, motion, gains, progress=progress)
-    count, answered = int(found.overturned.sum()), int((~found.gave_up).sum())
+    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * params.vertical])
+    verdicts = parallel_verdicts(params, motion, gains, progress=progress)
+    count, answered = int(verdicts.overturned.sum()), int((~verdicts.gave_up).sum())
     return Perturbation(
         answered,
         count,
@@ -151,17 +151,19 @@ def perturb(
         spread,
         seed,
         ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
-        no_answer=tuple((np.flatnonzero(found.gave_up) + 1).tolist()),
+        no_answer=tuple((np.flatnonzero(verdicts.gave_up) + 1).tolist()),
     )
 
 
-def draws_of(runs: int, seed: int) -> FloatArray:
+def draw_samples(runs: int, seed: int) -> FloatArray:
     """Return the draws of so many samples of a block and its shaking, (runs, 7), uniform in [-1, 1]."""
     rng = np.random.default_rng(seed)
     return np.column_stack([rng.uniform(-1.0, 1.0, (runs, 5)), rng.uniform(-1.0, 1.0, runs), rng.uniform(-1.0, 1.0, runs)])
 
 
-def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]) -> Rockers:
+def perturbed_rock_params(
+    block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]
+) -> RockBatchParams:
     """Return the samples of a block as they rock, by draws of each parameter within its spread.
 
     Parameters
@@ -169,10 +171,10 @@ def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatAr
     block, motion, spread, options
         As of :func:`perturb`.
     draws : (m, 7) array
-        Of :func:`draws_of`.
+        Of :func:`draw_samples`.
     """
     size, slenderness, bounce, _, _, wear, _ = draws.T
     larger = 1.0 + spread.size * size
-    changed = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
-    some = rockers(changed, motion, **options)
-    return replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))
+    blocks = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
+    params = rock_batch_params(blocks, motion, **options)
+    return replace(params, restitutions=np.minimum(params.restitutions * (1.0 + spread.restitution * bounce[:, None]), 1.0))

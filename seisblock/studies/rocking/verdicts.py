@@ -8,24 +8,26 @@ from dataclasses import fields
 
 import numpy as np
 
+from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
+from seisblock.models.rock.free_rocking import raise_if_endless
+from seisblock.models.rock.params import RockBatchParams, RockParams
+from seisblock.models.rock.verdicts import Verdicts, rock_verdicts
 from seisblock.records import Motion
-from seisblock.solvers.rock.aftermath import refuse_endless
-from seisblock.solvers.rock.rocker import Rocker, Rockers
-from seisblock.solvers.rock.verdicts import Verdicts, rock_verdicts
-from seisblock.studies.runs import cores, in_batches
-from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
+from seisblock.studies.parallel import cpu_count, map_batches
 
-SAMPLES_AT_ONCE = 4_000_000
+CHUNK_SIZE = 4_000_000
 """Samples times runs that one thread takes before it says how far it is."""
 
 
-def all_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: ArrayLike, *, progress: Progress | None = None) -> Verdicts:
+def parallel_verdicts(
+    blocks: RockBatchParams | Sequence[RockParams], motion: Motion, gains: ArrayLike, *, progress: Progress | None = None
+) -> Verdicts:
     """Return the verdicts of several blocks, or of one under several gains.
 
     Parameters
     ----------
     blocks, motion, gains
-        As for :func:`~seisblock.solvers.rock.verdicts.rock_verdicts`.
+        As for :func:`~seisblock.models.rock.verdicts.rock_verdicts`.
     progress : callable
         Told the number of runs done and the number in all.
 
@@ -36,18 +38,18 @@ def all_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: Arra
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     runs = max(len(blocks), len(rows))
-    size = max(1, min(SAMPLES_AT_ONCE // motion.samples, math.ceil(runs / cores())))
+    size = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(runs / cpu_count())))
 
-    def some(part: slice) -> Verdicts:
+    def solve_batch(part: slice) -> Verdicts:
         return rock_verdicts(blocks[part] if len(blocks) > 1 else blocks, motion, rows[part] if len(rows) > 1 else rows)
 
-    found = list(in_batches(some, runs, size=size, progress=progress))
-    verdicts = Verdicts(*(np.concatenate([getattr(part, field.name) for part in found]) for field in fields(Verdicts)))
-    refuse_endless(bool(verdicts.gave_up.all()))
+    batches = list(map_batches(solve_batch, runs, size=size, progress=progress))
+    verdicts = Verdicts(*(np.concatenate([getattr(part, field.name) for part in batches]) for field in fields(Verdicts)))
+    raise_if_endless(bool(verdicts.gave_up.all()))
     return verdicts
 
 
-def overturns_at(block: Rocker, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:
+def overturns_at(block: RockParams, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:
     """Return whether a block overturns under a motion times each of some factors, (m,)."""
     scales: FloatArray = np.asarray(factors, dtype=np.float64)
-    return all_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).answered().overturned
+    return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).answered().overturned

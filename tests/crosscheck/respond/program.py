@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
 from tests.crosscheck.respond.cases import Case
 from tests.crosscheck.respond.contact import Body
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import respond_params
+from seisblock.models.respond.run import run
 from seisblock.records import Motion
-from seisblock.solvers.respond import make_setting
-from seisblock.solvers.respond.run import run
-from seisblock.units import STANDARD_GRAVITY as G
 
 
 def shaking(seed, peak, *, seconds=12.0, dt=0.01, vertical=0.6):
@@ -50,7 +50,7 @@ def sequence(outcome):
 
 def followed(block, motion, *, initial=None, settle_s=60.0, **options):
     """Return the setting and the run behind a response."""
-    setting = make_setting(block, **options)
+    setting = respond_params(block, **options)
     return setting, run(setting, motion, (1.0, 0.0, 1.0), initial, settle_s)
 
 

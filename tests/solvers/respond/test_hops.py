@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
-from seisblock.errors import SolverError
-from seisblock.present.text.respond import verdict
+from seisblock.core.errors import SolverError
+from seisblock.core.results import Status
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import constants, solve_respond
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
-from seisblock.results import Status
-from seisblock.solvers.respond import names, solve_respond
-from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.solve import make_setting
-from seisblock.units import STANDARD_GRAVITY as G
+from seisblock.report.text.respond import verdict
 from tests.solvers.respond.cases import SLENDER, followed, leaning, sequence, still
 
 
@@ -40,10 +40,10 @@ def test_a_ball_like_bounce_ends_when_the_series_says():
     e, fall = 0.5, 0.1
     setting, run = followed(Block(0.5, 0.5), still(), mu=0.5, restitution=e, initial=(0.0, 0.25 + fall, 0.0, 0.0, 0.0, 0.0))
     first = math.sqrt(2.0 * fall / G)
-    assert run.settles
-    rest = [change.time for change in run.changes if change.target in (names.REST, names.SETTLED)]
+    assert run.ends_at_rest
+    rest = [change.time for change in run.events if change.target in (constants.REST, constants.SETTLED)]
     assert rest[0] == pytest.approx(first * (1.0 + e) / (1.0 - e), abs=1e-9)
-    rates = [change.after[names.RATE_RIGHT] for change in run.changes if change.target == names.FLIGHT]
+    rates = [change.after[constants.RATE_RIGHT] for change in run.events if change.target == constants.FLIGHT]
     assert rates[-1] ** 2 / (2.0 * G) < 1e-22
     np.testing.assert_allclose(np.array(rates[2:]) / np.array(rates[1:-1]), e, rtol=1e-9)
     assert setting.small_rate < rates[-1]
@@ -53,11 +53,11 @@ def test_hops_on_one_corner_while_it_leans():
     """A leaning block that hops on its foot stops hopping and rocks on; the hops shrink by e to below 1e-20 m."""
     block = Block(0.5, 1.0)
     _, run = followed(block, still(3.0), mu=2.0, restitution=0.3, initial=_above(block, 0.2, 1e-3))
-    bounces = [change for change in run.changes if change.source == names.FLIGHT][:30]
-    gaps = [change.after[names.RATE_RIGHT] ** 2 / (2.0 * G) for change in bounces if change.target == names.FLIGHT]
+    bounces = [change for change in run.events if change.source == constants.FLIGHT][:30]
+    gaps = [change.after[constants.RATE_RIGHT] ** 2 / (2.0 * G) for change in bounces if change.target == constants.FLIGHT]
     assert min(gap for gap in gaps if gap > 0.0) < 1e-20
-    assert any(change.target == names.ROCK_RIGHT for change in bounces)
-    assert run.settles
+    assert any(change.target == constants.ROCK_RIGHT for change in bounces)
+    assert run.ends_at_rest
 
 
 def _above(block, theta, gap):
@@ -82,11 +82,11 @@ def test_hops_without_end_are_given_up():
 
 def test_runs_that_were_given_up_are_no_answers():
     """Among many, a run that was given up is none that stands: a study asks for answers alone."""
-    settings = [make_setting(SLENDER, **NEARLY_LOSSLESS), make_setting(SLENDER, mu=0.5)]
+    settings = [respond_params(SLENDER, **NEARLY_LOSSLESS), respond_params(SLENDER, mu=0.5)]
     fates = respond_many(settings, still(1.0), initial=leaning(SLENDER, 1e-8), settle_s=10.0)
     assert fates.gave_up.tolist() == [True, False]
     with pytest.raises(SolverError, match=r"1 of 2 runs were given up .* lower the restitution"):
-        fates.answered()
+        fates.require_complete()
 
 
 def test_strong_shaking_brings_an_object_to_rest_many_times():
@@ -97,7 +97,7 @@ def test_strong_shaking_brings_an_object_to_rest_many_times():
     assert outcome.impacts > 200_000
     assert outcome.settled
     assert outcome.end_s >= 30.0
-    fates = respond_many([make_setting(Block(0.5, 1.0), mu=0.8, restitution=0.7)], motion).answered()
+    fates = respond_many([respond_params(Block(0.5, 1.0), mu=0.8, restitution=0.7)], motion).require_complete()
     assert (fates.impacts[0], fates.end_s[0]) == (outcome.impacts, outcome.end_s)
 
 

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import sequence, steady
 
 

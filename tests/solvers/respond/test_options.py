@@ -7,11 +7,11 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.errors import BodyError, ComponentError, KindError, ParameterError
+from seisblock.core.errors import BodyError, ComponentError, KindError, ParameterError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.records.record import Component, Record
-from seisblock.solvers.respond import solve_respond
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import SLENDER, leaning, sequence, shaking, still
 
 BLOCK = Block(0.4, 1.0)

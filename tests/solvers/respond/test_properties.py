@@ -6,12 +6,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
-from seisblock.errors import SolverError
+from seisblock.core.errors import SolverError
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import constants, solve_respond
+from seisblock.models.respond.curves import energy
+from seisblock.models.respond.outcome import motion_modes
 from seisblock.records import Motion
-from seisblock.solvers.respond import names, solve_respond
-from seisblock.solvers.respond.curves import energy
-from seisblock.solvers.respond.outcome import motion_modes
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import followed, shaking
 
 BLOCKS = st.builds(
@@ -34,13 +34,13 @@ def test_energy_is_accounted_for(block, friction, kappa, ratio, seed, peak):
     )
     _, states, modes = run.table()
     modes = motion_modes(run, modes)
-    have = energy(setting.stand, setting.gravity, states, modes) / setting.stand.mass
-    spent = states[:, names.WORK] - states[:, names.FRICTION] - states[:, names.LOSS]
-    scale = have.max() + np.abs(states[:, names.WORK]).max()
+    have = energy(setting.rigid_body, setting.gravity, states, modes) / setting.rigid_body.mass
+    spent = states[:, constants.WORK] - states[:, constants.FRICTION] - states[:, constants.LOSS]
+    scale = have.max() + np.abs(states[:, constants.WORK]).max()
     np.testing.assert_allclose(have - have[0], spent, rtol=0.0, atol=1e-9 * scale)
-    assert (np.diff(states[:, names.FRICTION]) >= -1e-12 * scale).all()
-    assert (np.diff(states[:, names.LOSS]) >= -1e-12 * scale).all()
-    assert (np.diff(states[:, names.PATH]) >= -1e-15).all()
+    assert (np.diff(states[:, constants.FRICTION]) >= -1e-12 * scale).all()
+    assert (np.diff(states[:, constants.LOSS]) >= -1e-12 * scale).all()
+    assert (np.diff(states[:, constants.PATH]) >= -1e-15).all()
 
 
 @settings(max_examples=30, deadline=None)
@@ -95,12 +95,12 @@ def test_similarity(block, friction, seed, peak):
     large = Block(4 * block.width, 4 * block.height, centroid_offset=4 * block.centroid_offset, centroid_height=4 * block.centre)
     _, small_run = followed(block, motion, **friction)
     _, large_run = followed(large, slow, **friction, settle_s=120.0)
-    few = min(len(small_run.shaken.changes), len(large_run.shaken.changes), 12)
-    for mine, theirs in zip(small_run.shaken.changes[:few], large_run.shaken.changes[:few], strict=True):
+    few = min(len(small_run.record_part.events), len(large_run.record_part.events), 12)
+    for mine, theirs in zip(small_run.record_part.events[:few], large_run.record_part.events[:few], strict=True):
         assert (mine.source, mine.target) == (theirs.source, theirs.target)
         assert theirs.time == pytest.approx(2.0 * mine.time, rel=1e-7)
-        assert theirs.after[names.THETA] == pytest.approx(mine.after[names.THETA], rel=1e-5, abs=1e-9)
-        assert theirs.after[names.X] == pytest.approx(4.0 * mine.after[names.X], rel=1e-5, abs=1e-9)
+        assert theirs.after[constants.THETA] == pytest.approx(mine.after[constants.THETA], rel=1e-5, abs=1e-9)
+        assert theirs.after[constants.X] == pytest.approx(4.0 * mine.after[constants.X], rel=1e-5, abs=1e-9)
 
 
 @settings(max_examples=40, deadline=None)

@@ -6,9 +6,9 @@ import pytest
 from seisblock import solve_rock, solve_slide
 from seisblock.bodies.block import Block
 from seisblock.bodies.sliding_base import sliding_base
+from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from seisblock.solvers.respond import solve_respond
-from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import SLENDER, sequence, shaking, still
 
 

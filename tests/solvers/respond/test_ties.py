@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.solve import respond_params, solve_respond
+from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
-from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.solve import make_setting, solve_respond
-from seisblock.solvers.rock.verdicts import rock_verdict
 
 G = 9.80665
 PEAK = [0.0, 1.4557032986287874, 1.4915089727103732, 1.475750313468548, 0.0]
@@ -63,7 +63,7 @@ def test_no_run_is_given_up_where_a_peak_equals_a_threshold(
     if plateau and peak + 1 < push.size:
         push[peak + 1], up[peak + 1] = push[peak], up[peak]
     motion = Motion.from_arrays(push, 0.01, vertical=up)
-    setting = make_setting(block, mu=mu, mu_kinetic=kinetic * mu)
+    setting = respond_params(block, mu=mu, mu_kinetic=kinetic * mu)
     assert not respond_many([setting], motion).gave_up.any()
     assert rock_verdict(block, motion, vertical=vertical).max_rotation_ratio >= 0.0
 

@@ -1,0 +1,82 @@
+"""Samples of a pile with worn edges."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from seisblock.bodies.block_array import MOST_WORN
+from seisblock.bodies.edge_wear import MAX_SHARE
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.core.errors import BodyError
+
+CLOSE = 1e-3
+"""Tolerances this near are one."""
+
+
+def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
+    """Return a sample of a pile whose insets differ from their own by one share of themselves; sharp stones stay sharp.
+
+    Parameters
+    ----------
+    body : Pile
+    tolerance : float, 1
+        Half width of the insets, a share of each; less where hardly a fifth of what a stone stands on would be left.
+    draw : float
+        In [-1, 1].
+
+    Examples
+    --------
+    >>> from seisblock.bodies.pile.toml import load_pile
+    >>> pile = load_pile("lantern")
+    >>> [round(worn_to(worn, 0.1, draw).stones[0].inset.share, 3) for worn in (pile, pile.with_wear(0.2)) for draw in (-1.0, 1.0)]
+    [0.0, 0.0, 0.18, 0.22]
+    """
+    if tolerance == 0.0:
+        return body
+    return replace(body, stones=tuple(_worn(stone, tolerance, draw) for stone in body.stones))
+
+
+def _worn(stone: PileStone, tolerance: float, draw: float) -> PileStone:
+    """Return one stone of a sample; an inset that is a length stays one."""
+    own = worn_share(stone)
+    if own == 0.0:
+        return stone
+    factor = 1.0 + min(tolerance, MOST_WORN * (MAX_SHARE - own) / own) * draw
+    return replace(stone, inset=replace(stone.inset, length_m=factor * stone.inset.length_m, share=factor * stone.inset.share))
+
+
+def worn_share(stone: PileStone) -> float:
+    """Return how far in from the sides of its base a stone turns, a share of the side of which that is more."""
+    along, across = stone.insets()
+    return max(along / stone.width, across / stone.depth)
+
+
+def widest_wear(body: Pile, tolerance: float) -> float:
+    """Return the half width of the insets of the samples of a pile, a share of each.
+
+    Less than asked where the pile would not stand at rest, its load being near an edge: what stands is not worn like that.
+
+    Examples
+    --------
+    >>> lower, upper = PileStone("lower", 0.6, 0.6, 0.2), PileStone("upper", 0.4, 0.4, 0.9, offset=(0.24, 0.0), on="lower")
+    >>> one, two = Pile("one", (lower,)).with_wear(0.1), Pile("two", (lower, upper)).with_wear(0.15)
+    >>> widest_wear(one, 0.9), round(widest_wear(two, 0.9), 2)
+    (0.9, 0.44)
+    """
+    if _stands(body, tolerance / MOST_WORN):
+        return tolerance
+    low, high = 0.0, tolerance / MOST_WORN
+    while high - low > CLOSE:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _stands(body, middle) else (low, middle)
+    return min(tolerance, MOST_WORN * low)
+
+
+def _stands(body: Pile, tolerance: float) -> bool:
+    """Return whether the most worn sample of a pile stands at rest."""
+    try:
+        worn_to(body, tolerance, 1.0)
+    except BodyError:
+        return False
+    return True

@@ -1,0 +1,131 @@
+"""How a scanned body rests: the plane that carries it, and the polygon of the points that touch it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.scan.polygon import convex_hull, interior_distance
+from seisblock.core.errors import BodyError
+from seisblock.core.typing import FloatArray
+
+MAX_TILT = math.radians(10.0)
+"""A scan that would have to be turned further than this, so that it rests, does not stand as it was given."""
+
+MAX_ITERATIONS = 60
+"""Planes that are tried at most; each meets the points better than the one before."""
+
+PLANE_TOLERANCE = 1e-9
+"""Share of a body's size below which a point lies on a plane."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestingPose:
+    """A body on level ground.
+
+    Parameters
+    ----------
+    rotation : (3, 3) array
+        What turned the scan so that it rests.
+    tilt : float, rad
+        By how much.
+    ground_height : float, m
+        Height of the ground, along the scan's z after the turn.
+    base : (n, 2) array, m
+        The corners that carry, counter-clockwise.
+    touching : int
+        Vertices within the tolerance of the ground.
+    """
+
+    rotation: FloatArray
+    tilt: float
+    ground_height: float
+    base: FloatArray
+    touching: int
+
+
+def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: float, source: str) -> RestingPose:
+    """Return how a body rests on level ground, near the position in which it was scanned.
+
+    It rests on the plane below all of its points that meets the vertical through its centre of gravity highest: the side of its convex
+    hull below the centre (derived here). What carries are the points within a tolerance of that plane.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array, m
+        z upwards.
+    centre : (3,) array, m
+        Centre of gravity.
+    tolerance : float, m
+        How far above the ground a point may lie that still carries.
+    source : str
+        For messages.
+
+    Raises
+    ------
+    BodyError
+        If it rests on a point or on an edge, or its centre of gravity does not lie above what carries it.
+
+    Examples
+    --------
+    >>> corners = np.array([(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 2.0)])
+    >>> found = find_resting_pose(corners, corners.mean(axis=0), tolerance=0.01, source="a box")
+    >>> found.tilt, found.touching
+    (0.0, 4)
+    """
+    turn, tilt = _levelling_rotation(_support_plane_slopes(vertices, centre))
+    height = vertices @ turn[2]
+    floor = float(height.min())
+    in_contact = height - floor <= tolerance
+    base = convex_hull((vertices[in_contact] @ turn.T)[:, :2])
+    if not interior_distance(base, (turn @ centre)[:2]) > 0.0:
+        raise BodyError(
+            "{source} rests on a point or an edge: its {count} points within {tolerance:.3g} m of the ground do not lie around its centre "
+            "of gravity; turn it (`up`), widen `tolerance`, or cut its base level",
+            source=source,
+            count=int(in_contact.sum()),
+            tolerance=tolerance,
+        )
+    return RestingPose(turn, tilt, floor, base, int(in_contact.sum()))
+
+
+def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArray:
+    """Return the slopes along x and y of the plane on which a body rests, within what it may be turned.
+
+    A plane t + p x + q y below every point, highest at the centre: a linear programme with as many conditions as there are points, of
+    which few matter; those that the last plane breaks are added until none is.
+    """
+    from scipy.optimize import linprog
+
+    size = float(np.ptp(vertices, axis=0).max())
+    points = (vertices - centre) / size
+    max_slope = math.tan(MAX_TILT)
+    active_rows = {int(np.argmin(points @ (p, q, 1.0))) for p in (-max_slope, 0.0, max_slope) for q in (-max_slope, 0.0, max_slope)}
+    bounds = [(-max_slope, max_slope), (-max_slope, max_slope), (None, None)]
+    solution = np.zeros(3)
+    for _ in range(MAX_ITERATIONS):
+        rows = points[sorted(active_rows)]
+        conditions = np.column_stack([rows[:, :2], np.ones(len(rows))])
+        solution = linprog((0.0, 0.0, -1.0), A_ub=conditions, b_ub=rows[:, 2], bounds=bounds, method="highs").x
+        clearance = points[:, 2] - points[:, :2] @ solution[:2] - solution[2]
+        lowest = np.argpartition(clearance, min(8, clearance.size - 1))[:8]
+        violated_rows = {int(index) for index in lowest if clearance[index] < -PLANE_TOLERANCE} - active_rows
+        if not violated_rows:
+            break
+        active_rows |= violated_rows
+    return solution[:2]
+
+
+def _levelling_rotation(slopes: FloatArray) -> tuple[FloatArray, float]:
+    """Return the least turn that makes a plane of these slopes level, and its angle, rad."""
+    normal_vector = np.array([-slopes[0], -slopes[1], 1.0])
+    normal = normal_vector / np.linalg.norm(normal_vector)
+    tilt = math.atan2(math.hypot(normal[0], normal[1]), normal[2])
+    if tilt < PLANE_TOLERANCE:
+        return np.eye(3), 0.0
+    from scipy.spatial.transform import Rotation
+
+    axis = np.cross(normal, (0.0, 0.0, 1.0))
+    return Rotation.from_rotvec(tilt * axis / np.linalg.norm(axis)).as_matrix(), tilt

@@ -1,0 +1,77 @@
+"""A block on corner springs from what a user says of it, complete and without contradiction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
+from seisblock.core.errors import BodyError
+
+PAPER_BETA = 0.707
+"""Horizontal over vertical frequency in figs. 6, 7 and 9 to 11 of [Okumura1987]_: horizontal springs half as stiff."""
+
+PAPER_DAMPING = 0.05
+"""Damping ratio in figs. 7 to 11 of [Okumura1987]_."""
+
+
+def spring_block(
+    *,
+    width: float | None = None,
+    depth: float | None = None,
+    height: float | None = None,
+    mass: float | None = None,
+    stiffness: Sequence[float] | None = None,
+    frequency_vertical: float | None = None,
+    beta: float | None = None,
+    damping: float | None = None,
+) -> SpringBlock:
+    """Return the block that sizes, and either stiffnesses or frequencies, describe.
+
+    Parameters
+    ----------
+    width, depth, height : float, m
+        Depth left out is the width.
+    mass : float, kg
+        Required with `stiffness`; else 1000 kg when left out, and only forces depend on it.
+    stiffness : (kx, ky, kz), N/m per corner
+        Instead of `frequency_vertical` and `beta`.
+    frequency_vertical : float, Hz
+    beta : float
+        Horizontal over vertical frequency, 0.707 when left out.
+    damping : float
+        0.05 when left out.
+
+    Raises
+    ------
+    BodyError
+        If something is missing, contradicts another, or is not possible.
+
+    Examples
+    --------
+    >>> spring_block(width=1.0, height=2.0, mass=800.0, stiffness=(1e4, 1e4, 2e4)).depth
+    1.0
+    """
+    if width is None or height is None:
+        missing_name = "`width`" if width is None else "`height`"
+        raise BodyError("{missing} is missing: give `width` and `height`, for example 1.2 and 3 m", missing=missing_name)
+    zeta = PAPER_DAMPING if damping is None else damping
+    if stiffness is not None:
+        if frequency_vertical is not None or beta is not None:
+            raise BodyError("`stiffness` says all of the springs: leave `frequency_vertical` and `beta` out")
+        if mass is None:
+            raise BodyError("`stiffness` needs `mass`, kg, to say how fast the block moves on its springs")
+        if len(stiffness) != 3:
+            raise BodyError("`stiffness` takes three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
+        kx, ky, kz = stiffness
+        return SpringBlock(width, width if depth is None else depth, height, mass, (kx, ky, kz), zeta)
+    if frequency_vertical is None:
+        raise BodyError("the springs have no stiffness: give `frequency_vertical` in Hz, or `mass` and `stiffness` kx,ky,kz in N/m")
+    return SpringBlock.from_frequency(
+        width,
+        width if depth is None else depth,
+        height,
+        frequency_vertical=frequency_vertical,
+        beta=PAPER_BETA if beta is None else beta,
+        mass=REFERENCE_MASS if mass is None else mass,
+        damping=zeta,
+    )

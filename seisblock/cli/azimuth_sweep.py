@@ -1,0 +1,56 @@
+"""``--component all-azimuths``: every direction of a record, and the worst of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from seisblock.cli.console import info
+from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.options import Source
+from seisblock.records.motion import ALL_AZIMUTHS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seisblock.core.results import Response
+    from seisblock.records import Motion, Record
+
+
+def is_azimuth_sweep(source: Source) -> bool:
+    """Return whether every direction is asked for."""
+    return [name.lower() for name in source.component] == [ALL_AZIMUTHS]
+
+
+def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> Iterator[tuple[Motion, Sequence[Any]]]:
+    """Yield each motion asked for; the worst direction, with all of them, where they are all asked for.
+
+    Parameters
+    ----------
+    source : Source
+    solve : callable
+        Returns what became of the body in each direction of a record, the worst first.
+    """
+    from seisblock.records import motion_of
+
+    if not is_azimuth_sweep(source):
+        yield from ((motion, ()) for record in load_records(source) for motion in selected_motions(record, source))
+        return
+    for record in load_records(replace(source, component=())):
+        results = solve(record)
+        info("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
+        yield motion_of(record, f"{results[0].azimuth_deg:g}"), results
+
+
+def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
+    """Return what draws the directions, None where they were not looked in."""
+    if not any("directions" in extra for extra in extras):
+        return None
+
+    def draw() -> Figure:
+        from seisblock.report.figures.azimuths import figure
+
+        return figure(responses, [extra["directions"] for extra in extras], gal=gal)
+
+    return draw

@@ -1,0 +1,64 @@
+"""The one body that options describe, as a list of bodies would hold it: what each solver of a batch takes of it is its own affair."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from seisblock.bodies.table import BodySpec
+from seisblock.bodies.toml import read_body_toml
+from seisblock.cli.bodies.block import check_side, refuse_kind
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import lazy_gettext
+
+SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "kind")
+"""Options that describe a body which has no name."""
+
+OWN_OPTIONS = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
+"""Options of a body that one solver has and another has not; what is asked for goes before what the body's file says."""
+
+
+def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
+    """Return the one body that sizes or a name describe.
+
+    Parameters
+    ----------
+    params : mapping
+        ``block`` and ``side``, or sizes, SI, and what else is to hold of that body; None where not given.
+    solver : str
+        ``slide`` needs neither.
+
+    Raises
+    ------
+    ParameterError
+        If sizes and a named body are mixed, or something needed is missing.
+
+    Examples
+    --------
+    >>> make_body_spec({"width": 0.3, "height": 1.2}, "rock").name
+    'block 0.3 x 1.2 m'
+    """
+    from seisblock.studies.batch.models import batch_model
+
+    names = (*SIZES, *(name for name in OWN_OPTIONS if name in batch_model(solver).columns))
+    values = {key: params[key] for key in names if params.get(key) is not None}
+    if params.get("block"):
+        sizes = [key for key in values if key not in ("inset", "kind") and key in SIZES]
+        if sizes:
+            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+        refuse_kind(params)
+        side = {} if params.get("side") is None else {"side": params["side"]}
+        table = read_body_toml(params["block"])
+        check_side(params, table.get("kind"))
+        return BodySpec(Path(params["block"]).stem, {**values, **side}, table, params["block"])
+    check_side(params, None)
+    if solver == "slide":
+        return BodySpec(lazy_gettext("object"), values, None, lazy_gettext("the object"))
+    missing = [f"--{key}" for key in ("width", "height") if key not in values]
+    if missing:
+        raise ParameterError(
+            "which body? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+        )
+    name = lazy_gettext("block {width:g} x {height:g} m", width=values["width"], height=values["height"])
+    return BodySpec(name, values, None, lazy_gettext("the block"))

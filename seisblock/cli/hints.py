@@ -1,0 +1,92 @@
+"""Where `respond` answers for the same body under the same record: the command line to type, said where a model's assumption ends."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.cli.options import Source
+from seisblock.core.i18n import gettext
+from seisblock.report.text.tables import styled_line
+
+DEPTH_PLACEHOLDER = "DEPTH"
+"""What stands for a depth that only the user knows."""
+
+
+def respond_command(source: Source, *words: str) -> str:
+    """Return the command line of `respond` for what was asked of the record, with some more words."""
+    values = {
+        "--scale": source.scale,
+        "--target-pga": source.target_pga,
+        "--highpass": source.highpass,
+        "--floor": source.floor and source.floor.spec,
+        "--format": source.format,
+        "--units": source.units,
+        "--dt": source.dt,
+        "--station": source.station,
+        "--level": source.level,
+    }
+    options = [word for name, value in values.items() if value is not None for word in (name, str(value))]
+    options += [word for window in source.window for word in ("--window", ":".join("" if end is None else f"{end:g}" for end in window))]
+    options += [] if source.demean is None else ["--demean" if source.demean else "--no-demean"]
+    options += ["--strict"] * source.strict
+    return shlex.join(
+        ["seisblock", "respond", *source.record, *(w for c in source.component for w in ("--component", c)), *options, *words]
+    )
+
+
+def _size_options(block: Block) -> list[str]:
+    """Return the options that give a block's sizes; what follows from others is left out."""
+    words = ["--width", f"{block.width:.6g}", "--height", f"{block.height:.6g}"]
+    if block.centroid_height is not None:
+        words += ["--centroid-height", f"{block.centroid_height:.6g}"]
+    if block.centroid_offset:
+        words += ["--centroid-offset", f"{block.centroid_offset:.6g}"]
+    if block.mass is not None:
+        words += ["--mass", f"{block.mass:.6g}"]
+    if block.centroid_inertia is not None:
+        words += ["--inertia", f"{block.centroid_inertia:.6g}"]
+    return [*words, "--inset", f"{block.inset / block.width:.6g}"] if block.inset else words
+
+
+def jump_hint(
+    source: Source, params: Mapping[str, Any], default: str, block: TwoLayerBlock, contact: Contact, tenon: float | None
+) -> Iterator[Any]:
+    """Yield where the jump's body is followed with friction, tenons and all motions together."""
+    by_name = params.get("width") is None
+    body = (
+        ["--block", params.get("block") or default, "--side", params.get("side") or "short"] if by_name else _size_options(block.as_block())
+    )
+    words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
+    command = respond_command(source, *words, "--tenon", DEPTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
+    if tenon is None:
+        text = gettext(
+            "respond follows the same body through all of its motions, once the depth of its tenons is known: {typed}", typed=command
+        )
+    else:
+        text = gettext("respond follows the same body through all of its motions, with its tenons: {typed}", typed=command)
+    yield styled_line(text)
+
+
+def rock_hint(source: Source, params: Mapping[str, Any], block: Block, mu: float | None, *, suffices: bool) -> Iterator[Any]:
+    """Yield where a block that friction does not hold is followed as it slides and rocks."""
+    if mu is not None and not suffices:
+        side = ["--side", params["side"]] if params.get("side") else []
+        body = ["--block", params["block"], *side] if params.get("block") else _size_options(block)
+        yield styled_line(gettext("respond lets it slide and rock: {typed}", typed=respond_command(source, *body, "--mu", f"{mu:g}")))
+
+
+def slide_hint(source: Source, mu: float, mu_kinetic: float | None, *, slips: bool) -> Iterator[Any]:
+    """Yield which bodies would rock instead of sliding, and where they are followed."""
+    if slips:
+        kinetic = [] if mu_kinetic is None else ["--mu-kinetic", f"{mu_kinetic:g}"]
+        typed = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
+        text = gettext(
+            "This holds for what does not rock: b/h, half the base over the height of the centre, above {mu:g}. Others: {typed}",
+            mu=mu,
+            typed=typed,
+        )
+        yield styled_line(text)

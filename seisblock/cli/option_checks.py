@@ -1,0 +1,50 @@
+"""Options that say nothing in a call are refused: whoever gives one believes that it acts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import fields
+
+import click
+from click.core import ParameterSource
+
+from seisblock.cli.options import Source
+from seisblock.core.i18n import gettext
+
+RECORD_OPTIONS = tuple(field.name for field in fields(Source) if field.name != "record")
+"""What is said of a record beside its name."""
+
+
+def given_flags(names: Iterable[str]) -> list[str]:
+    """Return those of the options of the command under way, by their parameters, that were asked for, as they are written."""
+    context = click.get_current_context()
+    flags = {parameter.name: parameter.opts[0] for parameter in context.command.params}
+    return [flags[name] for name in names if name in flags and context.get_parameter_source(name) is not ParameterSource.DEFAULT]
+
+
+def reject_with(condition: str, names: Iterable[str]) -> None:
+    """Refuse options, by their parameters, that have nothing to do beside what was chosen.
+
+    Raises
+    ------
+    click.UsageError
+        If one of them was asked for, whatever its value.
+    """
+    if flags := given_flags(names):
+        raise click.UsageError(
+            gettext("beside {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
+        )
+
+
+def reject_without(condition: str, names: Iterable[str]) -> None:
+    """Refuse options, by their parameters, that have nothing to do without what was not chosen.
+
+    Raises
+    ------
+    click.UsageError
+        If one of them was asked for, whatever its value.
+    """
+    if flags := given_flags(names):
+        raise click.UsageError(
+            gettext("without {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
+        )

@@ -1,0 +1,229 @@
+"""How ``seisblock batch`` goes about it: what is finished is kept in a journal, and the table is written from that."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from itertools import groupby, tee
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seisblock import __version__
+from seisblock.bodies.table import read_bodies
+from seisblock.cli.console import info, print_result, print_tables, warning
+from seisblock.cli.load_records import check_single_window, make_preparation
+from seisblock.cli.options import Source
+from seisblock.cli.progress import progress
+from seisblock.core.errors import OutputError, ParameterError, RecordError, SeisblockError
+from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
+from seisblock.readers import DEFAULT_SAMPLE
+from seisblock.readers.discover import expand_names, group_files
+from seisblock.readers.dispatch import ReadOptions
+from seisblock.report.io.atomic import check_target, read_table, write_table
+from seisblock.report.io.parquet import check_parquet, read_parquet, write_parquet
+from seisblock.report.json.batch import document
+from seisblock.report.json.encode import to_json
+from seisblock.report.text import batch as shown
+from seisblock.studies.batch.cluster import connect
+from seisblock.studies.batch.run import iter_record_rows, make_plan
+from seisblock.studies.batch.table import REASON, Row, batch_columns, row_cells
+from seisblock.studies.batch.tally import Tally
+from seisblock.studies.batch.task import Plan, record_rows
+from seisblock.studies.batch.worst_azimuth import is_all_azimuths
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+CSV, PARQUET = ".csv", ".parquet"
+
+
+@dataclass(frozen=True)
+class BatchRequest:
+    """What a batch is of, as the command line says it."""
+
+    bodies: tuple[str, ...]
+    solver: str
+    runs: int
+    seed: int
+    options: Mapping[str, Any]
+
+
+def run_batch(
+    source: Source,
+    request: BatchRequest,
+    out: Path,
+    *,
+    resume: bool,
+    force: bool,
+    workers: int | None,
+    cluster: str | None,
+    as_json: bool,
+) -> None:
+    """Run a batch, write its table, and say what it comes to."""
+    _check_target(out, resume=resume, force=force)
+    plan, notes = _make_plan(source, request)
+    names = source.record or (_default_record(),)
+    with progress("finding the records"):
+        files = expand_names(names, plan.read_options)
+        keys = list(dict.fromkeys(recording.key for recording in group_files(files, plan.read_options)))
+    _check_files(out)  # once more: now it is known what was read
+    tally, columns, reasons = Tally(plan.model), _columns(plan), dict[str, str]()
+    if resume and out.exists() and not checkpoint_path(out).exists():
+        for rows in _finished_rows(out, columns, plan, files, {path for path, _ in keys}):
+            tally.add_rows(rows)
+        info("{path} is whole: nothing is left to do; --force makes it anew", path=out)
+    else:
+        with ExitStack() as stack:
+            client = None if cluster is None else stack.enter_context(connect(cluster))
+            journal = stack.enter_context(_open_checkpoint(checkpoint_path(out), plan, resume=resume))
+            reasons = _solve(files, plan, journal, keys, workers=workers, client=client)
+            rows_of_all = (row for rows in map(journal.rows, keys) for row in tally.add_rows(rows))
+            has_answers = any(not row.get(REASON) for key in keys for row in journal.rows(key))
+            if has_answers:
+                write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
+                with progress("writing {file}", file=str(out)):
+                    write(out, columns, (row_cells(columns, row) for row in rows_of_all))
+            else:
+                deque(rows_of_all, maxlen=0)  # counted alone: a table of failures would stand in the way of the line put right
+            journal.remove()
+        if has_answers:
+            info("wrote {path}", path=out)
+    if as_json:
+        print_result(to_json(document(tally, plan, str(out), notes)))
+    else:
+        print_tables(shown.tables(tally, reasons))
+    if not tally.answers:
+        if out.exists():
+            raise RecordError("no row has an answer: {path} is left as it was", path=out)
+        raise RecordError("no row has an answer: {path} is not written", path=out)
+
+
+def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
+    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies, solver and options.
+
+    What was done to the records a table does not say: the record under which most happened is followed anew.
+    """
+    rows = list((read_parquet if out.suffix.lower() == PARQUET else read_table)(out, columns))
+    tables: dict[str, list[Row]] = {path: list(group) for path, group in groupby(rows, key=lambda row: row["path"])}
+    matches = tables.keys() == paths or (plan.read_options.station is not None and tables.keys() <= paths)
+    if matches and tables:
+        sample_path = max(tables, key=lambda path: sum(_row_information(row, plan) for row in tables[path]))
+        recording = next(candidate for candidate in group_files(files, plan.read_options) if candidate.path == sample_path)
+        recomputed = [row_cells(columns, row) for row in record_rows(recording, plan)]
+        matches = _cell_texts(recomputed) == _cell_texts([row_cells(columns, row) for row in tables[sample_path]])
+    if not matches:
+        raise OutputError("{path} is whole, and of other records, bodies, options or another solver: --force makes it anew", path=out)
+    yield from tables.values()
+
+
+def _row_information(row: Row, plan: Plan) -> int:
+    """Return how much a row tells: nothing without an answer, more where what is asked about happened."""
+    return 0 if row.get(REASON) else 1 + bool(row[plan.model.happens])
+
+
+def _cell_texts(rows: Iterable[Sequence[Any]]) -> list[list[str]]:
+    """Return rows as their cells are written."""
+    return [["" if cell is None else str(cell) for cell in row] for row in rows]
+
+
+def _solve(
+    files: Sequence[str], plan: Plan, journal: Checkpoint, keys: Sequence[Key], *, workers: int | None, client: Client | None
+) -> dict[str, str]:
+    """Follow the bodies through the records that are missing, and write each record's rows down as soon as they are there.
+
+    The journal keeps reasons in English; what is returned can be told in any language.
+    """
+    missing = {key for key in keys if key not in journal.places}
+    if len(missing) < len(keys):
+        info("{done} of {count} records are finished", done=len(keys) - len(missing), count=len(keys))
+    tasks, submitted = tee(
+        recording for recording in (group_files(files, plan.read_options) if missing else ()) if recording.key in missing
+    )
+    reasons: dict[str, str] = {}
+    with progress("records") as advance:
+        results = iter_record_rows(tasks, plan, total=len(missing), workers=workers, client=client, progress=advance)
+        try:
+            for rows, recording in zip(results, submitted, strict=False):
+                journal.append(recording.key, rows)
+                reasons |= {str(row[REASON]): row[REASON] for row in rows if row.get(REASON)}
+        except (KeyboardInterrupt, SeisblockError):
+            info("{done} of {count} records are finished and kept: --resume goes on", done=len(journal.places), count=len(keys))
+            raise
+    return reasons
+
+
+def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, ...]]:
+    """Return what is done with each record, and say what is to be known of it."""
+    check_single_window(source)
+    components = tuple(name for name in source.component if name.lower() != "all")
+    plan, notes = make_plan(
+        read_bodies(request.bodies),
+        request.solver,
+        components=components,
+        preparation=make_preparation(source, () if is_all_azimuths(components) else components),
+        read_options=ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level),
+        runs=request.runs,
+        seed=request.seed,
+        strict=source.strict,
+        options={key: value for key, value in request.options.items() if value is not None},
+    )
+    for note in notes:
+        warning(note)
+    return plan, notes
+
+
+def _columns(plan: Plan) -> dict[str, type]:
+    """Return the columns of the table."""
+    return batch_columns(plan.model, runs=plan.runs, all_azimuths=is_all_azimuths(plan.components))
+
+
+def _default_record() -> str:
+    """Return the bundled record that stands for none, and say so."""
+    info("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
+    return DEFAULT_SAMPLE
+
+
+def _check_target(out: Path, *, resume: bool, force: bool) -> None:
+    """Refuse, before anything is read, a table that may not be written there."""
+    if resume and force:
+        raise ParameterError("give either --resume or --force, not both")
+    if out.suffix.lower() not in (CSV, PARQUET):
+        raise OutputError("{path}: a batch writes .csv or .parquet", path=out)
+    if out.suffix.lower() == PARQUET:
+        check_parquet()
+    journal = checkpoint_path(out)
+    _check_files(out)
+    if resume and any(path.exists() and not path.is_file() for path in (out, journal)):
+        raise OutputError("{path} is no table that was begun: leave --resume out", path=out)
+    if not (resume or force) and out.exists():
+        raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
+    if not (resume or force) and journal.exists():
+        raise OutputError("{path} was interrupted: --resume goes on, --force begins anew", path=out)
+
+
+def _check_files(out: Path) -> None:
+    """Refuse a table, or a journal beside it, that may not be written there."""
+    check_target(out)
+    check_target(checkpoint_path(out))
+
+
+@contextmanager
+def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkpoint]:
+    """Give the journal of a batch, which no other run writes meanwhile: the one that was interrupted, or a new one."""
+    identity = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
+    reading = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
+    purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + reading).encode(errors="surrogatepass")).hexdigest()}
+    is_resumed = resume and path.exists()
+    with lock_checkpoint(path):
+        journal = Checkpoint.resume(path, purpose) if is_resumed else Checkpoint.begin(path, purpose)
+        if journal.damaged:
+            warning("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
+        yield journal
+
+
+def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
+    """Write rows as CSV."""
+    write_table(path, list(columns), rows)

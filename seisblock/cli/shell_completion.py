@@ -1,0 +1,105 @@
+"""What a shell offers while a command line is typed: components, bundled records, bodies and cemeteries, stones, pairs of surfaces."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import click
+from click.shell_completion import CompletionItem
+
+from seisblock.records.motion import ALL_AZIMUTHS
+
+Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+
+COMPONENT_NAMES = ("NS", "EW", "UD", "all")
+"""What most records have."""
+
+SWEEP_COMMANDS = {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
+"""Commands that look in every direction when they are asked to."""
+
+
+def complete_components(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer components, after those that a list already has."""
+    prefix, _, partial = incomplete.rpartition(",")
+    names = [*COMPONENT_NAMES, *([ALL_AZIMUTHS] if ctx.info_name in SWEEP_COMMANDS else [])]
+    return _completion_items((f"{prefix}," if prefix else "") + name for name in names if name.lower().startswith(partial.lower()))
+
+
+def complete_records(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer files, and the bundled records once a letter is typed."""
+    return [*_completion_items(_bundled_names(incomplete or "?", "record")), CompletionItem(incomplete, type="file")]
+
+
+def complete_scans(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled scans, and files."""
+    return [*_completion_items(_bundled_names(incomplete, "scan")), CompletionItem(incomplete, type="file")]
+
+
+def complete_samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled files."""
+    return _completion_items(_bundled_names(incomplete))
+
+
+def complete_cemeteries(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled cemeteries, and files."""
+    return [*_completion_items(_bundled_names(incomplete, "cemetery")), CompletionItem(incomplete, type="file")]
+
+
+def complete_outcomes(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled tables of outcomes, and files."""
+    return [*_completion_items(_bundled_names(incomplete, "outcomes")), CompletionItem(incomplete, type="file")]
+
+
+def complete_hazards(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled tables of hazard, and files."""
+    return [*_completion_items(_bundled_names(incomplete, "hazard")), CompletionItem(incomplete, type="file")]
+
+
+def complete_bodies(*kinds: str) -> Completion:
+    """Return what offers the bundled bodies of some kinds (all of them when left out), and files."""
+
+    def offer(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Offer names without their suffix, as one types them."""
+        names = (name.removesuffix(".toml") for name in _bundled_names(incomplete, "body"))
+        fitting = (name for name in names if not kinds or _body_table(name).get("kind") in kinds)
+        return [*_completion_items(fitting), CompletionItem(incomplete, type="file")]
+
+    return offer
+
+
+def complete_stones(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the stones of the pile that the line names."""
+    stone_tables = _body_table(str(ctx.params.get("stones") or "wagata")).get("stone", [])
+    return _completion_items(name for stone in stone_tables if (name := str(stone.get("name", ""))).startswith(incomplete))
+
+
+def complete_surfaces(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the pairs of surfaces whose friction is known."""
+    from seisblock.bodies.friction import SURFACES
+
+    return _completion_items(pair for pair in SURFACES if pair.startswith(incomplete))
+
+
+def _bundled_names(incomplete: str, *kinds: str) -> Iterator[str]:
+    """Yield the names of the bundled files of some kinds."""
+    from seisblock.samples import list_samples
+
+    return (sample.name for sample in list_samples() if sample.name.startswith(incomplete) and (not kinds or sample.kind in kinds))
+
+
+def _body_table(name: str) -> dict[str, Any]:
+    """Return what describes a body; empty where it cannot be read: a shell is not told of errors."""
+    from seisblock.bodies.toml import read_body_toml
+    from seisblock.core.errors import SeisblockError
+
+    try:
+        return read_body_toml(name)
+    except (SeisblockError, tomllib.TOMLDecodeError):
+        return {}
+
+
+def _completion_items(names: Iterable[str]) -> list[CompletionItem]:
+    """Return names as a shell takes them."""
+    return [CompletionItem(name) for name in names]

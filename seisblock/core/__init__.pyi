@@ -1,0 +1,3 @@
+from . import errors, results, units
+
+__all__ = ["errors", "results", "units"]

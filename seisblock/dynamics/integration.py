@@ -1,0 +1,221 @@
+"""Following a model through a motion gives a trajectory.
+
+Room for the path is taken only where the motion is short. A long one is followed stretch by stretch, and its path, where somebody asks for
+it, by following it again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+
+from seisblock.core.errors import SolverError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.limits import check_event_memory
+from seisblock.core.status import FAILURES, PAUSED, TOO_MANY_EVENTS
+from seisblock.core.typing import ArrayLike, FloatArray, IntArray
+from seisblock.dynamics import hybrid
+from seisblock.dynamics.buffers import (
+    MODE,
+    N_EVENTS,
+    N_FLUSHED,
+    SAMPLE,
+    SAMPLES_AFTER,
+    SEGMENT_START,
+    STEPS_LEFT,
+    TAU,
+    Forcing,
+    Output,
+    State,
+)
+from seisblock.dynamics.cancellation import check_cancelled, report_progress
+from seisblock.dynamics.events import BEGINNING, EVENT_SAMPLE, EventLog, Instant, allocate_events, bytes_per_event, concatenate_events
+from seisblock.dynamics.model import Model
+from seisblock.dynamics.trajectory import Path, Trajectory
+from seisblock.records.motion import Motion, MotionSegment
+
+STEPS_PER_SLICE = 1 << 16
+"""Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
+
+_INITIAL_EVENT_CAPACITY = 1 << 12
+_MAX_EVENT_CAPACITY = 1 << 18
+"""Events for which the tables have room, half of them in a single interval between two samples: at first, and at the most."""
+
+_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE = 1 << 24, 4
+"""Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
+
+RowArray = TypeVar("RowArray", FloatArray, IntArray)
+
+_NO_TRANSITION_COUNTS, _NO_DWELL_TIMES = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
+
+
+def integrate(
+    model: Model,
+    motion: Motion,
+    parameters: ArrayLike,
+    initial: ArrayLike,
+    mode: int,
+    *,
+    gains: Sequence[float] = (1.0, 0.0, 0.0),
+    start: Instant = BEGINNING,
+    keep_path: bool = True,
+    keep_events: bool = True,
+) -> Trajectory:
+    """Follow a model through a motion.
+
+    Parameters
+    ----------
+    model : Model
+    motion : Motion
+        Piecewise linear between its samples.
+    parameters : (n_parameters,) array
+        In the model's order and units.
+    initial : (n_states,) array
+        State at `start`.
+    mode : int
+        Mode at `start`.
+    gains : three floats
+        Factors on the rows along, across, up; zero leaves a row out.
+    start : Instant
+        Where to begin.
+    keep_path, keep_events : bool
+        Whether states at samples, and events, are kept on the way. A path that was not kept, as that through a long motion never is, is
+        followed again when it is asked for.
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    SolverError
+        If the integration had to be given up.
+    """
+    integration = _Integration(model, motion, np.array(parameters, dtype=np.float64), np.array(gains, dtype=np.float64))
+    n_states = len(model.states)
+    extrema = np.zeros((model.tracked, 4))
+    stores_path = keep_path and not motion.is_long
+    path, modes = (np.empty((motion.samples, n_states)), np.empty(motion.samples, dtype=np.int64)) if stores_path else _empty_path(n_states)
+    capacity = _INITIAL_EVENT_CAPACITY if keep_events else 0
+    while True:
+        state = initial_state(start, mode, np.array(initial, dtype=np.float64))
+        output = Output(path, modes, *allocate_events(capacity, n_states), extrema, _NO_TRANSITION_COUNTS, _NO_DWELL_TIMES)
+        status, logs = PAUSED, list[EventLog]()
+        for segment in integration.segments(start.sample):
+            status = integration.advance(segment, state, output, logs)
+            if status != PAUSED:
+                break
+        if not (status == TOO_MANY_EVENTS and state.counters[N_EVENTS] - state.counters[N_FLUSHED] == capacity < _MAX_EVENT_CAPACITY):
+            break
+        capacity *= 8
+    n_events, final_mode = int(state.counters[N_EVENTS]), int(state.counters[MODE])
+    end = Instant(int(state.counters[SAMPLE]), float(state.clock[TAU]))
+    if status in FAILURES:
+        time = motion.start_s + end.sample * motion.dt + end.tau
+        raise SolverError(
+            "{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=time, failure=lazy_gettext(FAILURES[status])
+        )
+    if keep_events:
+        check_event_memory(n_events, bytes_per_event(n_states))
+        logs.append(_flush_events(output, state, motion.dt))
+    events = concatenate_events(logs) if logs else _empty_events(n_states)
+    if stores_path:
+        samples = slice(_first_stored_sample(start), end.sample + 1)
+        full_path = Path(motion.dt, samples.start, _trim(path, samples), _trim(modes, samples), events)
+        iter_paths: Callable[[], Iterator[Path]] = partial(iter, (full_path,))
+    else:
+        iter_paths = partial(integration.iter_paths, start, mode, np.array(initial, dtype=np.float64), events)
+    return Trajectory(model, motion.dt, status, events, n_events, extrema, end, state.state, final_mode, iter_paths)
+
+
+def initial_state(start: Instant, mode: int, state: FloatArray) -> State:
+    """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
+    # sample, mode, events, events at one instant, still, not started, steps, first sample given, samples beyond, events taken
+    return State(np.array([start.sample, mode, 0, 0, 1, 0, 0, 0, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
+
+
+@dataclass(frozen=True, eq=False)
+class _Integration:
+    """What determines a trajectory but where it begins."""
+
+    model: Model
+    motion: Motion
+    p: FloatArray
+    gains: FloatArray
+
+    def segments(self, first_sample: int) -> Iterator[MotionSegment]:
+        """Return the stretches of the motion from a sample on."""
+        return self.motion.segments((self.gains != 0.0).tolist(), first_sample)
+
+    def advance(self, segment: MotionSegment, state: State, output: Output, logs: list[EventLog]) -> int:
+        """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status.
+
+        Events are taken out of their tables when these are half full; the rest of them stays there.
+        """
+        forcing = Forcing(segment.acceleration, self.gains, self.motion.dt)
+        state.counters[SEGMENT_START], state.counters[SAMPLES_AFTER] = segment.first, segment.samples_after
+        last = segment.first + segment.acceleration.shape[1] - 1
+        status = PAUSED
+        while status == PAUSED and (state.counters[SAMPLE] < last or not segment.samples_after):
+            check_cancelled()
+            state.counters[STEPS_LEFT] = STEPS_PER_SLICE
+            status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output)
+            if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
+                if state.counters[N_EVENTS] > max(_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE * self.motion.samples):
+                    return TOO_MANY_EVENTS
+                check_event_memory(int(state.counters[N_EVENTS]), bytes_per_event(state.state.size))
+                logs.append(_flush_events(output, state, self.motion.dt))
+                state.counters[N_FLUSHED] = state.counters[N_EVENTS]
+            report_progress(int(state.counters[SAMPLE]), self.motion.samples - 1)
+        return int(status)
+
+    def iter_paths(self, start: Instant, mode: int, initial: FloatArray, events: EventLog) -> Iterator[Path]:
+        """Yield the path that leads through some changes, piece by piece, as it is followed again."""
+        state, first_sample, first_event = initial_state(start, mode, initial.copy()), _first_stored_sample(start), 0
+        extrema = np.zeros((self.model.tracked, 4))
+        for segment in self.segments(start.sample):
+            size = segment.acceleration.shape[1]
+            path, modes = np.empty((size, initial.size)), np.empty(size, dtype=np.int64)
+            status = self.advance(
+                segment, state, Output(path, modes, *allocate_events(0, initial.size), extrema, _NO_TRANSITION_COUNTS, _NO_DWELL_TIMES), []
+            )
+            last_sample = int(state.counters[SAMPLE])
+            rows = slice(first_sample - segment.first, last_sample + 1 - segment.first)
+            end_event = int(np.searchsorted(events.sample, last_sample)) if status == PAUSED else len(events)
+            yield Path(self.motion.dt, first_sample, path[rows], modes[rows], events[first_event:end_event])
+            first_sample, first_event = last_sample + 1, end_event
+            if status != PAUSED:
+                return
+
+
+def _first_stored_sample(start: Instant) -> int:
+    """Return the first sample at which a trajectory has a state."""
+    return start.sample if start.tau == 0.0 else start.sample + 1
+
+
+def _empty_path(n_states: int) -> tuple[FloatArray, IntArray]:
+    """Return room for no path."""
+    return np.empty((0, n_states)), np.empty(0, dtype=np.int64)
+
+
+def _empty_events(n_states: int) -> EventLog:
+    """Return no events."""
+    log, tau, limits = allocate_events(0, n_states)
+    return EventLog(log, tau, tau, limits)
+
+
+def _flush_events(output: Output, state: State, dt: float) -> EventLog:
+    """Return the events in the loop's tables, whose room may then be used again."""
+    count = int(state.counters[N_EVENTS] - state.counters[N_FLUSHED])
+    log, tau = output.events[:count].copy(), output.times[:count].copy()
+    return EventLog(log, tau, log[:, EVENT_SAMPLE] * dt + tau, output.limits[:count].copy())
+
+
+def _trim(rows: RowArray, selection: slice) -> RowArray:
+    """Return the rows that were reached, without the room for the others where these are the most of it."""
+    view = rows[selection]
+    return view if 2 * len(view) > len(rows) else view.copy()

@@ -1,0 +1,286 @@
+"""One chain of the jump: what was followed, and the column of [Sugimoto2017]_ table 1 that it fills."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.core.i18n import N_
+from seisblock.core.results import Event, Phase
+from seisblock.core.typing import FloatArray
+from seisblock.dynamics import GuardEvent, Instant, Trajectory
+from seisblock.models.jump import modes as flying
+from seisblock.models.jump import rocking
+from seisblock.models.jump.impact import Launch, centroid_rise, foot_rise
+from seisblock.records import Motion
+
+NO_JUMP = N_("rocked without jumping")
+JUMPED = N_("jumped")
+OVERTURNED_ROCKING = N_("overturned while rocking")
+OVERTURNED_LANDED = N_("overturned after landing")
+ENDED_ROCKING = N_("still rocking a minute after the record")
+ENDED_FLYING = N_("still in flight a minute after the record")
+ENDED_LANDED = N_("still moving a minute after the record")
+
+REST, ROCKING, FLIGHT, LANDED = N_("rest"), N_("rocking"), N_("flight"), N_("rocking-sliding")
+"""Names of the phases."""
+
+CHUNK_SIZE = 2**12
+"""Samples at a time among which the end of a stretch is looked for."""
+
+SLIPPING_KINDS = (flying.SLIP_BACKWARD, flying.SLIP_FORWARD, flying.FLAT_BACKWARD, flying.FLAT_FORWARD)
+"""Kinds of motion in which the foot slips."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One chain of motion, a column of [Sugimoto2017]_ table 1.
+
+    Times in s from the record's first sample; None where the chain did not get so far. Displacements of the
+    centroid relative to the ground, m, positive towards the component's positive direction.
+
+    Parameters
+    ----------
+    outcome : str
+    direction : "+" or "-"
+        Sign of the ground acceleration that starts it, and of the jump.
+    rocking_start_s, impact_s, landing_s, end_s : float
+    rocking_duration_s, jump_duration_s, rock_slide_duration_s : float
+    max_rotation_rad : float
+        Largest tilt while rocking, a magnitude.
+    impact_velocity_rad_s : float
+        Angular velocity at the impact, a magnitude.
+    max_rise_m : float
+        Largest rise of the centroid in flight above its height at rest, whether or not it lands before the top of its path.
+    jump_displacement_m, rock_slide_displacement_m, total_displacement_m : float
+    time_above_threshold_s : float
+        How long the ground acceleration stays above the rocking threshold from the start of the rocking.
+    foot_rise_m : float
+        Largest height in flight of the lower of the two lower corners above the floor.
+    landing_corner : "leading" or "trailing"
+        Leading: on the side towards which the block jumps.
+    slid : bool
+        Whether the landed foot slipped ([Sugimoto2017]_ eq. (14)).
+    friction_needed_at_landing : float, 1
+        Largest P_x/P_y of its landings; infinite where the ground would have to pull.
+    landing_energy_j : two floats, J
+        Kinetic energy before and after the landing that keeps the largest share of it.
+    end_angular_velocity_rad_s, end_slip_velocity_m_s : float
+        What is left of the foot's motion when the tilt is back at zero, magnitudes: the paper's model ends there.
+    """
+
+    outcome: str
+    direction: str
+    rocking_start_s: float
+    impact_s: float | None = None
+    landing_s: float | None = None
+    end_s: float | None = None
+    rocking_duration_s: float | None = None
+    jump_duration_s: float | None = None
+    rock_slide_duration_s: float | None = None
+    max_rotation_rad: float = 0.0
+    impact_velocity_rad_s: float | None = None
+    max_rise_m: float | None = None
+    jump_displacement_m: float | None = None
+    rock_slide_displacement_m: float | None = None
+    total_displacement_m: float | None = None
+    time_above_threshold_s: float = 0.0
+    foot_rise_m: float | None = None
+    landing_corner: str | None = None
+    slid: bool | None = None
+    friction_needed_at_landing: float | None = None
+    landing_energy_j: tuple[float, float] | None = None
+    end_angular_velocity_rad_s: float | None = None
+    end_slip_velocity_m_s: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class ChainPath:
+    """A chain as the engine followed it, in the frame in which it goes forward.
+
+    Parameters
+    ----------
+    sign : float
+        +1 when that frame is the component's own, -1 when it is its mirror image.
+    rocking_path : Trajectory
+        From the onset to the impact.
+    launch : Launch or None
+        Velocities after the impact.
+    flight_path : Trajectory or None
+        From the impact to the end, when the block jumps.
+    """
+
+    motion: Motion
+    block: TwoLayerBlock
+    gravity: float
+    drop: float
+    start: Instant
+    sign: float
+    rocking_path: Trajectory
+    launch: Launch | None
+    flight_path: Trajectory | None
+
+    @property
+    def onset_s(self) -> float:
+        """Start of the rocking, s from the record's first sample."""
+        return self.motion.start_s + self.start.sample * self.motion.dt + self.start.tau
+
+    @property
+    def impact_s(self) -> float:
+        """End of the rocking."""
+        return self.motion.start_s + self.rocking_path.end_time
+
+    @property
+    def has_impact(self) -> bool:
+        """Whether the rocking ended in an impact."""
+        return self.rocking_path.final_mode == rocking.IMPACT
+
+    @property
+    def first_landing(self) -> GuardEvent | None:
+        """The first landing."""
+        return next((change for change in self.flight_path.events if change.source == flying.FLIGHT), None) if self.flight_path else None
+
+    @property
+    def end(self) -> Instant:
+        """Where the chain ended."""
+        return self.flight_path.end if self.flight_path else self.rocking_path.end
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether it came to its own end before the record did."""
+        trajectory = self.flight_path or self.rocking_path
+        return trajectory.final_mode < 0
+
+
+def summarise_chain(path: ChainPath) -> Chain:
+    """Return the numbers of a chain ([Sugimoto2017]_ table 1)."""
+    onset, impact = path.onset_s, path.impact_s
+    entries: dict[str, Any] = {
+        "direction": "+" if path.sign > 0 else "-",
+        "rocking_start_s": onset,
+        "max_rotation_rad": float(path.rocking_path.extrema[0, 0]),
+        "time_above_threshold_s": _time_above_threshold(path),
+    }
+    if path.has_impact:
+        entries |= {
+            "impact_s": impact,
+            "rocking_duration_s": impact - onset,
+            "impact_velocity_rad_s": abs(float(path.rocking_path.final[rocking.OMEGA])),
+        }
+    if path.flight_path is None:
+        outcome = {rocking.IMPACT: NO_JUMP, rocking.OVERTURNED: OVERTURNED_ROCKING}.get(path.rocking_path.final_mode, ENDED_ROCKING)
+        if outcome == NO_JUMP:
+            entries["total_displacement_m"] = 0.0
+        if path.is_complete:
+            entries["end_s"] = impact
+        return Chain(outcome, **entries)
+    return Chain(_flight_outcome(path), **entries, **_flight_results(path))
+
+
+def _flight_outcome(path: ChainPath) -> str:
+    """Return in words how a chain that jumped ended."""
+    assert path.flight_path is not None
+    outcome = ENDED_FLYING if path.flight_path.final_mode == flying.FLIGHT else ENDED_LANDED
+    return {flying.END: JUMPED, flying.OVERTURNED: OVERTURNED_LANDED}.get(path.flight_path.final_mode, outcome)
+
+
+def _flight_results(path: ChainPath) -> dict[str, Any]:
+    """Return the entries of a chain from the impact on."""
+    assert path.flight_path is not None and path.launch is not None
+    flight, takeoff, first_landing = path.flight_path, path.launch, path.first_landing
+    entries: dict[str, Any] = {
+        "max_rise_m": centroid_rise(
+            takeoff.vertical, path.gravity, math.inf if first_landing is None else first_landing.time - path.rocking_path.end_time
+        ),
+        "foot_rise_m": foot_rise(path.block, takeoff, path.gravity),
+    }
+    if first_landing is None:
+        return entries
+    landing = path.motion.start_s + first_landing.time
+    jump_displacement = path.sign * float(first_landing.before[flying.X])
+    entries |= {
+        "landing_s": landing,
+        "jump_duration_s": landing - path.impact_s,
+        "jump_displacement_m": jump_displacement,
+        "landing_corner": "leading" if first_landing.guard == flying.RIGHT else "trailing",
+        "friction_needed_at_landing": float(flight.final[flying.FRICTION_NEEDED]),
+        "landing_energy_j": (float(flight.final[flying.ENERGY_BEFORE]), float(flight.final[flying.ENERGY_AFTER])),
+        "slid": any(c.target > 0 and flying.contact_kind(c.target) in SLIPPING_KINDS for c in flight.events),
+    }
+    if path.is_complete:
+        end = path.motion.start_s + flight.end_time
+        x, _ = flying.centroid(path.block, path.drop, np.array([flight.events[-1].source]), flight.final[np.newaxis])
+        total = path.sign * float(x[0])
+        entries |= {
+            "end_s": end,
+            "rock_slide_duration_s": end - landing,
+            "rock_slide_displacement_m": total - jump_displacement,
+            "total_displacement_m": total,
+        }
+        level = next((c for c in flight.events if c.source != flying.FLIGHT and c.guard == flying.TOUCH), None)
+        if level is not None:
+            entries["end_angular_velocity_rad_s"] = abs(float(level.before[flying.OMEGA]))
+            entries["end_slip_velocity_m_s"] = abs(float(level.before[flying.VX]))
+    return entries
+
+
+def _time_above_threshold(path: ChainPath) -> float:
+    """Return how long the acceleration stays above the rocking threshold from the onset on, s."""
+    motion, start = path.motion, path.start
+    threshold = path.block.rocking_threshold(path.gravity)
+    for begin in range(start.sample + 1, motion.samples, CHUNK_SIZE):
+        samples_below = np.flatnonzero(path.sign * motion.horizontal[begin : begin + CHUNK_SIZE] <= threshold)
+        if samples_below.size:
+            i = begin - 1 + int(samples_below[0])
+            break
+    else:
+        return motion.dt * (motion.samples - 1 - start.sample) - start.tau
+    a0, a1 = path.sign * motion.horizontal[i], path.sign * motion.horizontal[i + 1]
+    fraction = (a0 - threshold) / (a0 - a1) if a0 > threshold else 1.0
+    return max((i - start.sample + float(fraction)) * motion.dt - start.tau, 0.0)
+
+
+def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
+    """Return the phases and events of a chain, tilts in the house sign (positive when leaning to +x)."""
+    tilt = -path.sign
+    onset, impact = path.onset_s, path.impact_s
+    rest, final_tilt = np.zeros(1), tilt * path.rocking_path.final[:1]
+    phases = [Phase(ROCKING, onset, impact)]
+    events = [Event("rocking starts", onset, rest, rest)]
+    if path.rocking_path.final_mode < 0:
+        events.append(Event("impact" if path.has_impact else "overturned", impact, final_tilt, final_tilt))
+    if path.flight_path is not None:
+        end = path.motion.start_s + path.flight_path.end_time
+        first_landing = path.first_landing
+        landing = path.motion.start_s + first_landing.time if first_landing else end
+        phases.append(Phase(FLIGHT, impact, landing))
+        if first_landing is not None:
+            phases.append(Phase(LANDED, landing, end))
+            events.append(Event("landing", landing, tilt * first_landing.before[:1], tilt * first_landing.after[:1]))
+        if path.is_complete:
+            final = tilt * path.flight_path.final[:1]
+            events.append(Event("end" if path.flight_path.final_mode == flying.END else "overturned", end, final, final))
+    return tuple(phases), tuple(events)
+
+
+def chain_curves(path: ChainPath) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return time (s), tilt (rad), displacement and rise of the centroid (m), each (m,), in the component's frame."""
+    block, t0 = path.block, path.motion.start_s
+    times, states, _ = path.rocking_path.table()
+    time = np.concatenate([[path.onset_s], times + t0])
+    theta = np.concatenate([[0.0], states[:, rocking.THETA]])
+    lean = block.slenderness - theta
+    x = block.radius * np.sin(lean) - block.width / 2
+    rise = block.radius * np.cos(lean) - block.centroid_height
+    if path.flight_path is not None:
+        times, states, modes = path.flight_path.table()
+        # the end's second limit names no corner: it is the first one over again
+        modes = np.where(modes < 0, np.roll(modes, 1), modes)
+        xs, rises = flying.centroid(block, path.drop, modes, states)
+        time, theta = np.concatenate([time, times + t0]), np.concatenate([theta, states[:, flying.THETA]])
+        x, rise = np.concatenate([x, xs]), np.concatenate([rise, rises])
+    return time, -path.sign * theta, path.sign * x, rise

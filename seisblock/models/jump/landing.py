@@ -1,0 +1,153 @@
+"""How a corner that comes down is stopped, and how it leaves the ground again.
+
+The rules
+    ``paper``: tilt and angular velocity stay, and the corner starts with zero slip ([Sugimoto2017]_ 3.10; the table agrees). What the
+    foot's horizontal velocity was does not matter, so that the friction this takes has no limit, and energy may even grow.
+    ``friction``: a plastic impulse at the corner, tangential to normal at most the kinetic friction, along Routh's path: while the corner
+    slips friction opposes it, when it stops it sticks or slips on, and the impulse ends when the corner goes down no more. Slip starts
+    with what is left ([WangMason1992]_). When the tilt is back at zero the base lands plastically on both corners, with the same friction,
+    and slides to rest ([Moreau1988]_; the paper ends there).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import VECTOR
+from seisblock.models.jump.modes import (
+    ALPHA,
+    CENTROID_INERTIA,
+    DROP,
+    ENERGY_AFTER,
+    ENERGY_BEFORE,
+    FRICTION_NEEDED,
+    HALF_WIDTH,
+    HEIGHT,
+    MASS,
+    MU_KINETIC,
+    OMEGA,
+    RADIUS,
+    SIDE,
+    THETA,
+    VX,
+    VY,
+    X,
+    Y,
+)
+
+LANDING_RULES = ("paper", "friction")
+"""How a corner that lands is stopped."""
+
+_t = types()
+
+
+@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
+def touch_down(corner, y, p):
+    """Turn the state of the flight into that of the corner that touches: where it is, with zero slip ([Sugimoto2017]_ 3.10)."""
+    side = 2 * corner - 1
+    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    y[X] += side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
+    y[VX] = 0.0
+    y[Y] = 0.0
+    y[VY] = 0.0
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _energy(vx, vy, omega, p):
+    """Return the kinetic energy relative to the ground, J."""
+    return 0.5 * (p[MASS] * (vx * vx + vy * vy) + p[CENTROID_INERTIA] * omega * omega)
+
+
+@kernel(_t.void(_t.int64, _t.float64, _t.float64, _t.float64, VECTOR, VECTOR), inline=True)
+def record_landing(corner, vx, vy, omega, y, p):
+    """Keep what a landing took that turned these velocities of the flight into those of a state about a corner ([Sugimoto2017]_ 3.10).
+
+    The friction it needed is abs(P_x)/P_y of its impulse, infinite where the ground would have to pull. Of several landings the largest is
+    kept, and the energies of the one that kept the largest share.
+    """
+    side = 2 * corner - 1
+    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    tilting = -side * y[OMEGA]
+    horizontal = y[VX] + side * p[RADIUS] * np.sin(psi) * tilting
+    vertical = p[RADIUS] * np.cos(psi) * tilting
+    push = horizontal - vx
+    lift = vertical - vy
+    friction = 0.0
+    if push != 0.0:
+        friction = abs(push) / lift if lift > 0.0 else np.inf
+    energy_before = _energy(vx, vy, omega, p)
+    energy_after = _energy(horizontal, vertical, y[OMEGA], p)
+    energy_ratio = energy_after / energy_before if energy_before > 0.0 else 0.0
+    if y[SIDE] == 0.0 or energy_ratio > (y[ENERGY_AFTER] / y[ENERGY_BEFORE] if y[ENERGY_BEFORE] > 0.0 else 0.0):
+        y[ENERGY_BEFORE] = energy_before
+        y[ENERGY_AFTER] = energy_after
+    y[FRICTION_NEEDED] = max(y[FRICTION_NEEDED], friction)
+    y[SIDE] = side
+
+
+@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
+def take_off(corner, y, p):
+    """Turn the state about a corner into that of the flight: position and velocity of the centroid."""
+    side = 2 * corner - 1
+    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    tilting = -side * y[OMEGA]
+    y[X] -= side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
+    y[VX] += side * p[RADIUS] * np.sin(psi) * tilting
+    y[Y] = p[RADIUS] * np.sin(psi) - p[HEIGHT] - p[DROP]
+    y[VY] = p[RADIUS] * np.cos(psi) * tilting
+
+
+@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
+def touch_down_by_friction(corner, y, p):
+    """Turn the state of the flight into that of the corner that touches, after a plastic impulse within the cone of friction.
+
+    Per unit mass, with the corner at (rx, ry) from the centroid and w the clockwise spin, (dx', dy', dw) = (T, P, (ry T - rx P)/k^2);
+    u is the corner's velocity upwards, v that along the ground (derived here; [WangMason1992]_).
+    """
+    side = 2 * corner - 1
+    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    rx = side * p[RADIUS] * np.cos(psi)
+    ry = -p[RADIUS] * np.sin(psi)
+    k2 = p[CENTROID_INERTIA] / p[MASS]
+    a_nn = 1.0 + rx * rx / k2
+    a_tt = 1.0 + ry * ry / k2
+    a_tn = -rx * ry / k2
+    mu = p[MU_KINETIC]
+    w = -y[OMEGA]
+    u = y[VY] - rx * w
+    v = y[VX] + ry * w
+    # at most: slip, stop, slip on the other way or stick
+    for _ in range(3):
+        if v != 0.0:
+            friction_ratio = -np.sign(v) * mu
+        elif abs(a_tn) <= mu * a_tt:
+            friction_ratio = -a_tn / a_tt
+        else:
+            friction_ratio = -np.sign(a_tn) * mu
+        rise = a_nn + a_tn * friction_ratio
+        gain = a_tn + a_tt * friction_ratio
+        end_impulse = -u / rise if rise > 0.0 else np.inf
+        stop_impulse = -v / gain if v * gain < 0.0 else np.inf
+        impulse = max(min(end_impulse, stop_impulse), 0.0)
+        w += (ry * friction_ratio - rx) / k2 * impulse
+        u += rise * impulse
+        if stop_impulse < end_impulse:
+            v = 0.0
+            continue
+        # a corner that sticks gains nothing but round-off
+        v = 0.0 if v == 0.0 and abs(a_tn) <= mu * a_tt else v + gain * impulse
+        break
+    touch_down(corner, y, p)
+    y[OMEGA] = -w
+    y[VX] = v
+
+
+@kernel(_t.void(VECTOR, VECTOR), inline=True)
+def land_flat_by_friction(y, p):
+    """Turn the state about a corner, its tilt back at zero, into that of a base that slides flat with what is left ([Moreau1988]_)."""
+    fall_speed = p[HALF_WIDTH] * abs(y[OMEGA])
+    slip_speed = y[VX] - p[HEIGHT] * y[OMEGA]
+    y[THETA] = 0.0
+    y[OMEGA] = 0.0
+    y[VX] = np.sign(slip_speed) * max(abs(slip_speed) - p[MU_KINETIC] * fall_speed, 0.0)

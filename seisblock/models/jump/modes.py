@@ -1,0 +1,86 @@
+"""States, modes and parameters of the flight and of the motion about the corner that lands ([Sugimoto2017]_ 3.8-3.11)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock._jit import kernel, types
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.core.typing import FloatArray, IntArray
+
+THETA, OMEGA, X, VX, Y, VY = range(6)
+SIDE, FRICTION_NEEDED, ENERGY_BEFORE, ENERGY_AFTER = range(6, 10)
+PSI, SIN, COS, TAU1, TAU2, SPEED2, SINK, WEIGHT, INERTIA, NORMAL = range(10, 20)
+LEFT, RIGHT = 0, 1
+FLIGHT = 0
+STICK, HOLD, SLIP_BACKWARD, SLIP_FORWARD, FLAT_BACKWARD, FLAT_FORWARD = range(6)
+JAMMED, OVERTURNED, END = range(-3, 0)
+ALPHA, RADIUS, HALF_WIDTH, HEIGHT, MASS, CENTROID_INERTIA, GRAVITY, MU, MU_KINETIC, DROP, DT, BY_FRICTION = range(12)
+TOUCH, TOPPLE, LIFT, FRICTION, FRICTION_BACKWARD = range(5)
+
+_t = types()
+
+
+@kernel(_t.int64(_t.int64, _t.int64), inline=True)
+def contact_mode(corner, kind):
+    """Return the mode of a kind of motion about a corner."""
+    return 1 + 2 * kind + corner
+
+
+@kernel(_t.int64(_t.int64), inline=True)
+def contact_corner(mode):
+    """Return the corner that touches."""
+    return (mode - 1) % 2
+
+
+@kernel(_t.int64(_t.int64), inline=True)
+def contact_kind(mode):
+    """Return the kind of motion about the corner."""
+    return (mode - 1) // 2
+
+
+def flight_parameters(
+    block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float, rule: str = "paper"
+) -> FloatArray:
+    """Return the parameters of the model; `dt` is the sampling interval, the longest step, `rule` that of landings."""
+    return np.array(
+        [
+            block.slenderness,
+            block.radius,
+            block.width / 2,
+            block.centroid_height,
+            block.mass,
+            block.centroid_inertia,
+            gravity,
+            mu,
+            mu_kinetic,
+            drop,
+            dt,
+            float(rule == "friction"),
+        ]
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Sizes:
+    """What many blocks measure, (m,) arrays: R, alpha, B, and the height of the centroid; m and rad."""
+
+    radius: FloatArray
+    slenderness: FloatArray
+    width: FloatArray
+    centroid_height: FloatArray
+
+
+def centroid(block: TwoLayerBlock | Sizes, drop: float | FloatArray, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return displacement x and rise y of the centroid, (n,), m, from states of this model: of one block, or of one each.
+
+    After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
+    """
+    side = np.where(modes == FLIGHT, 0, 2 * ((modes - 1) % 2) - 1)
+    psi = np.pi / 2 - block.slenderness - side * states[:, THETA]
+    foot_to_centroid = -side * (block.radius * np.cos(psi) - block.width / 2)
+    corner_rise = block.radius * np.sin(psi) - block.centroid_height - drop
+    in_flight = side == 0
+    return states[:, X] + foot_to_centroid, np.where(in_flight, states[:, Y], corner_rise)

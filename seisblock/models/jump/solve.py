@@ -1,0 +1,283 @@
+"""The jump of a two-layer block: chains of rocking, impact, flight, landing and rocking-sliding ([Sugimoto2017]_)."""
+
+from __future__ import annotations
+
+import functools
+import math
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.i18n import N_
+from seisblock.core.results import Response
+from seisblock.core.status import STOPPED
+from seisblock.core.typing import TimeWindow
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.dynamics import Instant, integrate
+from seisblock.models.jump import modes as flying
+from seisblock.models.jump import rocking
+from seisblock.models.jump.chain import JUMPED, NO_JUMP, Chain, ChainPath, summarise_chain
+from seisblock.models.jump.describe import all_phases_and_events, chain_warnings, final_displacement, jump_histories, split_segments
+from seisblock.models.jump.flight import FLIGHT_MODEL
+from seisblock.models.jump.free_response import continue_after_record
+from seisblock.models.jump.impact import launch, spin_ratio
+from seisblock.models.jump.landing import LANDING_RULES
+from seisblock.records import Motion
+from seisblock.records._validation import validate_inputs
+from seisblock.references import papers
+
+DIRECTIONS = ("+", "-", "both")
+DID_NOT_ROCK = N_("did not rock")
+
+
+@dataclass(frozen=True)
+class JumpOutcome:
+    """What became of the block under one component.
+
+    Parameters
+    ----------
+    outcome : str
+        What became of it in the end: how its last chain ended, "jumped" if it stands again after one that did, or "did not rock".
+    chains : tuple of Chain
+        In the order of time.
+    total_displacement_m : float
+        Sum over the chains, signed.
+    final_displacement_m : float
+        Where the centroid is in the end, relative to where it stood; that of the total unless it toppled.
+    landing : "paper" or "friction"
+        The rule by which a corner that lands is stopped.
+    friction_needed_at_landing : float or None, 1
+        Largest P_x/P_y that its landings need, infinite where the ground would have to pull; None when it never landed.
+    rocking_threshold_m_s2 : float
+        [Sugimoto2017]_ eq. (2).
+    spin_ratio : float
+        theta'_2/theta'_1 at the impact.
+    """
+
+    outcome: str
+    chains: tuple[Chain, ...]
+    total_displacement_m: float
+    final_displacement_m: float
+    landing: str
+    friction_needed_at_landing: float | None
+    rocking_threshold_m_s2: float
+    spin_ratio: float
+
+
+SAMPLE_TOLERANCE = 1e-9
+"""A window begins on a sample that it misses by no more than this share of the sampling interval."""
+
+
+@dataclass(frozen=True)
+class _RunContext:
+    """What every chain of one run shares."""
+
+    motion: Motion
+    block: TwoLayerBlock
+    contact: Contact
+    spin_ratio: float
+    gravity: float
+    landing: str
+
+
+def solve_jump(
+    block: TwoLayerBlock,
+    motion: Motion,
+    *,
+    contact: Contact,
+    drop: float = 0.0,
+    spin: str = "momentum",
+    direction: str = "both",
+    landing: str = "paper",
+    first: bool = False,
+    windows: Sequence[TimeWindow] = (),
+    gravity: float = STANDARD_GRAVITY,
+) -> Response[JumpOutcome]:
+    """Follow a two-layer block through rocking, impact, jump and landing ([Sugimoto2017]_ eqs. (1)-(15), corrected).
+
+    Rocking starts where the piecewise-linear horizontal acceleration exceeds g x_G/y_G, and the foot does not slide before the
+    impact; flight is ballistic; the chain ends when the landed block's tilt returns to zero, and chain follows chain. What moves
+    when the record ends comes to its end on still ground. Vertical motion is not part of the model.
+
+    Parameters
+    ----------
+    block : TwoLayerBlock
+    motion : Motion
+        Only its horizontal row acts.
+    contact : Contact
+        Friction of the landed foot and restitution of the impact.
+    drop : float, m
+        Height of the floor on which the block stands above the ground on which it lands ([Sugimoto2017]_ eq. (11)).
+    spin : str
+        ``momentum``, ``printed`` or ``ratio=Q``, see :func:`seisblock.models.jump.impact.spin_ratio`.
+    direction : "+", "-" or "both"
+        Sign of the ground acceleration that may start a chain; the mirror image is exact.
+    landing : "paper" or "friction"
+        How a corner that lands is stopped, see :mod:`seisblock.models.jump.landing`.
+    first : bool
+        Whether only the first chain, of each window, is followed, as the paper does; after the block has landed below its floor it
+        stands on the ground, and there is no further drop.
+    windows : sequence of (float or None, float or None), s
+        Stretches in which rocking may start, after the record's first sample; motion goes on beyond them. Everywhere when left out.
+    gravity : float, m/s^2
+
+    Returns
+    -------
+    Response of JumpOutcome
+        Channels ``rotation`` (rad, positive when the block leans to +x), ``displacement`` (m, of the centroid) and ``height`` (m,
+        its height above the floor). A block that topples is a result, not an error.
+
+    Raises
+    ------
+    ParameterError
+        If an option is outside its range.
+    SolverError
+        If kinetic friction is so large that the landed foot jams (a rigid contact has no solution there).
+
+    References
+    ----------
+    [Sugimoto2017]_
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> block = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
+    >>> pulse = np.concatenate([6.0 * np.sin(np.pi * np.linspace(0, 1, 101)), np.zeros(200)])
+    >>> response = solve_jump(block, Motion.from_arrays(pulse, 0.01), contact=Contact(0.18, 0.17, 0.95, 0.85))
+    >>> response.outcome.outcome
+    'jumped'
+    """
+    validate_inputs(block, TwoLayerBlock, motion)
+    checks.instance(contact, Contact)
+    check_options(drop, direction, landing, gravity)
+    ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
+    run = _RunContext(motion, block, contact, ratio, gravity, landing)
+    paths = _run_chains(run, direction, drop, first, [_window_instants(motion, *window) for window in windows or ((None, None),)])
+    options = {
+        "mu": contact.mu,
+        "mu_kinetic": contact.kinetic,
+        "restitution_x": contact.restitution_x,
+        "restitution_y": contact.restitution_y,
+        "drop_m": drop,
+        "spin": spin,
+        "direction": direction,
+        "landing": landing,
+        "first": first,
+        "windows_s": [list(window) for window in windows],
+        "gravity_m_s2": gravity,
+    }
+    chains = tuple(summarise_chain(path) for path in paths)
+    frictions = [chain.friction_needed_at_landing for chain in chains if chain.friction_needed_at_landing is not None]
+    parts = split_segments(motion, paths)
+    outcome = JumpOutcome(
+        _final_outcome(chains),
+        chains,
+        functools.reduce(operator.add, (chain.total_displacement_m or 0.0 for chain in chains), 0.0),
+        final_displacement(parts),
+        landing,
+        max(frictions, default=None),
+        block.rocking_threshold(gravity),
+        ratio,
+    )
+    return Response(
+        "jump",
+        outcome,
+        motion,
+        block,
+        partial(jump_histories, motion, block, parts),
+        *all_phases_and_events(motion, parts),
+        options,
+        warnings=chain_warnings(motion, chains, contact.mu),
+        citations=papers("jump", *(() if landing == "paper" else ("landing with friction",))),
+    )
+
+
+def _final_outcome(chains: tuple[Chain, ...]) -> str:
+    """Return what became of the block in the end."""
+    if not chains:
+        return DID_NOT_ROCK
+    last = chains[-1].outcome
+    return JUMPED if last == NO_JUMP and any(chain.outcome == JUMPED for chain in chains) else last
+
+
+def check_options(drop: float, direction: str, landing: str, gravity: float) -> None:
+    """Refuse options outside their range."""
+    checks.gravity(gravity)
+    checks.non_negative("the drop", drop, "m")
+    if direction not in DIRECTIONS:
+        raise ParameterError("direction must be one of {known}, found {found}", known=DIRECTIONS, found=repr(direction))
+    if landing not in LANDING_RULES:
+        raise ParameterError("the landing rule must be one of {known}, found {found}", known=tuple(LANDING_RULES), found=repr(landing))
+
+
+def _window_instants(motion: Motion, first: float | None, last: float | None) -> tuple[Instant, float]:
+    """Return where a window begins, and when it ends, s after sample 0."""
+    end = motion.dt * (motion.samples - 1)
+    begin = 0.0 if first is None else max(first - motion.start_s, 0.0)
+    finish = math.inf if last is None else last - motion.start_s
+    if begin > end or finish < 0.0 or not begin < finish:
+        label = ":".join("" if edge is None else f"{edge:g}" for edge in (first, last))
+        raise ParameterError(
+            "the window {shown} holds nothing of the motion, which lasts from {start:g} to {end:g} s",
+            shown=label,
+            start=motion.start_s,
+            end=motion.start_s + end,
+        )
+    sample = min(int(begin / motion.dt + SAMPLE_TOLERANCE), motion.samples - 1)
+    tau = max(begin - sample * motion.dt, 0.0)
+    return Instant(sample, tau if tau > SAMPLE_TOLERANCE * motion.dt else 0.0), finish
+
+
+def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, windows: Sequence[tuple[Instant, float]]) -> list[ChainPath]:
+    """Follow chain after chain, or the first of each stretch."""
+    paths: list[ChainPath] = []
+    current_instant, floor_drop = Instant(), drop
+    for begin, finish in sorted(windows, key=lambda window: (window[0].sample, window[0].tau)):
+        current_instant = max(current_instant, begin, key=lambda instant: (instant.sample, instant.tau))
+        while current_instant.sample < run.motion.samples - 1 and (onset := _next_onset(run, direction, current_instant)) is not None:
+            if onset[0].sample * run.motion.dt + onset[0].tau > finish:
+                break
+            paths.append(_run_chain(run, floor_drop, *onset))
+            path = paths[-1]
+            if not path.is_complete or summarise_chain(path).outcome not in (NO_JUMP, JUMPED):
+                return paths
+            current_instant, floor_drop = path.end, floor_drop if path.first_landing is None else 0.0
+            if first:
+                break
+    return paths
+
+
+def _next_onset(run: _RunContext, direction: str, start: Instant) -> tuple[Instant, float] | None:
+    """Return when rocking starts next, and the sign of the acceleration that starts it."""
+    thresholds = rocking.rocking_parameters(run.block, run.gravity, direction)
+    search = integrate(rocking.ROCKING_MODEL, run.motion, thresholds, [0.0, 0.0], rocking.REST, start=start, keep_path=False)
+    if search.status != STOPPED:
+        return None
+    return search.end, 1.0 if search.final_mode == rocking.ROSE_FORWARD else -1.0
+
+
+def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> ChainPath:
+    """Follow one chain from its onset, in the frame in which it goes forward."""
+    motion, block, contact, gains = run.motion, run.block, run.contact, (sign, 0.0, 0.0)
+    make_path = partial(ChainPath, motion, block, run.gravity, drop, start, sign)
+    parameters = rocking.rocking_parameters(block, run.gravity, "both")
+    rocking_run = continue_after_record(rocking.ROCKING_MODEL, motion, parameters, [0.0, 0.0], rocking.ROCK, gains=gains, start=start)
+    if rocking_run.final_mode != rocking.IMPACT:
+        return make_path(rocking_run, None, None)
+    takeoff = launch(block, float(rocking_run.final[rocking.OMEGA]), run.spin_ratio, contact.restitution_x, contact.restitution_y)
+    if not takeoff.jumps:
+        return make_path(rocking_run, takeoff, None)
+    parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.kinetic, drop, motion.dt, run.landing)
+    initial_state = [0.0, takeoff.spin, 0.0, takeoff.horizontal, 0.0, takeoff.vertical, *[0.0] * 4]
+    flight_run = continue_after_record(FLIGHT_MODEL, motion, parameters, initial_state, flying.FLIGHT, gains=gains, start=rocking_run.end)
+    if flight_run.final_mode == flying.JAMMED:
+        raise SolverError(
+            "jump: the foot that lands at {time:.3f} s jams: kinetic friction {kinetic} is more than a rigid contact can bear",
+            time=motion.start_s + flight_run.end_time,
+            kinetic=contact.kinetic,
+        )
+    return make_path(rocking_run, takeoff, flight_run)

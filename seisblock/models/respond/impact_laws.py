@@ -1,0 +1,181 @@
+"""What an impulse does to a rigid body: one corner by Routh's path, two corners at once by Moreau's plastic law.
+
+All impulses are per unit mass: P normal, T along the ground. With r from the centre to the struck corner, u' = nn P + tn T and
+v' = tn P + tt T change its normal and its slip velocity, where nn = 1 + r_x^2/k^2, tt = 1 + r_y^2/k^2, tn = -r_x r_y/k^2; the
+centre gains (T, P) and the body (r_y T - r_x P)/k^2 (derived here).
+"""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import VECTOR
+from seisblock.models.respond.constants import ARM_LEFT, ARM_RIGHT, GYRATION, HEIGHT, MU_KINETIC, corner_offset, corner_position
+
+_t = types()
+
+UNREACHED = 1e300
+"""An impulse that is never reached."""
+
+ROUND_OFF = 1e-13
+"""Share of the moments by which the resultant may miss the edge of the base."""
+
+MAX_SEGMENTS = 8
+"""More stretches of Routh's path than there can be: slip, stick or the other slip, split by the greatest compression."""
+
+
+@kernel(_t.UniTuple(_t.float64, 4)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean))
+def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
+    """Return P, T, u and v after one corner's impact: Routh's path with Poisson's restitution ([WangMason1992]_).
+
+    Parameters
+    ----------
+    u, v : float, m/s
+        Normal velocity, not positive, and slip velocity before.
+    nn, tt, tn : float
+        Mobilities.
+    mu, restitution : float
+    has_tenon : bool
+        Whether a tenon holds the corner: friction has no limit, and stops the slip before anything presses (ours).
+    """
+    normal = 0.0
+    tangential = 0.0
+    if has_tenon:
+        tangential = -v / tt
+        u -= tn / tt * v
+        v = 0.0
+        if u >= 0.0:
+            return normal, tangential, u, v
+    target = UNREACHED
+    compresses = True
+    s = 1.0 if v > 0.0 else -1.0 if v < 0.0 else 0.0
+    for _ in range(MAX_SEGMENTS):
+        ratio = -s * mu
+        if s == 0.0:
+            ratio = -tn / tt
+            if not has_tenon and abs(tn) > mu * tt:
+                s = 1.0 if tn > 0.0 else -1.0
+                ratio = -s * mu
+        du = nn + tn * ratio
+        dv = tn + tt * ratio if s != 0.0 else 0.0
+        step = target - normal
+        stops = False
+        if v != 0.0 and v * dv < 0.0:
+            to_stop = -v / dv
+            if to_stop <= step:
+                step = to_stop
+                stops = True
+        turns = compresses and du > 0.0 and -u / du < step
+        if turns:
+            step = -u / du
+            stops = False
+        normal += step
+        tangential += ratio * step
+        u += du * step
+        v = 0.0 if stops or s == 0.0 else v + dv * step
+        if stops:
+            s = 0.0
+        elif turns:
+            u = 0.0
+            target = (1.0 + restitution) * normal
+            compresses = False
+            if restitution == 0.0:
+                break
+        else:
+            break
+    return normal, tangential, u, v
+
+
+@kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
+def corner_impact(right, theta, omega, u, v, restitution, p, has_tenon):
+    """Return theta', u, v after an impact at one corner, and the energy lost, J/kg ([WangMason1992]_).
+
+    The loss is what the impulses take through the mean of the velocities before and after, which is exact for a rigid body.
+    """
+    rx, ry = corner_position(right, theta, p)
+    k = p[GYRATION]
+    normal, tangential, u_after, v_after = routh(
+        u, v, 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k, p[MU_KINETIC], restitution, has_tenon
+    )
+    loss = -0.5 * (normal * (u + u_after) + tangential * (v + v_after))
+    return omega + (ry * tangential - rx * normal) / k, u_after, v_after, loss
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
+def resolve_jam(right, theta, omega, v, restitution, p):
+    """Return theta', u and the energy lost, J/kg, after a slip that presses on has been stopped at once.
+
+    An impact without collision: Routh's path leads from u = 0 below zero while it slips, and back to u = 0 once it sticks. The impulses of
+    greatest compression are therefore those that stop both u and v, whatever the path; then comes the restitution, sticking.
+    """
+    rx, ry = corner_position(right, theta, p)
+    k = p[GYRATION]
+    nn, tt, tn = 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k
+    mobility = nn - tn * tn / tt
+    compression = tn * v / (tt * mobility)
+    normal = (1.0 + restitution) * compression
+    tangential = -(v + tn * normal) / tt
+    u = mobility * restitution * compression
+    return omega + (ry * tangential - rx * normal) / k, u, -0.5 * (normal * u + tangential * v)
+
+
+CLOSED_NONE, CLOSED_LEFT, CLOSED_RIGHT, CLOSED_BOTH = range(4)
+"""Which corners stay on the ground after a plastic impact of both."""
+
+
+@kernel(_t.Tuple((_t.int64, _t.float64, _t.float64, _t.float64))(_t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
+def both_corners_impact(omega, rise, speed, p, has_tenon):
+    """Return which corners stay, theta', slip velocity and energy lost after a plastic impact of both corners ([Moreau1988]_).
+
+    Parameters
+    ----------
+    omega, rise, speed : float, rad/s, m/s
+        theta', y' and x' before, of an upright body.
+    p : array
+    has_tenon : bool
+        Whether tenons hold the feet.
+
+    Notes
+    -----
+    The first of these that is consistent: both closed, sticking, then slipping; the right corner alone, sticking, slipping either way;
+    the left one; none. Closed: u = 0, P >= 0; open: u >= 0; abs(T) <= mu P where it sticks, else T = -sign(v) mu P.
+    """
+    k = p[GYRATION]
+    h = p[HEIGHT]
+    mu = p[MU_KINETIC]
+    # both closed: theta' = y' = 0, the resultant between the corners
+    normal = -rise
+    if normal >= 0.0:
+        s = 1.0 if speed > 0.0 else -1.0
+        sticks = has_tenon or abs(speed) <= mu * normal
+        tangential = -speed if sticks else -s * mu * normal
+        moment = k * omega - h * tangential
+        edge = ROUND_OFF * (abs(k * omega) + abs(h * tangential))
+        if -p[ARM_LEFT] * normal - edge <= moment <= p[ARM_RIGHT] * normal + edge:
+            slip_after = 0.0 if sticks else speed + tangential
+            return CLOSED_BOTH, 0.0, slip_after, 0.5 * (rise * rise + k * omega * omega + speed * speed - slip_after * slip_after)
+    v = speed - h * omega
+    ry = -h
+    for side in range(2):
+        right = side == 0
+        rx = corner_offset(right, p)
+        opening = 1.0 if right else -1.0
+        u = rise - rx * omega
+        nn, tt, tn = 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k
+        for case in range(3):
+            if case == 0:
+                determinant = nn * tt - tn * tn
+                normal = (tn * v - tt * u) / determinant
+                tangential = (tn * u - nn * v) / determinant
+                slip_after = 0.0
+                fits = has_tenon or abs(tangential) <= mu * normal
+            else:
+                s = 1.0 if case == 1 else -1.0
+                normal = -u / (nn - s * mu * tn)
+                tangential = -s * mu * normal
+                slip_after = v + tn * normal + tt * tangential
+                fits = not has_tenon and s * slip_after > 0.0 and nn - s * mu * tn > 0.0
+            omega_after = omega + (ry * tangential - rx * normal) / k
+            if fits and normal >= 0.0 and opening * omega_after >= 0.0:
+                loss = -0.5 * (normal * u + tangential * (v + slip_after))
+                return CLOSED_RIGHT if right else CLOSED_LEFT, omega_after, slip_after, loss
+    return CLOSED_NONE, omega, v, 0.0

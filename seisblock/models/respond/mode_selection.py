@@ -1,0 +1,206 @@
+"""Which mode follows: the first, in a fixed order, whose forces are consistent with unilateral contact and Coulomb friction.
+
+Order
+    rest, rock about the right, the left corner, slide to +x, to -x, skid right +, left +, right -, left -, flight; of these the ones that
+    the touching corners and the slip velocity allow.
+Consistent
+    Pressing forces where closed, friction within its cone where sticking, a slip that starts in its own sense, and corners that open
+    not pulled back. Each condition is a slack in m/s^2, so that one tolerance serves all.
+Uniqueness
+    For a corner that sticks with pressing force N* and needs rho = abs(T*)/N*, a slip has an acceleration proportional to
+    N* (rho - mu_k)/P and a force -b/P, b the free normal acceleration: once rho > mu_s exactly one of slip (b < 0) and flight (b > 0)
+    follows. With a slip that has no consistent force (P <= 0, pressed on) there is none: Painleve's case, which ends in a jam
+    ([GenotBrogliato1999]_). Derived here.
+"""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.respond.constants import (
+    ARM_LEFT,
+    ARM_RIGHT,
+    DT,
+    FLIGHT,
+    GRAVITY,
+    GYRATION,
+    HEIGHT,
+    MIN_CONE,
+    MU,
+    MU_KINETIC,
+    NO_MODE,
+    REST,
+    ROCK_LEFT,
+    ROCK_RIGHT,
+    SLIDE_MINUS,
+    SLIDE_PLUS,
+    SLIDE_ROCK_RIGHT_PLUS,
+    corner_position,
+    is_right,
+    slip_sign,
+)
+
+_t = types()
+
+ALONG, ACROSS, UP = range(3)
+
+TOLERANCE, FLAT_TOLERANCE = 1e-10, 1e-13
+"""Slack, as a share of gravity, below zero at which a condition still counts as met: a threshold that was just located, where a body
+turns and where it lies flat, the forces then being those of the input."""
+
+LOOKAHEAD, LOOKAHEAD_GROWTH = 1e-6, 1e3
+"""Flat modes, whose forces depend on the input alone, are judged this share of the sampling interval later, and, while a condition is
+met or missed by no more than the tolerance, so many times later still, up to one interval: there the slope of the input decides."""
+
+CONE_ROUND_OFF = 1e-6
+"""Round-off of Painleve's denominator, a sum of terms of the order of 1 known to 1e-14, as a share of its least value."""
+
+INFEASIBLE = -1e300
+"""Slack of a mode that does not come into question."""
+
+
+@kernel(_t.UniTuple(_t.float64, 2)(_t.float64, MATRIX, VECTOR), inline=True)
+def ground_loads(delay, f, p):
+    """Return the ground's horizontal acceleration and G = g + a_y, m/s^2, `delay` seconds from now (derived here)."""
+    push = f[ALONG, 0] + f[ACROSS, 0] + delay * (f[ALONG, 1] + f[ACROSS, 1])
+    return push, p[GRAVITY] + f[UP, 0] + delay * f[UP, 1]
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def sticking_forces(rx, ry, spin, push, weight, p):
+    """Return theta'', N and T of a body that turns about a corner at rest; `spin` is theta'^2 ([Shenton1996]_)."""
+    turn = (ry * push - rx * weight) / (p[GYRATION] + rx * rx + ry * ry)
+    return turn, weight + rx * turn + ry * spin, push - ry * turn + rx * spin
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def sliding_forces(rx, ry, spin, push, weight, friction, p):
+    """Return theta'', Painleve's P and the slip's acceleration where T = -`friction` N ([GenotBrogliato1999]_)."""
+    lever = rx + friction * ry
+    cone = 1.0 + rx * lever / p[GYRATION]
+    normal = (weight + ry * spin) / cone
+    turn = -lever * normal / p[GYRATION]
+    return turn, cone, -push - friction * normal + ry * turn - rx * spin
+
+
+@kernel(_t.float64(_t.int64, _t.boolean, _t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
+def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon):
+    """Return the least slack of a mode's conditions, m/s^2; negative: not consistent ([Shenton1996]_, [GenotBrogliato1999]_)."""
+    on_both = left and right
+    base = p[ARM_LEFT] + p[ARM_RIGHT]
+    spin = omega * omega
+    if kind == FLIGHT:
+        margin = -INFEASIBLE
+        if left:
+            margin = -weight - corner_position(False, theta, p)[1] * spin
+        if right:
+            margin = min(margin, -weight - corner_position(True, theta, p)[1] * spin)
+        return margin
+    if kind == REST:
+        if not on_both or slip != 0.0:
+            return INFEASIBLE
+        margin = min(p[ARM_LEFT] * weight - p[HEIGHT] * push, p[ARM_RIGHT] * weight + p[HEIGHT] * push) / base
+        return margin if has_tenon else min(margin, p[MU] * weight - abs(push))
+    if kind in (SLIDE_PLUS, SLIDE_MINUS):
+        s = slip_sign(kind)
+        if not on_both or has_tenon or s * slip < 0.0:
+            return INFEASIBLE
+        reach = s * p[MU_KINETIC] * p[HEIGHT]
+        margin = weight
+        tips = p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base
+        if tips < -FLAT_TOLERANCE * p[GRAVITY]:
+            # no input changes where the resultant is, so that nothing is decided by looking at it later
+            margin = min(tips, weight)
+        return margin if slip != 0.0 else min(margin, -s * push - p[MU_KINETIC] * weight)
+    pivot_right = is_right(kind)
+    if not (right if pivot_right else left):
+        return INFEASIBLE
+    rx, ry = corner_position(pivot_right, theta, p)
+    opening = base if pivot_right else -base
+    if kind in (ROCK_RIGHT, ROCK_LEFT):
+        if slip != 0.0:
+            return INFEASIBLE
+        turn, normal, tangential = sticking_forces(rx, ry, spin, push, weight, p)
+        # a tenon pressed aside binds: it holds the foot as long as that would not rise by itself
+        margin = max(normal, weight + ry * spin) if has_tenon else min(normal, p[MU] * normal - abs(tangential))
+        return min(margin, opening * turn) if on_both else margin
+    s = slip_sign(kind)
+    if has_tenon or s * slip < 0.0:
+        return INFEASIBLE
+    turn, cone, sliding = sliding_forces(rx, ry, spin, push, weight, s * p[MU_KINETIC], p)
+    if not cone > MIN_CONE:
+        return INFEASIBLE
+    margin = weight + ry * spin
+    if on_both:
+        margin = min(margin, opening * turn)
+    return margin if slip != 0.0 else min(margin, s * sliding)
+
+
+@kernel(_t.int64(_t.boolean, _t.boolean, _t.int64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.boolean))
+def next_mode(left, right, ended_mode, theta, omega, slip, f, p, has_tenon):
+    """Return the mode that follows, or NONE where a slip jams ([Shenton1996]_, [GenotBrogliato1999]_).
+
+    Parameters
+    ----------
+    left, right : bool
+        Whether the corner touches the ground and stays on it: gap and its rate are zero.
+    ended_mode : int
+        Mode that has just reached its limit and is excluded, or NONE.
+    theta, omega, slip : float, rad, rad/s, m/s
+    f, p : arrays
+        Ground motion and parameters, as the engine has them.
+    has_tenon : bool
+        Whether tenons hold the feet.
+    """
+    if not left and not right:
+        return FLIGHT
+    is_flat = left and right
+    tolerance = (FLAT_TOLERANCE if is_flat else TOLERANCE) * p[GRAVITY]
+    lookahead = LOOKAHEAD * p[DT] if is_flat else 0.0
+    best_kind = NO_MODE
+    best_margin = INFEASIBLE
+    ended_holds = False
+    for kind in range(REST, FLIGHT + 1):
+        delay = lookahead
+        push, weight = ground_loads(delay, f, p)
+        margin = mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon)
+        while abs(margin) <= tolerance and 0.0 < delay < 0.5 * p[DT]:
+            delay *= LOOKAHEAD_GROWTH
+            push, weight = ground_loads(delay, f, p)
+            margin = mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon)
+        if kind == ended_mode:
+            ended_holds = margin >= -tolerance
+            continue
+        if margin >= -tolerance:
+            return kind
+        if margin > best_margin:
+            best_kind = kind
+            best_margin = margin
+    if slip != 0.0 and not has_tenon:
+        # sliding presses on and has no consistent force: a jam
+        pivot_right = slip > 0.0 if left and right else right
+        rx, ry = corner_position(pivot_right, theta, p)
+        friction = p[MU_KINETIC] if slip > 0.0 else -p[MU_KINETIC]
+        # the limit was located but for round-off where a slip has just reached it
+        least_cone = MIN_CONE * (1.0 + CONE_ROUND_OFF) if ended_mode >= SLIDE_ROCK_RIGHT_PLUS else MIN_CONE
+        if 1.0 + rx * (rx + friction * ry) / p[GYRATION] <= least_cone:
+            return NO_MODE
+    # round-off alone leads here: a limit that was only touched, or the mode that misses least
+    return ended_mode if ended_holds else best_kind
+
+
+__all__ = [
+    "ACROSS",
+    "ALONG",
+    "FLAT_TOLERANCE",
+    "ROCK_LEFT",
+    "ROCK_RIGHT",
+    "SLIDE_ROCK_RIGHT_PLUS",
+    "TOLERANCE",
+    "UP",
+    "next_mode",
+    "ground_loads",
+    "sliding_forces",
+    "mode_slack",
+    "sticking_forces",
+]

@@ -1,0 +1,237 @@
+"""A free-standing rigid block in five modes: rest, slide, rock, slide-rock and flight, and what takes one into another.
+
+Assumptions
+    Plane motion; rigid block on rigid ground, touching it with its two lower corners; Coulomb friction with mu_s >= mu_k (kinetic inside
+    impacts); Poisson's restitution along Routh's path for one corner, plastic impacts of both at once. No contact stiffness, no
+    rounded edges, no twist.
+Frame
+    Fixed to the ground: x right, y up, theta clockwise, so positive when the block leans to +x. Between samples the ground's
+    acceleration is a straight line.
+Modes
+    Named in ``names``; their motions and limits in ``flat``, ``turning`` and ``skid``; which follows in ``succession``; impacts in
+    ``impulse`` and ``impacts``. A mode lives while its guards are positive; when one is reached the mode is excluded and the first
+    consistent one of a fixed order follows, so that below Painleve's limit there is exactly one.
+Tenon
+    Ours: a body held by tenons of a given depth has friction without limit until, in flight, the lower foot has risen by that depth; from
+    then on Coulomb's. A tenon pressed aside binds: it holds its foot down, too, as long as the foot, let go, would not rise for good.
+    In flight it does nothing; where a foot comes down its slip is stopped before the ground presses. It lets a post rock whose bare
+    plinth would only slide, as [Sugimoto2017]_ takes it.
+End
+    A quarter turn, or a further point that meets the ground. On still ground also rest.
+Literature
+    [ShentonJones1991]_, [Shenton1996]_, [WangMason1992]_, [Moreau1988]_, [GenotBrogliato1999]_, [Housner1963]_.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics import Model
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES
+from seisblock.models.respond.constants import (
+    DOWN,
+    DT,
+    END,
+    FLIGHT,
+    GAP_LEFT,
+    GAP_RIGHT,
+    GAVE_UP,
+    GRAVITY,
+    GROUND_AT_REST,
+    GUARDS,
+    HALF_PI,
+    HEIGHT,
+    IMPACTS,
+    LAND_RIGHT,
+    LEFT,
+    LIFT,
+    MAX_IMPACTS,
+    MODES,
+    N_STATE_GUARDS,
+    NO_MODE,
+    OMEGA,
+    OVERTURNED,
+    POINTS,
+    RATE_LEFT,
+    RATE_RIGHT,
+    RELEASE,
+    REST,
+    ROCK_LEFT,
+    ROCK_RIGHT,
+    SETTLED,
+    SLIDE_ROCK_RIGHT_PLUS,
+    SLIP,
+    SPEED,
+    START,
+    STATES,
+    TENON,
+    TENON_OFFSET,
+    THETA,
+    corner_offset,
+    corner_position,
+    is_right,
+    slip_sign,
+)
+from seisblock.models.respond.impacts import continue_in_contact, land, rocking_impact
+from seisblock.models.respond.mode_selection import UP, ground_loads, sticking_forces
+from seisblock.models.respond.polynomial_modes import flight_series, release_slack, rest_slacks, skip, slide_series
+from seisblock.models.respond.rocking import RX, TENON_FORCE_RATIO, rock_series
+from seisblock.models.respond.slide_rocking import slide_rock_series
+
+_t = types()
+
+SCRATCH = 4
+"""Rows that the series need: the arms of one or both corners, a force, a velocity."""
+
+SLIP_TOLERANCE = 1e-13
+"""Share of its two parts below which a slip velocity is taken as zero when a body is put down."""
+
+
+@kernel(_t.void(_t.boolean, _t.int64, _t.int64, VECTOR, MATRIX, MATRIX), inline=True)
+def _point_slacks(right, arms, degree, p, c, g):
+    """Write the heights of the further points above a corner, from the arms of that corner in two rows of `c`."""
+    xi = corner_offset(right, p)
+    h = p[HEIGHT]
+    per_square = 1.0 / (xi * xi + h * h)
+    for point in range((p.size - POINTS) // 2):
+        point_x = p[POINTS + 2 * point]
+        point_y = p[POINTS + 2 * point + 1]
+        of_x = per_square * (point_x * h + point_y * xi)
+        of_y = per_square * (point_x * xi - point_y * h) - 1.0
+        for k in range(degree + 1):
+            g[END + 1 + point, k] = of_x * c[arms, k] + of_y * c[arms + 1, k]
+
+
+@kernel(SERIES)
+def series(mode, y, f, p, order, c, g):
+    """Write the motion of one mode and its slacks."""
+    has_tenon = mode >= TENON_OFFSET
+    kind = mode - TENON_OFFSET if has_tenon else mode
+    for k in range(END):
+        g[k, 0] = OFF
+    if kind == REST:
+        rest_slacks(has_tenon, f, p, g)
+        for k in range(END, g.shape[0]):
+            g[k, 0] = OFF
+        return CONSTANT
+    if kind == START:
+        g[LEFT, 0] = -1.0
+        g[LEFT, 1] = 0.0
+        for k in range(END, g.shape[0]):
+            g[k, 0] = OFF
+        return CONSTANT
+    if kind == FLIGHT:
+        degree = flight_series(y, f, p, order, c, g)
+        if has_tenon:
+            release_slack(y, p, degree, c, g)
+        side = 1.0 if y[OMEGA] >= 0.0 else -1.0
+        g[END, 0] = OFF
+        if side * (y[THETA] + y[OMEGA] * p[DT]) > 1.0:
+            for k in range(degree + 1):
+                g[END, k] = -side * c[THETA, k]
+            g[END, 0] += HALF_PI
+        _point_slacks(True, y.size + 2, degree, p, c, g)
+        for k in range(degree + 1):
+            for point in range(END + 1, g.shape[0]):
+                g[point, k] += c[GAP_RIGHT, k]
+        return degree
+    if kind in (ROCK_RIGHT, ROCK_LEFT):
+        degree = rock_series(is_right(kind), 1.0 if has_tenon else 0.0, y, f, p, order, c, g)
+    elif kind >= SLIDE_ROCK_RIGHT_PLUS:
+        degree = slide_rock_series(is_right(kind), slip_sign(kind), y, f, p, order, c, g)
+    else:
+        degree = slide_series(slip_sign(kind), y, f, p, c, g)
+        for k in range(END, g.shape[0]):
+            g[k, 0] = OFF
+        return degree
+    _point_slacks(is_right(kind), y.size + RX, degree, p, c, g)
+    return degree
+
+
+@kernel(_t.int64(VECTOR, MATRIX, VECTOR, _t.boolean))
+def _initial_mode(y, f, p, has_tenon):
+    """Return the mode of a body put down as its gaps and their rates say."""
+    left = y[GAP_LEFT] == 0.0
+    right = y[GAP_RIGHT] == 0.0
+    if not left and not right:
+        return FLIGHT
+    pivot_right = right
+    if left and right:
+        pivot_right = y[RATE_RIGHT] <= y[RATE_LEFT]
+    rate = y[RATE_RIGHT] if pivot_right else y[RATE_LEFT]
+    other_rate = y[RATE_LEFT] if pivot_right else y[RATE_RIGHT]
+    if rate > 0.0:
+        return FLIGHT
+    rotation_speed = corner_position(pivot_right, y[THETA], p)[1] * y[OMEGA]
+    slip = y[SPEED] + rotation_speed
+    if abs(slip) <= SLIP_TOLERANCE * (abs(y[SPEED]) + abs(rotation_speed)):
+        slip = 0.0
+    if rate < 0.0 and not (left and right and other_rate == 0.0):
+        return land(pivot_right, y, f, p, has_tenon)
+    y[SPEED] = slip
+    if rate < 0.0:
+        return rocking_impact(pivot_right, y, f, p, has_tenon)
+    return continue_in_contact(
+        left and (not pivot_right or other_rate == 0.0), right and (pivot_right or other_rate == 0.0), NO_MODE, y, f, p, has_tenon
+    )
+
+
+@kernel(_t.boolean(_t.boolean, VECTOR, MATRIX, VECTOR), inline=True)
+def _foot_rises(right, y, f, p):
+    """Whether a foot that a tenon holds down, let go, would rise and go on rising, or is pressed aside no more."""
+    rx, ry = corner_position(right, y[THETA], p)
+    spin = y[OMEGA] ** 2
+    push, weight = ground_loads(0.0, f, p)
+    tangential = sticking_forces(rx, ry, spin, push, weight, p)[2]
+    normal_force = weight + ry * spin
+    if normal_force > TENON_FORCE_RATIO * p[GRAVITY]:
+        return False
+    return f[UP, 1] - rx * y[OMEGA] * spin < 0.0 or (
+        normal_force < -TENON_FORCE_RATIO * p[GRAVITY] and abs(tangential) < TENON_FORCE_RATIO * p[GRAVITY]
+    )
+
+
+@kernel(RESET)
+def reset(mode, guard, y, f, p):
+    """Return the mode that follows a guard: an impact, the end, or the first consistent mode."""
+    has_tenon = mode >= TENON_OFFSET
+    kind = mode - TENON_OFFSET if has_tenon else mode
+    if guard >= END:
+        return OVERTURNED
+    if guard == RELEASE:
+        return FLIGHT if min(y[GAP_LEFT], y[GAP_RIGHT]) >= p[TENON] * (1.0 - SLIP_TOLERANCE) else mode
+    if kind == START:
+        target_mode = _initial_mode(y, f, p, has_tenon)
+    elif kind == FLIGHT:
+        target_mode = land(guard == LAND_RIGHT, y, f, p, has_tenon)
+    elif guard == DOWN and y[THETA] == 0.0 and y[OMEGA] == 0.0:
+        # it would turn the other way from the beginning
+        target_mode = continue_in_contact(True, True, kind, y, f, p, has_tenon)
+    elif guard == DOWN:
+        target_mode = rocking_impact(not is_right(kind), y, f, p, has_tenon)
+    else:
+        if guard == SLIP:
+            y[SPEED] = 0.0
+        ended_mode = kind
+        if has_tenon and guard == LIFT:
+            ended_mode = kind if _foot_rises(is_right(kind), y, f, p) else NO_MODE
+        # a body that has not yet begun to turn still touches with both corners
+        is_flat = (kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SLIDE_ROCK_RIGHT_PLUS) or (y[THETA] == 0.0 and y[OMEGA] == 0.0)
+        target_mode = continue_in_contact(is_flat or not is_right(kind), is_flat or is_right(kind), ended_mode, y, f, p, has_tenon)
+    if target_mode == REST and p[GROUND_AT_REST] > 0.0:
+        return SETTLED
+    if y[IMPACTS] > p[MAX_IMPACTS]:
+        return GAVE_UP
+    return target_mode + TENON_OFFSET if has_tenon else target_mode
+
+
+RESPOND = Model("respond", series, reset, STATES, GUARDS, MODES, scratch=SCRATCH, tracked=2, skip=skip, sharp=N_STATE_GUARDS)
+
+
+@functools.cache
+def model_with_points(points: int) -> Model:
+    """Return the model of bodies with so many further points, one guard each."""
+    return replace(RESPOND, guards=GUARDS + ("further point",) * points) if points else RESPOND

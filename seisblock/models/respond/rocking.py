@@ -1,0 +1,191 @@
+"""Modes that turn about a corner, at rest (rock) or sliding (skid, slide-rock), as power series in time.
+
+With r = (r_x, r_y) from the centre to the corner, r_x' = r_y theta' and r_y' = -r_x theta', so that a body in contact has y' = r_x theta',
+y'' = (r_x theta')' and, where the corner stays, x' = -r_y theta', x'' = -(r_y theta')'. The two products r_x theta' and r_y theta' are
+therefore all that a rocking body needs: they give the arms, the velocities and, differentiated, the forces per unit mass
+
+    N = G + (r_x theta')',    T = a - (r_y theta')'.
+
+Rock
+    (k^2 + r^2) theta'' = r_y a - r_x G, while mu_s N > abs(T).
+Skid
+    k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N, while N > 0, s v > 0 and P > 0; written in ``skid``.
+Both end when the other corner comes down (theta returns to zero) or at a quarter turn ([ShentonJones1991]_, [GenotBrogliato1999]_).
+
+The slip velocity is a state of its own; the centre's velocity is v - r_y theta'. Derived here.
+"""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.dynamics.hybrid import OFF
+from seisblock.models.respond.constants import (
+    BACKWARD,
+    DOWN,
+    DT,
+    END,
+    FORWARD,
+    FRICTION,
+    GRAVITY,
+    GYRATION,
+    HALF_PI,
+    HEIGHT,
+    LIFT,
+    MU,
+    OMEGA,
+    SPEED,
+    THETA,
+    WORK,
+    X,
+    corner_position,
+)
+from seisblock.models.respond.mode_selection import ACROSS, ALONG, TOLERANCE, UP
+from seisblock.models.respond.polynomial_modes import clear_round_off, freeze_states
+
+_t = types()
+CORNER_SERIES = _t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
+"""series(right, of, y, f, p, order, c, g) -> degree, of a mode about the right or the left corner."""
+
+TERM_TOLERANCE, PREVIOUS_TERM_TOLERANCE = 3e-17, 1e-12
+"""A series ends where a term falls below the first share of the state and the term before it was below the second."""
+
+TENON_FORCE_RATIO = 1e-9
+"""Normal force, as a share of the weight, below which a tenon is what holds the foot."""
+
+RX, RY, NORMAL, TANGENT = range(4)
+"""Scratch rows after the states; TANGENT: x' of a skid."""
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def initial_angular_acceleration(side, theta, omega, turn, rate, p):
+    """Return theta'' at the start of a mode, zero where rocking begins at its threshold but for round-off."""
+    if theta == 0.0 and omega == 0.0:
+        return clear_round_off(side, 0.0, turn * p[HEIGHT], rate * p[HEIGHT], p) / p[HEIGHT]
+    return turn
+
+
+@kernel(_t.void(_t.float64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
+def rotation_slacks(side, degree, swing, p, c, g):
+    """Write the other corner's gap, as the lean towards this one, and the quarter turn.
+
+    `swing` bounds the change of the lean within the step.
+    """
+    lean = side * c[THETA, 0]
+    g[DOWN, 0] = OFF
+    if lean <= swing:
+        for k in range(degree + 1):
+            g[DOWN, k] = side * c[THETA, k]
+    g[END, 0] = OFF
+    if HALF_PI - lean <= swing:
+        for k in range(degree + 1):
+            g[END, k] = -side * c[THETA, k]
+        g[END, 0] += HALF_PI
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
+def _tenon_slacks(ry, degree, weight, weight_rate, p, c, g):
+    """Write how far the foot that a tenon holds down is from rising by itself, G + r_y theta'^2, or from being pressed aside no more."""
+    if weight + c[ry, 0] * c[OMEGA, 0] ** 2 <= TENON_FORCE_RATIO * p[GRAVITY]:
+        # let go it would not rise for good, or it would have been
+        side = 1.0 if g[FORWARD, 0] < g[BACKWARD, 0] else -1.0
+        for k in range(degree + 1):
+            g[LIFT, k] = 0.5 * side * (g[BACKWARD, k] - g[FORWARD, k])
+        return
+    for k in range(degree + 1):
+        slack = 0.0
+        for i in range(k + 1):
+            for j in range(k + 1 - i):
+                slack += c[ry, i] * c[OMEGA, j] * c[OMEGA, k - i - j]
+        g[LIFT, k] = slack
+    g[LIFT, 0] += weight
+    g[LIFT, 1] += weight_rate
+
+
+@kernel(CORNER_SERIES)
+def rock_series(right, has_tenon, y, f, p, order, c, g):
+    """Write rocking about a corner at rest; `has_tenon` is 1 where friction has no limit, else 0 ([ShentonJones1991]_)."""
+    side = 1.0 if right else -1.0
+    base = y.size
+    rx, ry = base + RX, base + RY
+    push = f[ALONG, 0] + f[ACROSS, 0]
+    push_rate = f[ALONG, 1] + f[ACROSS, 1]
+    up = f[UP, 0]
+    up_rate = f[UP, 1]
+    weight = p[GRAVITY] + up
+    omega = y[OMEGA]
+    dt = p[DT]
+    c[THETA, 0] = y[THETA]
+    c[OMEGA, 0] = omega
+    c[X, 0] = y[X]
+    c[WORK, 0] = y[WORK]
+    c[rx, 0], c[ry, 0] = corner_position(right, y[THETA], p)
+    inertia = 1.0 / (p[GYRATION] + c[rx, 0] * c[rx, 0] + c[ry, 0] * c[ry, 0])
+    limit = p[MU]
+    size = abs(omega)
+    power = 1.0
+    term = size
+    degree = order
+    last_ry_omega = 0.0
+    last_rx_omega = 0.0
+    for k in range(order + 1):
+        # the products r_y theta' and r_x theta', hence x' = -across and y' = along
+        ry_omega = 0.0
+        rx_omega = 0.0
+        for j in range(k + 1):
+            ry_omega += c[ry, j] * c[OMEGA, k - j]
+            rx_omega += c[rx, j] * c[OMEGA, k - j]
+        if k > 0:
+            normal = k * rx_omega
+            tangent = -k * ry_omega
+            if k == 1:
+                normal += weight
+                tangent += push
+            elif k == 2:
+                normal += up_rate
+                tangent += push_rate
+            g[LIFT, k - 1] = normal
+            g[FORWARD, k - 1] = limit * normal - tangent
+            g[BACKWARD, k - 1] = limit * normal + tangent
+            last_term = term
+            term = abs(c[OMEGA, k]) * power
+            size += term
+            if k >= 3 and term <= TERM_TOLERANCE * size and last_term <= PREVIOUS_TERM_TOLERANCE * size:
+                degree = k
+                break
+        if k == order:
+            break
+        turn = c[ry, k] * push - c[rx, k] * weight
+        work = push * ry_omega - up * rx_omega
+        if k > 0:
+            turn += c[ry, k - 1] * push_rate - c[rx, k - 1] * up_rate
+            work += push_rate * last_ry_omega - up_rate * last_rx_omega
+        turn *= inertia
+        if k == 0:
+            turn = initial_angular_acceleration(side, y[THETA], omega, turn, inertia * (c[ry, 0] * push_rate - c[rx, 0] * up_rate), p)
+        share = 1.0 / (k + 1)
+        c[THETA, k + 1] = c[OMEGA, k] * share
+        c[OMEGA, k + 1] = turn * share
+        c[rx, k + 1] = ry_omega * share
+        c[ry, k + 1] = -rx_omega * share
+        c[X, k + 1] = -c[rx, k + 1]
+        c[WORK, k + 1] = work * share
+        last_ry_omega = ry_omega
+        last_rx_omega = rx_omega
+        power *= dt
+    g[LIFT, degree] = g[FORWARD, degree] = g[BACKWARD, degree] = 0.0
+    for k in (LIFT, FORWARD, BACKWARD):
+        # the mode was taken as consistent within this tolerance: a limit that it leaves behind does not end it
+        if -TOLERANCE * p[GRAVITY] <= g[k, 0] < 0.0 and g[k, 1] > 0.0:
+            g[k, 0] = 0.0
+    if has_tenon > 0.0:
+        if g[LIFT, 0] <= TENON_FORCE_RATIO * p[GRAVITY]:
+            _tenon_slacks(ry, degree, weight, up_rate, p, c, g)
+        g[FORWARD, 0] = g[BACKWARD, 0] = OFF
+    else:
+        # the two limits of friction add up to twice mu_s N
+        g[LIFT, 0] = OFF
+    freeze_states(c, SPEED, WORK)
+    freeze_states(c, FRICTION, y.size)
+    rotation_slacks(side, degree, 1.01 * size * dt, p, c, g)
+    return degree

@@ -1,0 +1,6 @@
+from .outcome import RockOutcome
+from .params import RockOptions, RockParams, rock_params
+from .solve import solve_rock
+from .verdicts import Verdict, Verdicts, rock_verdict, rock_verdicts
+
+__all__ = ["RockOptions", "RockOutcome", "RockParams", "Verdict", "Verdicts", "rock_verdict", "rock_verdicts", "rock_params", "solve_rock"]

@@ -1,0 +1,188 @@
+"""What a rocking trajectory means: the outcome, the phases and the events, in the user's terms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.body_name import body_name
+from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.results import Phase, make_phases
+from seisblock.dynamics import GuardEvent, Trajectory
+from seisblock.models.rock import model
+from seisblock.models.rock.forces import friction_demand
+from seisblock.models.rock.free_rocking import FreeRockingOutcome
+from seisblock.models.rock.params import RockParams
+from seisblock.records import Motion
+
+NO_OVERTURNING = FreeRockingOutcome(False, 0, (0.0, 0.0))
+"""Nothing happens after the record."""
+
+
+@dataclass(frozen=True)
+class RockOutcome:
+    """What became of the block; times in s from the record's first sample, None where there was no such event.
+
+    Parameters
+    ----------
+    rocks : bool
+        Whether it ever left the rest.
+    rocking_start_s : float or None
+        When it first did.
+    max_rotation_rad, max_rotation_ratio : float
+        Largest lean, absolute and over alpha of the corner concerned; also after the record's end, pi/2 when it overturns.
+    max_rotation_s : float or None
+        When; None when that is after the record's end.
+    impacts : int
+        Impacts during the record, down to hops of 1e-8 s.
+    overturned : bool
+        During the record or, by its energy, afterwards.
+    overturning_time_s : float or None
+        When the lean is pi/2, exact also after the record's end.
+    alpha_passed_s : float or None
+        When alpha is passed for good.
+    overturned_towards : str
+        ``+x``, ``-x``, or empty.
+    decided_after_record : bool
+        Whether the record ended while the block was rocking, so that energy decided.
+    slenderness_rad, frequency_parameter_rad_s, restitution : float, 1
+        alpha, p and e of the side to which the block falls more easily.
+    threshold_m_s2 : float
+        Horizontal ground acceleration above which rocking starts without vertical motion.
+    max_friction_demand, max_friction_demand_s : float or None
+        Largest abs(H/N) before alpha is passed for good, and when: below it the block would slip. None when contact is lost.
+    contact_lost, contact_lost_s : bool, float or None
+        Whether, and when first, N <= 0: it would jump.
+    verdict_flips_within_2_percent : bool or None
+        Whether some factor within 0.98 ... 1.02 on the record changes the verdict; None when not looked for.
+    flips_at_factor : float or None
+        The one of these nearest to 1 at which it was found to change; None when none does, or when not looked for.
+    """
+
+    rocks: bool
+    rocking_start_s: float | None
+    max_rotation_rad: float
+    max_rotation_ratio: float
+    max_rotation_s: float | None
+    impacts: int
+    overturned: bool
+    overturning_time_s: float | None
+    alpha_passed_s: float | None
+    overturned_towards: str
+    decided_after_record: bool
+    slenderness_rad: float
+    frequency_parameter_rad_s: float
+    restitution: float
+    threshold_m_s2: float
+    max_friction_demand: float | None
+    max_friction_demand_s: float | None
+    contact_lost: bool
+    contact_lost_s: float | None
+    verdict_flips_within_2_percent: bool | None = None
+    flips_at_factor: float | None = None
+
+
+def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
+    """Return whether a friction coefficient lets a block do what the outcome says ([Ishiyama1982]_).
+
+    It slides instead of rocking where mu < b/h, and slips where the forces of rocking ask for more than mu; a block that never moved asks
+    for what the ground's own acceleration does.
+    """
+    if outcome.rocks and mu < outcome.threshold_m_s2 / gravity:
+        return False
+    return outcome.max_friction_demand is not None and outcome.max_friction_demand <= mu
+
+
+def build_outcome(params: RockParams, motion: Motion, trajectory: Trajectory, free_outcome: FreeRockingOutcome | None) -> RockOutcome:
+    """Gather the outcome from the trajectory and what follows it."""
+    changes = trajectory.events
+    source, target = changes.source, changes.target
+    starts = changes.time[source == model.REST]
+    impacts = ((source == model.TO_RIGHT) | (source == model.TO_LEFT)) & (changes.guard == model.LOWER_BOUND)
+    alpha_times = changes.time[(target == model.BEYOND_RIGHT) | (target == model.BEYOND_LEFT)]
+    aftermath = free_outcome or NO_OVERTURNING
+    overturned = trajectory.final_mode == model.OVERTURNED or aftermath.overturns
+    overturning = trajectory.end_time + (aftermath.overturns_s or 0.0)
+    alpha_time = None
+    if overturned:
+        alpha_time = float(alpha_times[-1]) if alpha_times.size else 0.0
+        if aftermath.overturns and trajectory.final_mode in (model.TO_RIGHT, model.TO_LEFT):
+            alpha_time = trajectory.end_time + (aftermath.passes_alpha_s or 0.0)
+    high, high_s, low, low_s = trajectory.extrema[model.THETA]
+    max_leans = (max(high, aftermath.max_leans[0]), max(-low, aftermath.max_leans[1]))
+    lean = max(max_leans)
+    max_time = high_s if lean == high else low_s if lean == -low else None
+    friction_need = friction_demand(params, motion, trajectory, until_s=math.inf if alpha_time is None else alpha_time)
+    has_rocked = bool(starts.size) or not (trajectory.final_mode == model.REST and not changes)
+
+    def absolute_time(moment: float | None) -> float | None:
+        return None if moment is None else float(motion.start_s + moment)
+
+    direction = ""
+    if overturned:
+        direction = "+x" if (aftermath.direction if free_outcome else trajectory.final[model.THETA]) > 0 else "-x"
+    return RockOutcome(
+        rocks=has_rocked,
+        rocking_start_s=absolute_time(starts[0] if starts.size else 0.0) if has_rocked else None,
+        max_rotation_rad=float(lean),
+        max_rotation_ratio=float(max(lean / alpha for lean, alpha in zip(max_leans, params.alphas, strict=True))),
+        max_rotation_s=absolute_time(max_time) if has_rocked else None,
+        impacts=int(np.count_nonzero(impacts)),
+        overturned=overturned,
+        overturning_time_s=absolute_time(overturning) if overturned else None,
+        alpha_passed_s=absolute_time(alpha_time),
+        overturned_towards=direction,
+        decided_after_record=free_outcome is not None,
+        slenderness_rad=params.alphas[params.weak_corner],
+        frequency_parameter_rad_s=math.sqrt(params.gravity * params.levers[params.weak_corner]),
+        restitution=params.restitutions[1 - params.weak_corner],
+        threshold_m_s2=params.gravity * params.thresholds[params.weak_corner],
+        max_friction_demand=friction_need.friction if math.isfinite(friction_need.friction) else None,
+        max_friction_demand_s=absolute_time(friction_need.friction_s),
+        contact_lost=friction_need.contact_lost_s is not None,
+        contact_lost_s=absolute_time(friction_need.contact_lost_s),
+    )
+
+
+def event_name(change: GuardEvent) -> str:
+    """Return what happened."""
+    if change.source == model.REST:
+        return "rocking starts"
+    if change.target == model.OVERTURNED:
+        return "overturns"
+    if change.target in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
+        return "passes alpha"
+    if change.source in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
+        return "comes back over alpha"
+    return "comes to rest" if change.target == model.REST else "impact"
+
+
+def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:
+    """Return the stretches of one mode each."""
+    changes = trajectory.events
+    modes = np.append(changes.source[:1] if changes else trajectory.final_mode, changes.target)
+    count = modes.size - int(modes[-1] == model.OVERTURNED)  # which ends the motion
+    edges = np.concatenate([[0.0], changes.time, [trajectory.end_time]])
+    return make_phases(start_s + edges[: count + 1], modes[:count], model.MODES.__getitem__)
+
+
+def warnings(params: RockParams, outcome: RockOutcome) -> tuple[Message, ...]:
+    """Return what the user should know before believing the numbers."""
+    messages = []
+    name, threshold = body_name(params.block.name), outcome.threshold_m_s2 / params.gravity
+    if threshold > 1.0:
+        messages.append(
+            lazy_gettext("{name}: wider than tall; it rocks only above {level:.2f} g and will rather slide", name=name, level=threshold)
+        )
+    if outcome.contact_lost:
+        messages.append(
+            lazy_gettext(
+                "{name}: contact with the ground is lost at {time:.3f} s; pure rocking is the wrong model from there",
+                name=name,
+                time=outcome.contact_lost_s,
+            )
+        )
+    return tuple(messages)

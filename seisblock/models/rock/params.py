@@ -1,0 +1,171 @@
+"""Blocks as they rock: corners, restitutions, gravity and the gains of the ground motion, worked out once for any number of runs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TypedDict, Unpack
+
+import numpy as np
+
+from seisblock.bodies.block import Block, Restitution, resolve_restitutions
+from seisblock.bodies.block_array import BlockArray, elementwise
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.records._validation import Gain, validate_inputs, validate_motion, vertical_gain
+from seisblock.records.motion import Motion
+
+CornerPair = tuple[float, float]
+"""One number of the right and one of the left corner."""
+
+
+class RockOptions(TypedDict, total=False):
+    """What may be said of a rocking run beside its block and its motion; see :func:`~seisblock.models.rock.solve.solve_rock`."""
+
+    restitution: Restitution
+    linear: bool
+    vertical: Gain | None
+    gravity: float
+
+
+@dataclass(frozen=True)
+class RockParams:
+    """What every run of one block rests on.
+
+    Parameters
+    ----------
+    block : Block
+    alphas, radii : (float, float), rad and m
+        Of the right and the left corner.
+    levers : (float, float), 1/m
+        m R/I_O of each.
+    restitutions : (float, float)
+        Restitution of an impact onto each.
+    linear : bool
+        Whether the equation is that of slender blocks ([Zhang2001]_ eqs. (4), (5)).
+    vertical : float
+        Factor on the vertical ground motion.
+    gravity : float, m/s^2
+    """
+
+    block: Block
+    alphas: CornerPair
+    radii: CornerPair
+    levers: CornerPair
+    restitutions: CornerPair
+    linear: bool
+    vertical: float
+    gravity: float
+
+    @property
+    def thresholds(self) -> CornerPair:
+        """Horizontal over vertical acceleration that each corner holds at rest."""
+        return self.alphas if self.linear else (math.tan(self.alphas[0]), math.tan(self.alphas[1]))
+
+    @property
+    def weak_corner(self) -> int:
+        """The corner about which it falls more easily."""
+        return 0 if self.alphas[0] <= self.alphas[1] else 1
+
+    def gains(self, scale: float = 1.0) -> tuple[float, float, float]:
+        """Return the factors on the motion's rows."""
+        return scale, 0.0, scale * self.vertical
+
+
+@dataclass(frozen=True, eq=False)
+class RockBatchParams:
+    """Many blocks that rock under one motion: arrays with a row for each, and a column for its right and one for its left corner.
+
+    Parameters
+    ----------
+    alphas, levers, restitutions : (m, 2) arrays; rad, 1/m, 1
+        As of a :class:`RockParams`.
+    linear, vertical, gravity : bool, float, float
+        The same for all.
+    """
+
+    alphas: FloatArray
+    levers: FloatArray
+    restitutions: FloatArray
+    linear: bool
+    vertical: float
+    gravity: float
+
+    def __len__(self) -> int:
+        return self.alphas.shape[0]
+
+    def __getitem__(self, index: slice | IntArray) -> RockBatchParams:
+        """Return some of them."""
+        return replace(self, alphas=self.alphas[index], levers=self.levers[index], restitutions=self.restitutions[index])
+
+    @property
+    def thresholds(self) -> FloatArray:
+        """Horizontal over vertical acceleration that each corner holds at rest, (m, 2)."""
+        return self.alphas if self.linear else elementwise(math.tan, self.alphas).reshape(-1, 2)
+
+    def gains(self, scale: float = 1.0) -> tuple[float, float, float]:
+        """Return the factors on the motion's rows."""
+        return scale, 0.0, scale * self.vertical
+
+
+def rock_params(
+    block: Block,
+    motion: Motion,
+    *,
+    restitution: Restitution = None,
+    linear: bool = False,
+    vertical: Gain | None = False,
+    gravity: float = STANDARD_GRAVITY,
+) -> RockParams:
+    """Return a block as it rocks under a motion, or refuse what it cannot be asked.
+
+    Parameters
+    ----------
+    block, motion, restitution, linear, vertical, gravity
+        As for :func:`~seisblock.models.rock.solve.solve_rock`.
+
+    Raises
+    ------
+    KindError, ParameterError, ComponentError
+        As there.
+    """
+    validate_inputs(block, Block, motion)
+    ratios = _check_restitution(resolve_restitutions(block, restitution), restitution)
+    return RockParams(
+        block,
+        block.slendernesses,
+        block.radii,
+        block.lever_ratios,
+        ratios,
+        linear,
+        vertical_gain(motion, vertical),
+        checks.gravity(gravity),
+    )
+
+
+def rock_batch_params(blocks: BlockArray, motion: Motion, **options: Unpack[RockOptions]) -> RockBatchParams:
+    """Return many blocks as they rock under a motion; parameters and refusals as of :func:`rock_params`."""
+    validate_motion(motion)
+    restitution = options.get("restitution")
+    pair = restitution if isinstance(restitution, tuple) or restitution is None else (restitution, restitution)
+    ratios = blocks.restitutions if pair is None else np.tile(_check_restitution(pair, restitution), (len(blocks), 1))
+    return RockBatchParams(
+        blocks.slendernesses,
+        blocks.lever_ratios,
+        ratios,
+        options.get("linear", False),
+        vertical_gain(motion, options.get("vertical", False)),
+        checks.gravity(options.get("gravity", STANDARD_GRAVITY)),
+    )
+
+
+def _check_restitution(ratios: CornerPair, restitution: Restitution) -> CornerPair:
+    """Return restitutions that are ratios between nothing and all."""
+    if not all(0.0 <= ratio <= 1.0 for ratio in ratios):
+        raise ParameterError(
+            "the restitution, a ratio of angular velocities, must lie in [0, 1], found {found}; leave it out for 1 - 1.5 sin^2(alpha)",
+            found=str(restitution),
+        )
+    return ratios

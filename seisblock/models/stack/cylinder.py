@@ -1,0 +1,209 @@
+"""Where a round stone touches: at the lowest point of its rim, at the points a quarter round from it, and where its rim crosses a border.
+
+A rim has no corners. Its lowest point follows from the lean, exactly: u, across the stone's axis a and furthest against the normal n,
+
+    u = -(n - (n.a) a) / |n - (n.a) a|   (derived here).
+
+It wanders round the stone as the stone wobbles or rolls, at s = R (u' - w x u) over its material (derived here); a point that rolls is
+asked to be at rest half a step later where it will be then, so that rolling and spinning keep their energy. Points a quarter round, and
+opposite, carry the stone where it stands flat; it turns about none of them, since a lean of any size makes the lowest point another. Where
+there is no lean yet, that point is sought where the stone presses: thither it will turn.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.stack.constraint_row import NORMAL, RIM_AXIS, RIM_RADIUS, SIMULTANEITY_WINDOW
+from seisblock.models.stack.frames import R
+from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, POSITION, REL_D
+from seisblock.models.stack.step import MIN_FACING_COSINE, MIN_JOINT_HEIGHT_RATIO
+
+_t = types()
+
+RIM_SIMULTANEITY = 1e-4
+"""Part of a step within which the points of a rim that leans strike at once."""
+
+RIMS = 4
+RADIUS, HEIGHT = 0, 1
+"""A circle that bounds a round stone."""
+
+FLAT_SINE_SQUARED = 1e-10
+"""Square of the sine of a lean that has no direction: the stone will then turn to where it presses."""
+
+CENTRED_RATIO = 0.05
+"""How far from the middle, over its radius, a stone presses to no side."""
+
+MAX_HALF_STEP_ANGLE = 0.5
+"""Angle, rad, by which the lowest point may wander round the stone in half a step and still be asked where it will be then."""
+
+MAX_STEP_ANGLE = 0.125
+"""Angle, rad, by which it may wander round the stone until a step ends: of what lies between the four points nothing else is looked at."""
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, MATRIX), inline=True)
+def lowest_rim_point(n0, n1, n2, axes):
+    """Write the direction of a rim's lowest point, and the one a quarter round from it; return the sine of the lean.
+
+    Parameters
+    ----------
+    n0, n1, n2 : float
+        The normal that points up.
+    axes : (4, 18) array
+        The stone's axis, a direction to take where there is no lean, and the two directions.
+    """
+    a, x, u, w = axes[0], axes[1], axes[2], axes[3]
+    projection = n0 * a[0] + n1 * a[1] + n2 * a[2]
+    m0, m1, m2 = n0 - projection * a[0], n1 - projection * a[1], n2 - projection * a[2]
+    square = m0 * m0 + m1 * m1 + m2 * m2
+    sine = math.sqrt(square)
+    if square < FLAT_SINE_SQUARED:
+        projection = x[0] * a[0] + x[1] * a[1] + x[2] * a[2]
+        m0, m1, m2 = x[0] - projection * a[0], x[1] - projection * a[1], x[2] - projection * a[2]
+        size = math.sqrt(m0 * m0 + m1 * m1 + m2 * m2)
+        u[0], u[1], u[2] = m0 / size, m1 / size, m2 / size
+        sine = 0.0
+    else:
+        u[0], u[1], u[2] = -m0 / sine, -m1 / sine, -m2 / sine
+    w[0] = a[1] * u[2] - a[2] * u[1]
+    w[1] = a[2] * u[0] - a[0] * u[2]
+    w[2] = a[0] * u[1] - a[1] * u[0]
+    return sine
+
+
+@kernel(_t.void(MATRIX, VECTOR, _t.float64, VECTOR))
+def load_directions(slots, rel, radius, x):
+    """Write the directions, seen from the carrier's axis and from the partner's, in which the forces of the last step pressed.
+
+    The carrier's is its own x if in none, and the partner's then the carrier's.
+    """
+    p0, p1, p2, total = 0.0, 0.0, 0.0, 0.0
+    for i in range(slots.shape[0]):
+        slot = slots[i]
+        if slot[ACTIVE] > 0.0:
+            normal_force = slot[CACHED_FORCE] * rel[2] + slot[CACHED_FORCE + 1] * rel[5] + slot[CACHED_FORCE + 2] * rel[8]
+            total += normal_force
+            p0 += normal_force * (slot[POSITION] - rel[REL_D])
+            p1 += normal_force * (slot[POSITION + 1] - rel[REL_D + 1])
+            p2 += normal_force * (slot[POSITION + 2] - rel[REL_D + 2])
+    if total != 0.0:
+        p0, p1, p2 = p0 / total, p1 / total, p2 / total
+    min_offset_squared = (CENTRED_RATIO * radius) ** 2
+    x[3], x[4], x[5] = rel[REL_D] + p0, rel[REL_D + 1] + p1, 0.0
+    projection = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
+    x[0], x[1], x[2] = p0 - projection * rel[2], p1 - projection * rel[5], p2 - projection * rel[8]
+    if x[0] * x[0] + x[1] * x[1] + x[2] * x[2] <= min_offset_squared:
+        x[0], x[1], x[2] = rel[0], rel[3], rel[6]
+    if total == 0.0 or x[3] * x[3] + x[4] * x[4] <= min_offset_squared:
+        x[3], x[4], x[5] = x[0], x[1], 0.0
+
+
+@kernel(_t.void(_t.boolean, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR))
+def set_rim_contact(is_deepest, sine, radius, axes, frame, row):
+    """Write into the row of a point of a rim, if there is a lean, how soon it strikes; and round what its lowest point wanders.
+
+    Parameters
+    ----------
+    is_deepest : bool
+        Whether it is the lowest point.
+    sine, radius : float
+        Of the lean, and of the rim, m; the radius negative where it is the second stone's.
+    axes : (4, 18) array
+        See :func:`lowest_rim_point`.
+    frame : (31,) array
+        The body in whose axes these are.
+    row : (92,) array
+    """
+    if sine == 0.0:
+        return
+    row[SIMULTANEITY_WINDOW] = RIM_SIMULTANEITY
+    if not is_deepest:
+        return
+    a = axes[0]
+    row[RIM_RADIUS] = radius
+    for i in range(3):
+        row[RIM_AXIS + i] = frame[R + 3 * i] * a[0] + frame[R + 3 * i + 1] * a[1] + frame[R + 3 * i + 2] * a[2]
+
+
+@kernel(_t.float64(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
+def rolling_bias(row, x, y, z, step, bias):
+    """Add how the lowest point of a rim changes its velocity in half a step by wandering round the stone; return when it will be far.
+
+    Along the normal it is what keeps the lowest point on its plane to the end of the step, wherever it then is. Where it will be on the
+    other side, the stone having come to stand flat, nothing is asked of this one: the points that are there strike.
+
+    Parameters
+    ----------
+    row : (92,) array
+    x, y, z : float, rad/s
+        The spin of the first stone against the second.
+    step : float, s
+    bias : (3,) array, m/s
+    """
+    radius, side = abs(row[RIM_RADIUS]), math.copysign(1.0, row[RIM_RADIUS])
+    a0, a1, a2 = row[RIM_AXIS], row[RIM_AXIS + 1], row[RIM_AXIS + 2]
+    n0, n1, n2 = side * row[NORMAL], side * row[NORMAL + 1], side * row[NORMAL + 2]
+    w0, w1, w2 = side * x, side * y, side * z
+    cosine = n0 * a0 + n1 * a1 + n2 * a2
+    u0, u1, u2 = cosine * a0 - n0, cosine * a1 - n1, cosine * a2 - n2
+    sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
+    u0, u1, u2 = u0 / sine, u1 / sine, u2 / sine
+    d0, d1, d2 = w1 * a2 - w2 * a1, w2 * a0 - w0 * a2, w0 * a1 - w1 * a0
+    turning = n0 * d0 + n1 * d1 + n2 * d2
+    m0, m1, m2 = -turning * a0 - cosine * d0, -turning * a1 - cosine * d1, -turning * a2 - cosine * d2
+    sine_rate = u0 * m0 + u1 * m1 + u2 * m2
+    v0, v1, v2 = w1 * u2 - w2 * u1, w2 * u0 - w0 * u2, w0 * u1 - w1 * u0
+    s0, s1, s2 = (sine_rate * u0 - m0) / sine - v0, (sine_rate * u1 - m1) / sine - v1, (sine_rate * u2 - m2) / sine - v2
+    wander = math.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
+    e0, e1, e2 = w1 * s2 - w2 * s1, w2 * s0 - w0 * s2, w0 * s1 - w1 * s0
+    # the axis at the end of the step
+    spin = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
+    if spin > 0.0:
+        c, s = math.cos(spin * step), math.sin(spin * step) / spin
+        axial = (1.0 - c) * (w0 * a0 + w1 * a1 + w2 * a2) / (spin * spin)
+        b0, b1, b2 = c * a0 + s * d0 + axial * w0, c * a1 + s * d1 + axial * w1, c * a2 + s * d2 + axial * w2
+        f0, f1, f2 = n1 * b2 - n2 * b1, n2 * b0 - n0 * b2, n0 * b1 - n1 * b0
+        sine_after = math.sqrt(f0 * f0 + f1 * f1 + f2 * f2)
+        g0, g1, g2 = w1 * v2 - w2 * v1, w2 * v0 - w0 * v2, w0 * v1 - w1 * v0
+        half = 0.5 * step
+        up = (sine - sine_after) / step - sine_rate - half * (n0 * g0 + n1 * g1 + n2 * g2)
+        if wander * step > 2.0 * MAX_HALF_STEP_ANGLE:
+            e0, e1, e2 = 0.0, 0.0, 0.0
+        up -= half * (n0 * e0 + n1 * e1 + n2 * e2)
+        lead = sine + (n0 * b0 + n1 * b1 + n2 * b2) * (u0 * b0 + u1 * b1 + u2 * b2)
+        factor = side * radius if lead > 0.0 else 0.0
+        bias[0] += factor * (half * e0 + up * n0)
+        bias[1] += factor * (half * e1 + up * n1)
+        bias[2] += factor * (half * e2 + up * n2)
+    passing_rate = sine * wander * math.cos(MAX_STEP_ANGLE) + sine_rate * math.sin(MAX_STEP_ANGLE)
+    return sine * math.sin(MAX_STEP_ANGLE) / passing_rate if passing_rate > 0.0 else math.inf
+
+
+@kernel(_t.boolean(_t.float64, MATRIX, _t.int64), inline=True)
+def _rim_touches(lean, rims, side):
+    """Whether the worn rim of a face is what touches at a lean, given as its tangent: beyond the slope of its bevel the side does."""
+    worn_rim, full_rim = rims[side], rims[2 + side]
+    return full_rim[RADIUS] == 0.0 or lean * (full_rim[RADIUS] - worn_rim[RADIUS]) <= abs(worn_rim[HEIGHT] - full_rim[HEIGHT])
+
+
+@kernel(_t.boolean(VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
+def faces_opposed(rel, carrier_half, partner_half, rims, partner_rims):
+    """Whether one of two stones stands on the other with a flat face, or its worn rim.
+
+    Parameters
+    ----------
+    rel : (18,) array
+        The carrier as the partner sees it.
+    carrier_half, partner_half : (6,) arrays, m
+        The carrier's box, and the partner's.
+    rims, partner_rims : (4, 2) arrays, m
+        The carrier's circles, and the partner's.
+    """
+    if abs(rel[8]) <= MIN_FACING_COSINE or abs(rel[REL_D + 2]) <= partner_half[2] + MIN_JOINT_HEIGHT_RATIO * carrier_half[2]:
+        return False
+    is_above = rel[REL_D + 2] > 0.0
+    lean = math.sqrt(max(1.0 - rel[8] * rel[8], 0.0)) / abs(rel[8])
+    lower_down = is_above == (rel[8] > 0.0)
+    return _rim_touches(lean, partner_rims, 1 if is_above else 0) and _rim_touches(lean, rims, 0 if lower_down else 1)

@@ -1,0 +1,76 @@
+"""The outsides of the stones: corners and edges of the boxes, circles of the round ones, worn where they stand."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from seisblock.bodies.pile.pile import Pile
+from seisblock.core.typing import FloatArray, IntArray
+from seisblock.models.stack.cylinder import RIMS
+from seisblock.models.stack.mesh_topology import PLANE
+from seisblock.models.stack.step import BOX_EDGES
+
+MAX_CORNERS = 16
+
+INSCRIBED_SQUARE_RATIO = math.sqrt(0.5)
+"""Half the side of the square in a circle, over its radius."""
+
+WearDepths = dict[tuple[int, int], tuple[float, float]]
+"""How far in from its sides a stone's lower face, 0, or upper face, 1, is worn, along x and y, m."""
+
+_SIGNS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
+_RINGS = [(i, (i + 1) % 4) for i in range(4)]
+
+
+def build_hulls(body: Pile, boxes: FloatArray, wear: WearDepths) -> tuple[FloatArray, IntArray, IntArray, FloatArray, FloatArray]:
+    """Return corners, with planes behind them, and edges of the boxes, how far their flat sides reach, and the circles of the round ones.
+
+    A worn face has its corners that far in, at the outermost points, and a bevel of 45 degrees leads to the sides. Where it has tilted
+    off its joint, a round stone meets others as the square prism inside it.
+    """
+    corners = np.zeros((len(boxes), MAX_CORNERS, PLANE + 4))
+    counts = np.zeros(len(boxes), dtype=np.int64)
+    edges = np.zeros((len(boxes), BOX_EDGES, 2), dtype=np.int64)
+    cores = boxes[:, :3].copy()
+    rims = np.zeros((len(boxes), RIMS, 2))
+    for i, stone in enumerate(body.stones):
+        radius, hz = boxes[i, [0, 2]].tolist()
+        scale = INSCRIBED_SQUARE_RATIO if stone.is_round else 1.0
+        cores[i, :2] *= scale
+        hx, hy = cores[i, :2].tolist()
+        points: list[tuple[float, float, float]] = []
+        posts = []
+        for side, up in enumerate((-1.0, 1.0)):
+            dx, dy = (scale * inset for inset in wear.get((i, side), (0.0, 0.0)))
+            points += [(sx * (hx - dx), sy * (hy - dy), up * hz) for sx, sy in _SIGNS]
+            posts.append([4 * side + c for c in range(4)])
+            if stone.is_round:
+                rims[i, side] = radius - wear.get((i, side), (0.0, 0.0))[0], up * hz
+        for side, up in enumerate((-1.0, 1.0)):
+            if (i, side) in wear:
+                bevel = min(*wear[i, side], 0.5 * hz)
+                posts[side] = [len(points) + c for c in range(4)]
+                points += [(sx * hx, sy * hy, up * (hz - bevel)) for sx, sy in _SIGNS]
+                if stone.is_round:
+                    rims[i, 2 + side] = radius, up * (hz - bevel)
+        corners[i, : len(points), :PLANE] = points
+        counts[i] = len(points)
+        edges[i] = [*_RINGS, *[(4 + a, 4 + b) for a, b in _RINGS], *zip(*posts, strict=True)]
+        corners[i, : len(points) - 2, PLANE:] = _planes(points)
+    return corners, counts, edges, cores, rims
+
+
+def _planes(points: list[tuple[float, float, float]]) -> list[tuple[float, float, float, float]]:
+    """Return normals and offsets of the faces between rings of four corners, counted from below, and of the lower and the upper face."""
+    # of each ring the corner where x and y are greatest
+    rings = [points[2], *points[10::4], points[6]]
+    planes = []
+    for (x, y, z), (x1, y1, z1) in pairwise(rings):
+        up, along_x, along_y = z1 - z, math.hypot(z1 - z, x - x1), math.hypot(z1 - z, y - y1)
+        out_y = 0.0, up / along_y, (y - y1) / along_y, (up * y + (y - y1) * z) / along_y
+        out_x = up / along_x, 0.0, (x - x1) / along_x, (up * x + (x - x1) * z) / along_x
+        planes += [(0.0, -out_y[1], *out_y[2:]), out_x, out_y, (-out_x[0], *out_x[1:])]
+    return [*planes, (0.0, 0.0, -1.0, -rings[0][2]), (0.0, 0.0, 1.0, rings[-1][2])]

@@ -1,0 +1,336 @@
+"""Where rigid stones meet: at the points of their joints, or where boxes that stay apart would come together."""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.stack.box_box import EDGE_EDGE, FACE_AXIS, KIND
+from seisblock.models.stack.buffers import LAYOUT, MEMORY
+from seisblock.models.stack.constraint_assembly import (
+    FROM_JOINT,
+    FROM_PAIR,
+    MAX_SPEED,
+    SUPPORT_POINTS,
+    add_contact,
+    max_approach,
+    register_slot,
+)
+from seisblock.models.stack.constraint_row import IMPACT_SPEED, IMPULSE, IS_STANDING, NORMAL, RESTITUTION_RATIO
+from seisblock.models.stack.cylinder import HEIGHT, RADIUS, RIMS, faces_opposed, load_directions, lowest_rim_point, set_rim_contact
+from seisblock.models.stack.face_overlap import IS_LOWEST, MAX_SHARED_POINTS, POINT_NORMAL, face_overlap_points
+from seisblock.models.stack.frames import relative_state
+from seisblock.models.stack.hull_pairs import bevel_touches, edges_cross, face_supports, faces_overlap, gap_between, max_contact_points
+from seisblock.models.stack.spring_contact import ACTIVE, CLAMP_TO_EDGE, OUTSIDE, POSITION, REL_D, RESTITUTION, SLOT
+from seisblock.models.stack.step import (
+    CARRIER,
+    LEVEL,
+    MIN_FACING_COSINE,
+    ORBITS,
+    PAIR,
+    PARTNER,
+    POINT,
+    SIGMA,
+    aabbs_overlap,
+    clear_pair,
+    is_joint_engaged,
+    max_corner_speed,
+    update_aabbs,
+)
+from seisblock.models.stack.warm_start import (
+    MAX_SHIFT_RATIO,
+    distribute_load,
+    has_lost_loaded_point,
+    match_point,
+    project_to_plane,
+    save_slots,
+    store_point,
+    sum_joint_load,
+)
+
+_t = types()
+
+FACE_PAIR, BOX_PAIR = -2, -1
+"""How a pair was met last: face on face where one of them is round, else as boxes."""
+
+MAX_FACE_DEPTH = 1e-4
+"""How deep, m, faces may lie in each other where a pair that was met as boxes is to be met face on face."""
+
+TOUCH_GAP = 1e-6
+"""Gap, m, within which the points of a flat joint touch."""
+
+FLAT_TOLERANCE, UNLOADED_FACTOR, LOADED_FACTOR = 1e-6, 0.04, 8.0
+"""Cosine of a lean, less than 1 by so much, of stones that lie face on face; what of a free fall's speed, over that of the others, is
+heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps; and of
+those that did: they touch, and what was pressed unevenly in the step before seems to strike."""
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
+    """Make rows of the points of a joint; count in the scratch those that have left the partner's face."""
+    joint, k = pile.joints[j], pile.constants[j]
+    c, p, sigma = joint[CARRIER], joint[PARTNER], k[SIGMA]
+    half, total, max_gap = pile.boxes[p], memory.scratch[1], max_approach(dt, memory)
+    for o in range(joint[ORBITS]):
+        for q in range(4):
+            point, slot = pile.grids[j, o, q], memory.joint_slots[j, o, q]
+            if point[2] == 0.0:
+                continue
+            x, y, z = point[0], point[1], k[LEVEL]
+            s0 = rel[9] + rel[0] * x + rel[1] * y + rel[2] * z
+            s1 = rel[10] + rel[3] * x + rel[4] * y + rel[5] * z
+            if abs(s0) > half[0] or abs(s1) > half[1]:
+                total[OUTSIDE] += 1.0
+                slot[ACTIVE] = 0.0
+                continue
+            s2 = rel[11] + rel[6] * x + rel[7] * y + rel[8] * z
+            depth = half[2] + sigma * s2
+            slot[POSITION] = s0
+            slot[POSITION + 1] = s1
+            slot[POSITION + 2] = s2
+            slot[POSITION + 3] = 0.0
+            slot[POSITION + 4] = 0.0
+            slot[POSITION + 5] = -sigma
+            count = register_slot(
+                count,
+                add_contact(count, c, p, slot, -depth, max_gap, k[POINT:], bodies, dt, pile, memory),
+                FROM_JOINT,
+                j,
+                o,
+                q,
+                slot,
+                memory.contact_ids,
+            )
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
+    """Make rows of a box's corners that may touch the ground; return how many rows there are then."""
+    c, p = pile.pairs[pair, 0], pile.pairs[pair, 1]
+    slots, axis = memory.corner_slots[pair, 0], memory.scratch[22]
+    for i in range(3):
+        axis[i] = 1.0 if i == 2 else 0.0
+    for i in range(pile.counts[c]):
+        r = pile.corners[c, i]
+        y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
+        gap = y2 - pile.boxes[p, 2]
+        if gap > max_gap:
+            slots[i, ACTIVE] = 0.0
+            continue
+        y0 = rel[9] + rel[0] * r[0] + rel[1] * r[1] + rel[2] * r[2]
+        y1 = rel[10] + rel[3] * r[0] + rel[4] * r[1] + rel[5] * r[2]
+        store_point(slots[i], y0, y1, y2, axis)
+        new_count = add_contact(count, c, p, slots[i], gap, max_gap, pile.pair_constants[pair], bodies, dt, pile, memory)
+        count = register_slot(count, new_count, FROM_PAIR, pair, 0, i, slots[i], memory.contact_ids)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
+    """Make rows of the points where two boxes may touch; return how many rows there are then."""
+    c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
+    slots, old_slots, axis, candidates = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], scratch[29], scratch[4:20]
+    first_slot, max_points = 0, max_contact_points(c, p, pile)
+    save_slots(max_points, slots, old_slots)
+    gap = gap_between(rel, c, p, max_gap, pile, scratch, axis)
+    if gap > max_gap:
+        return count
+    if axis[KIND] >= EDGE_EDGE:
+        if edges_cross(rel, c, p, pile, axis, scratch, candidates[0]):
+            store_point(slots[0], candidates[0, 0], candidates[0, 1], candidates[0, 2], axis)
+            match_point(slots[0], old_slots, max_points)
+            new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, dt, pile, memory)
+            count = register_slot(count, new_count, FROM_PAIR, pair, 0, 0, slots[0], memory.contact_ids)
+        first_slot = 1
+    points = faces_overlap(rel, c, p, pile, axis, scratch, max_gap, candidates, scratch[20:29])
+    for i in range(points):
+        if first_slot == 1 and candidates[i, 3] < min(
+            gap, 0.0
+        ):  # where edges cross, a face says only what comes to lie on it, and has come no deeper
+            continue
+        slot = slots[first_slot + i]
+        store_point(slot, candidates[i, 0], candidates[i, 1], candidates[i, 2], axis[FACE_AXIS:])
+        match_point(slot, old_slots, max_points)
+        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, dt, pile, memory)
+        count = register_slot(count, new_count, FROM_PAIR, pair, 0, first_slot + i, slot, memory.contact_ids)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
+    """Make rows of the points of a round stone's rims that may touch the ground; return how many rows there are then."""
+    c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
+    slots, old_slots, ground = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], bodies[bodies.shape[0] - 1]
+    axis, axes, loads = memory.scratch[22], memory.scratch[4:8], memory.scratch[8:10]
+    for i in range(3):
+        axis[i] = 1.0 if i == 2 else 0.0
+        axes[0, i] = rel[3 * i + 2]
+    load_directions(slots, rel, pile.boxes[c, 0], axes[1])
+    sine = lowest_rim_point(0.0, 0.0, 1.0, axes)
+    for i in range(RIMS):
+        radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
+        if radius == 0.0:
+            continue
+        rim, old_rim = slots[4 * i : 4 * i + 4], old_slots[4 * i : 4 * i + 4]
+        is_flat = sine == 0.0 and sum_joint_load(rim, ground, loads)
+        for q in range(4):
+            for j in range(SLOT):
+                old_rim[q, j] = rim[q, j]
+            direction, side = axes[2 + q % 2], radius if q < 2 else -radius
+            y0 = rel[9] + side * direction[0] + height * rel[2]
+            y1 = rel[10] + side * direction[1] + height * rel[5]
+            y2 = rel[11] + side * direction[2] + height * rel[8]
+            store_point(rim[q], y0, y1, y2, axis)
+        if is_flat and not (has_lost_loaded_point(4, rim, old_rim, MAX_SHIFT_RATIO * radius) and distribute_load(4, rim, loads, ground)):
+            for q in range(4):
+                match_point(rim[q], old_rim, 4)
+        for q in range(4):
+            slot = rim[q]
+            new_count = add_contact(count, c, p, slot, slot[POSITION + 2] - pile.boxes[p, 2], max_gap, k, bodies, dt, pile, memory)
+            if new_count > count:
+                set_rim_contact(q == 0, sine, radius, axes, ground, memory.constraint_rows[count])
+            count = register_slot(count, new_count, FROM_PAIR, pair, 0, 4 * i + q, slot, memory.contact_ids)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory):
+    """Make rows of the points where a round stone's face lies on another stone's, or under it; return how many rows there are then.
+
+    Stones whose outlines lie beside each other, and those that came to lie in each other's, met as the boxes inside them, are left to
+    these: return -1.
+    """
+    c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
+    slots, old_slots, axes, axis, candidates = (
+        memory.corner_slots[pair, 0],
+        memory.corner_slots[pair, 1],
+        scratch[7:11],
+        scratch[19],
+        scratch[20:],
+    )
+    load_directions(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
+    points = face_overlap_points(c, p, rel, pile, axis, scratch[4:19], candidates)
+    if points == 0:
+        return -1
+    if memory.pair_states[pair] == BOX_PAIR:
+        for i in range(points):
+            if candidates[i, 3] < -MAX_FACE_DEPTH:
+                return -1
+    save_slots(MAX_SHARED_POINTS, slots, old_slots)
+    # the rim that rolls is the partner's where the carrier's face is the one it rolls on
+    box = p if axis[3] > 0.0 else c
+    side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
+    for i in range(3):
+        axes[0, i] = (1.0 if i == 2 else 0.0) if box == p else rel[3 * i + 2]
+        axes[1, i] = axis[4 + i]
+    up = -1.0 if box == p else 1.0
+    sine = lowest_rim_point(up * axis[0], up * axis[1], up * axis[2], axes)
+    face = (1 if side > 0.0 else 0) if box == p else (0 if side * rel[8] > 0.0 else 1)
+    radius = pile.rims[box, face, RADIUS]
+    frame, loads = bodies[pile.owner[p]], scratch[11:13]
+    for i in range(points):
+        store_point(slots[i], candidates[i, 0], candidates[i, 1], candidates[i, 2], candidates[i, POINT_NORMAL:])
+    is_flat = (
+        sine == 0.0
+        and has_lost_loaded_point(points, slots, old_slots, MAX_SHIFT_RATIO * radius)
+        and sum_joint_load(old_slots[:MAX_SHARED_POINTS], frame, loads)
+    )
+    is_redistributed = is_flat and distribute_load(points, slots, loads, frame)
+    for i in range(points):
+        slot = slots[i]
+        if not is_redistributed:
+            match_point(slot, old_slots, MAX_SHARED_POINTS)
+        new_count = add_contact(count, c, p, slot, candidates[i, 3], max_gap, k, bodies, dt, pile, memory)
+        if new_count > count:
+            set_rim_contact(candidates[i, IS_LOWEST] > 0.0, sine, up * radius, axes, frame, memory.constraint_rows[count])
+        count = register_slot(count, new_count, FROM_PAIR, pair, 0, i, slot, memory.contact_ids)
+    return count
+
+
+@kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT))
+def _faces_aligned(rel, c, p, pile):
+    """Whether of two stones that face each other those that are not round lean no further than their bevels."""
+    up = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
+    if pile.rims[c, 0, RADIUS] == 0.0 and not face_supports(pile.corners[c], pile.counts[c], -up * rel[6], -up * rel[7], -up * rel[8]):
+        return False
+    return pile.rims[p, 0, RADIUS] > 0.0 or face_supports(pile.corners[p], pile.counts[p], up * rel[2], up * rel[5], up * rel[8])
+
+
+@kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
+def _contacts_pair(count, pair, bodies, dt, pile, memory):
+    """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
+    boxes, rel, start, ground, faces = pile.boxes, memory.scratch[0], count, pile.boxes.shape[0] - 1, -1
+    on_ground = pile.pairs[pair, 1] == ground
+    c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
+    relative_state(c, p, bodies, boxes, pile.owner, memory.scratch[2:4], rel)
+    max_gap = max_approach(dt, memory)
+    if on_ground and pile.rims[c, 0, RADIUS] > 0.0:
+        count = _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory)
+    elif on_ground:
+        count = _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory)
+    else:
+        is_round = pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0
+        if is_round and faces_opposed(rel, boxes[c], boxes[p], pile.rims[c], pile.rims[p]) and _faces_aligned(rel, c, p, pile):
+            faces = _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory)
+        count = faces if faces >= 0 else _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory)
+    memory.pair_states[pair] = FACE_PAIR if faces >= 0 else BOX_PAIR
+    restitution = pile.pair_constants[pair, RESTITUTION]
+    if rel[8] > MIN_FACING_COSINE:
+        for i in range(start, count):
+            row = memory.constraint_rows[i]
+            row[RESTITUTION_RATIO] = restitution
+            row[IS_STANDING] = 1.0
+            normal_force = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
+            if normal_force > 0.0:
+                row[IMPACT_SPEED] *= LOADED_FACTOR
+            elif 1.0 - rel[8] < FLAT_TOLERANCE:
+                row[IMPACT_SPEED] *= UNLOADED_FACTOR
+        if 1.0 - rel[8] < FLAT_TOLERANCE and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
+            project_to_plane(start, count, TOUCH_GAP, memory.constraint_rows)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
+def _contacts_joint(count, j, bodies, dt, pile, memory):
+    """Make rows of the points of a joint, and of what hangs over its border."""
+    joint, k, boxes, scratch = pile.joints[j], pile.constants[j], pile.boxes, memory.scratch
+    c, p, rel, total = joint[CARRIER], joint[PARTNER], scratch[0], scratch[1]
+    relative_state(c, p, bodies, boxes, pile.owner, scratch[2:4], rel)
+    is_engaged = is_joint_engaged(k[SIGMA], rel, boxes[c], boxes[p])
+    total[OUTSIDE] = 0.0
+    if is_engaged == 1:
+        count = _contacts_joint_points(count, j, rel, bodies, dt, pile, memory)
+    leans = is_engaged == 1 and bevel_touches(rel, c, p, k[SIGMA], max_approach(dt, memory), pile)
+    memory.pair_states[joint[PAIR]] = -1 if leans or total[OUTSIDE] > 0.0 else is_engaged
+    return count
+
+
+@kernel(_t.boolean(_t.int64, LAYOUT, MEMORY), inline=True)
+def _both_sleeping(pair, pile, memory):
+    """Whether both stones of a pair lie still, and need not be solved for."""
+    a, b = pile.owner[pile.pairs[pair, 0]], pile.owner[pile.pairs[pair, 1]]
+    return memory.sleep_states[a, SUPPORT_POINTS] > 0 and memory.sleep_states[b, SUPPORT_POINTS] > 0
+
+
+@kernel(_t.int64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
+def find_contacts(bodies, dt, refresh_bounds, pile, memory):
+    """Make rows of every contact; return how many there are.
+
+    Joints with points of their own are held by these while their stones face each other; all else is met as boxes that stay apart.
+    """
+    count, memory.step_info[MAX_SPEED] = 0, max_corner_speed(bodies, pile.boxes, pile.owner)
+    for j in range(pile.joints.shape[0]):
+        pair = pile.joints[j, PAIR]
+        if pile.constants[j, POINT + CLAMP_TO_EDGE] == 0.0 and not _both_sleeping(pair, pile, memory):
+            count = _contacts_joint(count, j, bodies, dt, pile, memory)
+    if refresh_bounds:
+        update_aabbs(bodies, pile.boxes, pile.owner, dt, memory.bounds)
+    for pair in range(pile.pairs.shape[0]):
+        if memory.pair_states[pair] > 0 or _both_sleeping(pair, pile, memory):
+            continue
+        if aabbs_overlap(pile.pairs[pair, 0], pile.pairs[pair, 1], memory.bounds):
+            count = _contacts_pair(count, pair, bodies, dt, pile, memory)
+        elif memory.pair_states[pair] < 0:
+            memory.pair_states[pair] = 0
+            clear_pair(pair, memory)
+    return count

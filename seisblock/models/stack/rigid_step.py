@@ -1,0 +1,237 @@
+"""One step of a pile of rigid contacts: where the stones meet, and the impulses there.
+
+The leapfrog of :mod:`seisblock.models.stack.step` goes on as it is: positions at the step, velocities half a step before. Impulses act at
+the places of the step, which keeps the energy; that a point comes to rest is asked of its velocity half a step later, when the body has
+turned, so that a stone that turns about a point leaves it there to the third order of the step. What is left of a gap is made good in the
+next step and does not grow ([Moreau1988]_).
+"""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX
+from seisblock.models.stack.buffers import LAYOUT, MEMORY
+from seisblock.models.stack.constraint_assembly import (
+    BODY_IDS,
+    CONTACT_COUNT,
+    EXTRAPOLATION,
+    FREE_FALL_SPEED,
+    FROM_JOINT,
+    FULL_STEP,
+    HAD_IMPACT,
+    KICK_TIME,
+    LAST_STEP,
+    PRESS_TIME,
+    SWEEP_COUNT,
+    mean_force,
+)
+from seisblock.models.stack.constraint_row import ARM_A, ARM_B, GAP, GYROSCOPIC, IMPACT_IMPULSE, IMPULSE, PRIOR_IMPULSE, apply_impulses
+from seisblock.models.stack.frames import INVERSE, F, L, R, T, V
+from seisblock.models.stack.friction import SLIP_THRESHOLD, max_turn_time, record_slip, set_friction_cones, sliding_velocity, solve_friction
+from seisblock.models.stack.narrow_phase import find_contacts
+from seisblock.models.stack.pgs import TOLERANCE, UNCONVERGED_RATIO, impulse_work, solve_contacts
+from seisblock.models.stack.sleeping import can_support, put_to_sleep, wake
+from seisblock.models.stack.spring_contact import CACHED_FORCE, CACHED_SLIDING, PREVIOUS_FORCE
+from seisblock.models.stack.time_of_impact import (
+    add_restitution_rows,
+    begin_impacts,
+    detect_impacts,
+    distribute_joint_impulse,
+    load_until_impact,
+    make_impact_plastic,
+    next_impact_time,
+    store_impact,
+)
+from seisblock.models.stack.velocity_bounds import max_roll_time, set_velocity_bounds
+
+_t = types()
+
+MAX_IMPACTS = 16
+"""How often points strike in one instant at most, each time what the last impact drove together."""
+
+EXTRAPOLATION_RATIO = 0.9
+"""Of a whole step: what points that share a load do against each other then fades."""
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY), inline=True)
+def _update_inertia(n, bodies, inertias, memory):
+    """Write the inverse inertia of the bodies as they lie, their velocities, and how their spins change by turning."""
+    for i in range(n):
+        b, v, j = bodies[i], memory.body_velocities[i], memory.inverses[i]
+        for p in range(3):
+            r0, r1, r2 = b[R + 3 * p], b[R + 3 * p + 1], b[R + 3 * p + 2]
+            c = INVERSE
+            s0 = r0 * inertias[i, c] + r1 * inertias[i, c + 3] + r2 * inertias[i, c + 6]
+            s1 = r0 * inertias[i, c + 1] + r1 * inertias[i, c + 4] + r2 * inertias[i, c + 7]
+            s2 = r0 * inertias[i, c + 2] + r1 * inertias[i, c + 5] + r2 * inertias[i, c + 8]
+            for q in range(3):
+                j[3 * p + q] = s0 * b[R + 3 * q] + s1 * b[R + 3 * q + 1] + s2 * b[R + 3 * q + 2]
+        v[0], v[1], v[2] = b[V], b[V + 1], b[V + 2]
+        for p in range(3):
+            v[3 + p] = j[3 * p] * b[L] + j[3 * p + 1] * b[L + 1] + j[3 * p + 2] * b[L + 2]
+        # a body that turns on with the same angular momentum: w' = -J (w x L)
+        g0, g1, g2 = v[4] * b[L + 2] - v[5] * b[L + 1], v[5] * b[L] - v[3] * b[L + 2], v[3] * b[L + 1] - v[4] * b[L]
+        for p in range(3):
+            v[GYROSCOPIC + p] = -(j[3 * p] * g0 + j[3 * p + 1] * g1 + j[3 * p + 2] * g2)
+
+
+@kernel(_t.void(MEMORY))
+def _store_forces(memory):
+    """Keep where the next step finds them the forces that pressed, and what slid."""
+    press_time, threshold = memory.step_info[PRESS_TIME], SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED]
+    for i in range(int(memory.step_info[CONTACT_COUNT])):
+        ids, row = memory.contact_ids[i], memory.constraint_rows[i]
+        a, b = ids[BODY_IDS], ids[BODY_IDS + 1]
+        slot = memory.joint_slots[ids[3], ids[4], ids[5]] if ids[2] == FROM_JOINT else memory.corner_slots[ids[3], ids[4], ids[5]]
+        for k in range(3):
+            slot[PREVIOUS_FORCE + k] = slot[CACHED_FORCE + k]
+            slot[CACHED_FORCE + k] = mean_force(
+                row[IMPULSE + k], press_time, 0.0 if memory.step_info[HAD_IMPACT] > 0.0 else slot[CACHED_FORCE + k], memory
+            )
+        slot[CACHED_SLIDING] = 0.0
+        if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0 and row[GAP] > 0.0:
+            continue
+        u0, u1, u2 = sliding_velocity(ids[0], ids[1], row, memory)
+        slot[CACHED_SLIDING] = 1.0 if u0 * u0 + u1 * u1 + u2 * u2 > threshold**2 else 0.0
+        if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
+            continue
+        memory.contact_matrix[a, b] = 1.0
+        memory.contact_matrix[b, a] = 1.0
+
+
+@kernel(_t.void(_t.int64, MATRIX, _t.boolean, MEMORY))
+def _apply_forces(count, bodies, has_impact, memory):
+    """Add the impulses to the bodies as forces over the step."""
+    dt = memory.step_info[KICK_TIME]
+    for i in range(count):
+        row, a, b = memory.constraint_rows[i], memory.contact_ids[i, BODY_IDS], memory.contact_ids[i, BODY_IDS + 1]
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        if has_impact:
+            p0, p1, p2 = p0 + row[PRIOR_IMPULSE], p1 + row[PRIOR_IMPULSE + 1], p2 + row[PRIOR_IMPULSE + 2]
+        first, second = bodies[a], bodies[b]
+        p0, p1, p2 = p0 / dt, p1 / dt, p2 / dt
+        x, y, z = row[ARM_A], row[ARM_A + 1], row[ARM_A + 2]
+        r, s, t = row[ARM_B], row[ARM_B + 1], row[ARM_B + 2]
+        first[F] += p0
+        first[F + 1] += p1
+        first[F + 2] += p2
+        first[T] += y * p2 - z * p1
+        first[T + 1] += z * p0 - x * p2
+        first[T + 2] += x * p1 - y * p0
+        second[F] -= p0
+        second[F + 1] -= p1
+        second[F + 2] -= p2
+        second[T] -= s * p2 - t * p1
+        second[T + 1] -= t * p0 - r * p2
+        second[T + 2] -= r * p1 - s * p0
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, _t.float64, LAYOUT, MEMORY), inline=True)
+def _advance_velocities(count, n, time, a0, a1, a2, pile, memory):
+    """Let the velocities go on for a time in axes that accelerate, under the forces that stand in the rows."""
+    for i in range(n):
+        memory.body_velocities[i, 0] -= time * a0
+        memory.body_velocities[i, 1] -= time * a1
+        memory.body_velocities[i, 2] -= time * a2
+    apply_impulses(count, memory.contact_ids, memory.constraint_rows, n, pile.inertias, time, memory.body_velocities)
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
+def _solve_impacts(count, n, time_before, pile, memory):
+    """Let points strike: what the forces gave until then and what the impacts give becomes the impulse given.
+
+    A given ratio of velocities across a joint and friction may together give energy; such an impact is plastic. What is so near that an
+    impact lets it strike in the same instant does so in another one.
+    """
+    contact_rows, tolerance = memory.constraint_rows, TOLERANCE * memory.step_info[FREE_FALL_SPEED]
+    load_until_impact(count, time_before, memory)
+    solve_contacts(count, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+    begin_impacts(count, memory)
+    for _ in range(MAX_IMPACTS):
+        if not detect_impacts(count, memory):
+            break
+        rows = add_restitution_rows(count, n, pile, memory)
+        solve_contacts(rows, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+        if (
+            rows > count
+            and impulse_work(
+                rows, memory.contact_ids, contact_rows, n, pile.inertias, UNCONVERGED_RATIO * tolerance, memory.body_velocities
+            )
+            > 0.0
+        ):
+            make_impact_plastic(count, rows, n, pile, memory)
+            solve_contacts(count, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
+        else:
+            distribute_joint_impulse(count, rows, memory)
+        store_impact(count, rows, memory)
+    record_slip(count, True, memory)
+    for i in range(count):
+        for k in range(3):
+            contact_rows[i, IMPULSE + k] = mean_force(contact_rows[i, PRIOR_IMPULSE + k], time_before, 0.0, memory)
+            contact_rows[i, PRIOR_IMPULSE + k] += contact_rows[i, IMPACT_IMPULSE + k]
+
+
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
+def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory):
+    """Add the forces at the points of what does not lie still; return the length of the step."""
+    n, step_info, rows = bodies.shape[0] - 1, memory.step_info, memory.constraint_rows
+    half_last_step = 0.5 * step_info[LAST_STEP]
+    _update_inertia(n, bodies, pile.inertias, memory)
+    count = find_contacts(bodies, time_left, refresh_bounds, pile, memory)
+    record_slip(count, False, memory)
+    _advance_velocities(count, n, half_last_step, a0, a1, a2, pile, memory)
+    has_impact = detect_impacts(count, memory)
+    if has_impact:
+        _solve_impacts(count, n, half_last_step, pile, memory)
+        detect_impacts(count, memory)
+    _advance_velocities(count, n, 0.5 * time_left, a0, a1, a2, pile, memory)
+    duration, time_before = (0.5 * time_left, 0.0) if has_impact else (half_last_step + 0.5 * time_left, half_last_step)
+    max_step = min(max_roll_time(count, time_left, memory), max_turn_time(count, duration, time_before, time_left, memory))
+    step = next_impact_time(count, 0.5 * time_left, max_step, memory)
+    if step < time_left:
+        _advance_velocities(count, n, 0.5 * (step - time_left), a0, a1, a2, pile, memory)
+    step_info[KICK_TIME] = half_last_step + 0.5 * step
+    press_time = 0.5 * step if has_impact else step_info[KICK_TIME]
+    for i in range(count):
+        for j in range(IMPULSE, IMPULSE + 3):
+            rows[i, j] *= press_time
+    set_velocity_bounds(count, step, memory)
+    set_friction_cones(count, memory)
+    step_info[SWEEP_COUNT] = solve_friction(count, n, has_impact, pile, memory)
+    _apply_forces(count, bodies, has_impact, memory)
+    step_info[HAD_IMPACT] = 1.0 if has_impact else 0.0
+    step_info[CONTACT_COUNT] = count
+    step_info[PRESS_TIME] = press_time
+    return step
+
+
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
+def step_contacts(bodies, a0, a1, a2, full_step, time_left, refresh_bounds, pile, memory):
+    """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
+
+    The step ends where a point strikes. The next one then begins with the impact.
+
+    Parameters
+    ----------
+    full_step, time_left : float, s
+        A whole step, and what is left of it.
+    refresh_bounds : bool
+        Whether to find anew which boxes are near each other, with a margin for what they may move until the next time.
+    """
+    n, step_info = bodies.shape[0] - 1, memory.step_info
+    step_info[FULL_STEP] = full_step
+    step_info[FREE_FALL_SPEED] = full_step * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
+    step_info[EXTRAPOLATION] = (
+        EXTRAPOLATION_RATIO
+        if step_info[HAD_IMPACT] == 0.0 and step_info[KICK_TIME] == full_step and 0.5 * (step_info[LAST_STEP] + time_left) == full_step
+        else 0.0
+    )
+    while True:
+        step = _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
+        if can_support(n, bodies, a0, a1, a2, pile, memory):
+            break
+        wake(n, bodies, memory)
+        step_info[EXTRAPOLATION], refresh_bounds = 0.0, False
+    _store_forces(memory)
+    put_to_sleep(int(step_info[CONTACT_COUNT]), n, pile, memory)
+    return step

@@ -1,0 +1,282 @@
+"""Stones that lie still are ground to those that move, as long as what they lie on can carry what is asked of it.
+
+Where a stone has lain still for some steps on one other that lies still, or on the ground, its points are no longer solved for: what the
+shaking, its weight and the stones above ask of its joint follows by adding up, from above. The normal forces that carry it are spread
+over the points as an elastic bed would, friction in proportion to them and to the way of each about their centre. Where none of them
+pulls and none leaves Coulomb's cone, they solve the contact laws with the stone at rest (derived here). Where one does, all stones are
+solved for, in that step and the next ones.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.stack.buffers import LAYOUT, MEMORY
+from seisblock.models.stack.constraint_assembly import (
+    BODY_IDS,
+    FREE_FALL_SPEED,
+    FROM_JOINT,
+    FULL_STEP,
+    KICK_TIME,
+    PRESS_TIME,
+    STILL_STEPS,
+    SUPPORT_BODY,
+    SUPPORT_POINTS,
+)
+from seisblock.models.stack.constraint_row import ARM_A, ARM_B, GAP, IMPULSE, NORMAL, STATIC
+from seisblock.models.stack.frames import INERTIA, MASS, F, L, T, V, X
+from seisblock.models.stack.spring_contact import CACHED_FORCE, PREVIOUS_FORCE
+
+_t = types()
+
+SLEEP_SPEED_RATIO = 5e-3
+"""Speed, over that of a free fall of a step, below which a stone is still."""
+
+SLEEP_DELAY_STEPS = 20
+"""Steps for which a stone is still before it counts as lying, and twice as many after it was roused."""
+
+CONTACT_GAP_RATIO = 0.01
+"""Gap, over the way of a free fall of a step, below which a point carries."""
+
+MIN_WIDTH_RATIO = 1e-3
+"""Least square of the width of a bed over that of its length."""
+
+SUPPORT_CENTRE, SUPPORT_NORMAL, SUPPORT_MOMENTS = 0, 3, 6
+"""A bed's first row: its middle from the stone's centre (3), m; its normal, into the stone (3); the inverse of its second moments (6)."""
+
+POINT_OFFSET, POINT_FORCE, POINT_FRICTION, POINT_SLOT, POINT_SIDE, POINT_PRESSURE, SELF_STRESS, LAST_FORCE = 0, 3, 6, 7, 11, 12, 13, 14
+SUPPORT_COLUMNS = 17
+"""A point's row: from the middle of the bed (3), m; the force on the stone (3), N; friction; the slot that remembers its force (4); whether
+the stone is the first or, -1, the second of that slot; what presses, N, as long as it is not known whether the bed carries; its part in
+what four points do against each other without anybody feeling it; and the force of the step before (3), N."""
+
+
+@kernel(_t.boolean(_t.int64, _t.int64, _t.int64, MEMORY))
+def _find_support(i, n, count, memory):
+    """Write the points on which a stone lies into its bed; return whether they are those of one stone that lies, or of the ground."""
+    support_points, sleep_state, step_info = memory.support_points[i], memory.sleep_states[i], memory.step_info
+    press_time = step_info[PRESS_TIME]
+    points, support = 0, -1
+    for k in range(count):
+        row, ids = memory.constraint_rows[k], memory.contact_ids[k]
+        a, b = ids[BODY_IDS], ids[BODY_IDS + 1]
+        if (a != i and b != i) or row[GAP] > CONTACT_GAP_RATIO * step_info[FULL_STEP] * step_info[FREE_FALL_SPEED]:
+            continue
+        side, neighbour, arm = (1.0, b, ARM_A) if a == i else (-1.0, a, ARM_B)
+        if memory.sleep_states[neighbour, SUPPORT_POINTS] == 0:
+            continue
+        if (support >= 0 and neighbour != support) or (neighbour > i and neighbour != n) or points + 1 >= support_points.shape[0]:
+            return False
+        support = neighbour
+        points += 1
+        point, alignment = support_points[points], 0.0
+        for m in range(3):
+            if points == 1:
+                support_points[0, SUPPORT_NORMAL + m] = side * row[NORMAL + m]
+            alignment += support_points[0, SUPPORT_NORMAL + m] * side * row[NORMAL + m]
+            point[POINT_OFFSET + m] = row[arm + m]
+            point[POINT_FORCE + m] = side * row[IMPULSE + m] / press_time
+        if alignment < 1.0 - 1e-9:
+            return False
+        point[POINT_FRICTION] = row[STATIC]
+        point[POINT_SIDE] = side
+        for m in range(4):
+            point[POINT_SLOT + m] = ids[2 + m]
+    if points < 3:
+        return False
+    sleep_state[SUPPORT_BODY] = support
+    sleep_state[SUPPORT_POINTS] = points
+    return True
+
+
+@kernel(_t.float64(VECTOR, VECTOR, VECTOR, VECTOR), inline=True)
+def _triangle_area(a, b, c, head):
+    """Return twice the area of a triangle, positive where its corners go round the normal of a bed."""
+    x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    p, q, r = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    return head[SUPPORT_NORMAL] * (y * r - z * q) + head[SUPPORT_NORMAL + 1] * (z * p - x * r) + head[SUPPORT_NORMAL + 2] * (x * q - y * p)
+
+
+@kernel(_t.boolean(_t.int64, MATRIX), inline=True)
+def _remove_tension(points, support_points):
+    """Shift normal forces between four points as far as keeps them from pulling; return whether none pulls."""
+    low, high = -math.inf, math.inf
+    for k in range(1, points + 1):
+        pressure, self_stress = support_points[k, POINT_PRESSURE], support_points[k, SELF_STRESS]
+        if self_stress > 0.0:
+            low = max(low, -pressure / self_stress)
+        elif self_stress < 0.0:
+            high = min(high, -pressure / self_stress)
+        elif pressure < 0.0:
+            return False
+    if low > high:
+        return False
+    shift = min(max(0.0, low), high)
+    for k in range(1, points + 1):
+        support_points[k, POINT_PRESSURE] = max(support_points[k, POINT_PRESSURE] + shift * support_points[k, SELF_STRESS], 0.0)
+    return True
+
+
+@kernel(_t.boolean(_t.int64, MATRIX))
+def _support_moments(points, support_points):
+    """Write the middle of a bed and the inverse of its second moments; return whether it is wide enough to lie on."""
+    head = support_points[0]
+    for m in range(3):
+        head[SUPPORT_CENTRE + m] = 0.0
+        for k in range(1, points + 1):
+            head[SUPPORT_CENTRE + m] += support_points[k, POINT_OFFSET + m] / points
+    a, b, c, d, e, f = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(1, points + 1):
+        point = support_points[k]
+        x, y, z = (
+            point[POINT_OFFSET] - head[SUPPORT_CENTRE],
+            point[POINT_OFFSET + 1] - head[SUPPORT_CENTRE + 1],
+            point[POINT_OFFSET + 2] - head[SUPPORT_CENTRE + 2],
+        )
+        point[POINT_OFFSET] = x
+        point[POINT_OFFSET + 1] = y
+        point[POINT_OFFSET + 2] = z
+        a, b, c, d, e, f = a + x * x, b + x * y, c + x * z, d + y * y, e + y * z, f + z * z
+    for k in range(points):
+        support_points[1 + k, SELF_STRESS] = (
+            _triangle_area(support_points[1 + (k + 1) % 4], support_points[1 + (k + 2) % 4], support_points[1 + (k + 3) % 4], head)
+            if points == 4
+            else 0.0
+        )
+        if k % 2 == 1:
+            support_points[1 + k, SELF_STRESS] *= -1.0
+    size = a + d + f
+    x, y, z = head[SUPPORT_NORMAL], head[SUPPORT_NORMAL + 1], head[SUPPORT_NORMAL + 2]
+    a, b, c, d, e, f = a + size * x * x, b + size * x * y, c + size * x * z, d + size * y * y, e + size * y * z, f + size * z * z
+    p, q, r = d * f - e * e, c * e - b * f, b * e - c * d
+    determinant = a * p + b * q + c * r
+    if determinant <= MIN_WIDTH_RATIO * size**3:
+        return False
+    head[SUPPORT_MOMENTS] = p / determinant
+    head[SUPPORT_MOMENTS + 1] = q / determinant
+    head[SUPPORT_MOMENTS + 2] = r / determinant
+    head[SUPPORT_MOMENTS + 3] = (a * f - c * c) / determinant
+    head[SUPPORT_MOMENTS + 4] = (b * c - a * e) / determinant
+    head[SUPPORT_MOMENTS + 5] = (a * d - b * b) / determinant
+    return True
+
+
+@kernel(_t.boolean(_t.int64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX))
+def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
+    """Spread a force and a torque about the stone's centre over a bed; return whether every point presses within its cone."""
+    head = support_points[0]
+    x, y, z = head[SUPPORT_CENTRE], head[SUPPORT_CENTRE + 1], head[SUPPORT_CENTRE + 2]
+    n0, n1, n2 = head[SUPPORT_NORMAL], head[SUPPORT_NORMAL + 1], head[SUPPORT_NORMAL + 2]
+    m0, m1, m2 = t0 - (y * f2 - z * f1), t1 - (z * f0 - x * f2), t2 - (x * f1 - y * f0)
+    weight, twist = f0 * n0 + f1 * n1 + f2 * n2, m0 * n0 + m1 * n1 + m2 * n2
+    if weight <= 0.0:
+        return False
+    e0, e1, e2 = n1 * m2 - n2 * m1, n2 * m0 - n0 * m2, n0 * m1 - n1 * m0
+    s = SUPPORT_MOMENTS
+    q0 = head[s] * e0 + head[s + 1] * e1 + head[s + 2] * e2
+    q1 = head[s + 1] * e0 + head[s + 3] * e1 + head[s + 4] * e2
+    q2 = head[s + 2] * e0 + head[s + 4] * e1 + head[s + 5] * e2
+    # the centre of the normal forces from the middle, and their polar moment
+    c0, c1, c2, polar = 0.0, 0.0, 0.0, 0.0
+    for k in range(1, points + 1):
+        d = support_points[k]
+        d[POINT_PRESSURE] = weight / points + q0 * d[0] + q1 * d[1] + q2 * d[2]
+    if not _remove_tension(points, support_points):
+        return False
+    for k in range(1, points + 1):
+        d, pressure = support_points[k], support_points[k, POINT_PRESSURE]
+        c0, c1, c2 = c0 + pressure * d[0], c1 + pressure * d[1], c2 + pressure * d[2]
+        polar += pressure * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
+    c0, c1, c2 = c0 / weight, c1 / weight, c2 / weight
+    polar -= weight * (c0 * c0 + c1 * c1 + c2 * c2)
+    g0, g1, g2 = (f0 - weight * n0) / weight, (f1 - weight * n1) / weight, (f2 - weight * n2) / weight
+    twist -= weight * (n0 * (c1 * g2 - c2 * g1) + n1 * (c2 * g0 - c0 * g2) + n2 * (c0 * g1 - c1 * g0))
+    rotation = twist / polar if polar > 0.0 else 0.0
+    for k in range(1, points + 1):
+        d, pressure = support_points[k], support_points[k, POINT_PRESSURE]
+        x, y, z = d[0] - c0, d[1] - c1, d[2] - c2
+        r0, r1, r2 = g0 + rotation * (n1 * z - n2 * y), g1 + rotation * (n2 * x - n0 * z), g2 + rotation * (n0 * y - n1 * x)
+        if pressure > 0.0 and r0 * r0 + r1 * r1 + r2 * r2 > d[POINT_FRICTION] ** 2:
+            return False
+    for k in range(1, points + 1):
+        d, pressure = support_points[k], support_points[k, POINT_PRESSURE]
+        x, y, z = d[0] - c0, d[1] - c1, d[2] - c2
+        r0, r1, r2 = g0 + rotation * (n1 * z - n2 * y), g1 + rotation * (n2 * x - n0 * z), g2 + rotation * (n0 * y - n1 * x)
+        d[POINT_FORCE] = pressure * (n0 + r0)
+        d[POINT_FORCE + 1] = pressure * (n1 + r1)
+        d[POINT_FORCE + 2] = pressure * (n2 + r2)
+    return True
+
+
+@kernel(_t.boolean(_t.int64, MATRIX, _t.float64, _t.float64, _t.float64, LAYOUT, MEMORY))
+def can_support(n, bodies, a0, a1, a2, pile, memory):
+    """Add the forces that keep what lies where it is, with what was added before; return whether all beds can carry them."""
+    kick_time = memory.step_info[KICK_TIME]
+    for i in range(n):
+        for k in range(1, memory.sleep_states[i, SUPPORT_POINTS] + 1):
+            for m in range(3):
+                memory.support_points[i, k, LAST_FORCE + m] = memory.support_points[i, k, POINT_FORCE + m]
+    for i in range(n - 1, -1, -1):
+        points, s = memory.sleep_states[i, SUPPORT_POINTS], memory.sleep_states[i, SUPPORT_BODY]
+        if points == 0:
+            continue
+        b, m = bodies[i], pile.inertias[i, MASS]
+        w0, w1, w2 = m * (a0 - b[V] / kick_time), m * (a1 - b[V + 1] / kick_time), m * (a2 - b[V + 2] / kick_time)
+        f0, f1, f2 = w0 - b[F], w1 - b[F + 1], w2 - b[F + 2]
+        t0, t1, t2 = -b[L] / kick_time - b[T], -b[L + 1] / kick_time - b[T + 1], -b[L + 2] / kick_time - b[T + 2]
+        if not _distribute_load(points, f0, f1, f2, t0, t1, t2, memory.support_points[i]):
+            return False
+        b[F] = w0
+        b[F + 1] = w1
+        b[F + 2] = w2
+        for k in range(3):
+            b[T + k] = -b[L + k] / kick_time
+        c = bodies[s]
+        x, y, z = b[X] - c[X], b[X + 1] - c[X + 1], b[X + 2] - c[X + 2]
+        c[F] -= f0
+        c[F + 1] -= f1
+        c[F + 2] -= f2
+        c[T] -= t0 + y * f2 - z * f1
+        c[T + 1] -= t1 + z * f0 - x * f2
+        c[T + 2] -= t2 + x * f1 - y * f0
+        memory.contact_matrix[i, s] = 1.0
+        memory.contact_matrix[s, i] = 1.0
+    return True
+
+
+@kernel(_t.void(_t.int64, MATRIX, MEMORY))
+def wake(n, bodies, memory):
+    """Let all stones be solved for, from the forces of the last step in which they lay; clear what was added in vain."""
+    for i in range(n + 1):
+        for k in range(F, T + 3):
+            bodies[i, k] = 0.0
+    for i in range(n):
+        for k in range(1, memory.sleep_states[i, SUPPORT_POINTS] + 1):
+            point = memory.support_points[i, k]
+            j, o, q = int(point[POINT_SLOT + 1]), int(point[POINT_SLOT + 2]), int(point[POINT_SLOT + 3])
+            slot = memory.joint_slots[j, o, q] if point[POINT_SLOT] == FROM_JOINT else memory.corner_slots[j, o, q]
+            for m in range(3):
+                slot[CACHED_FORCE + m] = point[POINT_SIDE] * point[LAST_FORCE + m]
+                slot[PREVIOUS_FORCE + m] = slot[CACHED_FORCE + m]
+        memory.sleep_states[i, SUPPORT_POINTS] = 0
+        memory.sleep_states[i, STILL_STEPS] = -SLEEP_DELAY_STEPS
+
+
+@kernel(_t.void(_t.int64, _t.int64, LAYOUT, MEMORY))
+def put_to_sleep(count, n, pile, memory):
+    """Let stones lie that have been still for some steps on what lies."""
+    limit = (SLEEP_SPEED_RATIO * memory.step_info[FREE_FALL_SPEED]) ** 2
+    for i in range(n):
+        if memory.sleep_states[i, SUPPORT_POINTS] > 0:
+            continue
+        v, inertia, sleep_state = memory.body_velocities[i], pile.inertias[i], memory.sleep_states[i]
+        gyration_squared = (inertia[INERTIA] + inertia[INERTIA + 4] + inertia[INERTIA + 8]) / inertia[MASS]
+        speed_squared = v[0] ** 2 + v[1] ** 2 + v[2] ** 2 + gyration_squared * (v[3] ** 2 + v[4] ** 2 + v[5] ** 2)
+        sleep_state[STILL_STEPS] = sleep_state[STILL_STEPS] + 1 if speed_squared < limit else min(sleep_state[STILL_STEPS], 0)
+        if sleep_state[STILL_STEPS] < SLEEP_DELAY_STEPS:
+            continue
+        sleep_state[STILL_STEPS] = 0
+        if _find_support(i, n, count, memory) and not _support_moments(sleep_state[SUPPORT_POINTS], memory.support_points[i]):
+            sleep_state[SUPPORT_POINTS] = 0

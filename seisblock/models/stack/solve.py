@@ -1,0 +1,256 @@
+"""A pile of stones on a shaking base: three-dimensional distinct elements ([Furukawa2009]_ section 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.core import checks
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.i18n import N_, Message, lazy_gettext
+from seisblock.core.results import Event, Histories, Phase, Response, Status
+from seisblock.core.typing import FloatArray
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
+from seisblock.models.stack.outcome import SimulationResult, StackOutcome, stack_outcome, stone_channels
+from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
+from seisblock.models.stack.simulation import Simulation
+from seisblock.models.stack.static_equilibrium import rigid_steps_per_sample, steps_per_sample
+from seisblock.records._validation import Gain, validate_inputs, vertical_gain
+from seisblock.records.motion import Motion
+from seisblock.references import papers
+
+RIGID, SPRINGS = "rigid", "springs"
+"""Laws of contact."""
+
+REFINEMENT_FACTOR = 5
+"""How many times finer steps answer where rigid stones created energy."""
+
+MAX_UNCONVERGED_SHARE, MIN_STEPS_FOR_WARNING = 0.5, 100
+"""Part of the steps whose sweeps may end before they come to rest, of so many at least."""
+
+EDGE_POINTS = 2
+"""Points along each side of a joint that stands on its edges."""
+
+
+def solve_stack(
+    body: Pile,
+    motion: Motion,
+    *,
+    law: str | None = None,
+    points: int = 2,
+    contact: PileContact | None = None,
+    mu_kinetic: float | None = None,
+    restitution: float | None = None,
+    vertical: Gain | None = None,
+    across: Gain = True,
+    gravity: float = STANDARD_GRAVITY,
+    step: float | None = None,
+    stop_at_fall: bool = False,
+    tilts: Mapping[str, float] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Response[StackOutcome]:
+    """Follow a pile of stones through a ground motion ([Furukawa2009]_ section 3(1)).
+
+    Every stone is rigid, with quaternions for its turns. Stones meet at points of each joint, and at corners and edges once they have
+    tilted or moved off it; there they are rigid too, with impulses that obey Signorini's condition and Coulomb's cone ([Jean1999]_,
+    [Moreau1988]_), or press on each other through springs, dashpots and sliders ([Furukawa2009]_). Valid for any tilt and any fall.
+
+    Parameters
+    ----------
+    body : Pile
+    motion : Motion
+        Ground acceleration; +x is its first row.
+    law : str
+        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid. Where rigid stones created energy at the default
+        step, one five times finer answers, with a warning; where they do so there, too, springs, unless something was asked for that
+        these do not know.
+    points : int
+        Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
+    contact : PileContact
+        Of springs; default: [Furukawa2009]_ table 2.
+    mu_kinetic : float, 1
+        Friction of every joint that slides, at most that of the same joint when it clings; default: the body's own. Rigid stones only.
+    restitution : float, 1
+        Of the joints: with what part of the velocity of the edge that strikes the opposite edge leaves. Default: what angular momentum
+        about the edge that strikes gives, Housner's ratio for one block. Rigid stones on edges only.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+    across : bool or float
+        Whether the motion's transverse row acts, or a factor on it.
+    gravity : float, m/s^2
+    step : float, s
+        Fixed step; default: 1/55 of the time in which the smallest stone swings; of springs, 0.7 of what the stiffest contact admits.
+    stop_at_fall : bool
+        Whether to end at the first fall.
+    tilts : mapping of str to float, rad
+        Stones let go from a lean about y, turned about the point on which they then stand.
+    progress : callable
+        Told now and then how many samples are done, and how many there are.
+
+    Returns
+    -------
+    Response
+        Channels ``NAME_tilt``, ``NAME_slip``, centre ``NAME_x`` ... relative to the ground, quaternion ``NAME_qw`` ...;
+        rows where something moved.
+
+    Raises
+    ------
+    BodyError
+        If the pile cannot rest on its joints.
+    ParameterError
+        If `step` is too coarse to be stable or finer than does any good, or an option is out of range.
+    SolverError
+        If the run created energy or left the finite numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.bodies.pile.toml import load_pile
+    >>> pulse = Motion.from_arrays(2.0 * np.sin(np.linspace(0.0, np.pi, 11)), 0.01)
+    >>> solve_stack(load_pile("wagata"), pulse, points=2).outcome.overturned
+    ()
+    """
+    validate_inputs(body, Pile, motion)
+    checks.gravity(gravity)
+    rigid = _is_rigid(law, contact)
+    springs = None if rigid else PileContact() if contact is None else checks.instance(contact, PileContact)
+    body = _with_kinetic_friction(body, rigid, mu_kinetic, restitution)
+    pile = pile_arrays(body, springs, points, _joint_restitution(points, restitution))
+    steps = rigid_steps_per_sample(pile, motion.dt, step, gravity) if rigid else steps_per_sample(pile, motion.dt, step)
+    vertical_factor = vertical_gain(motion, vertical)
+    simulation = Simulation(pile, motion, (float(across), vertical_factor), gravity, steps, rigid, stop_at_fall, tilts or {})
+    end = simulation.run(progress=progress)
+    if end.status == Status.NOT_FINITE:
+        raise SolverError(
+            "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
+        )
+    try:
+        outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps, azimuth=motion.azimuth_deg)
+    except SolverError as error:
+        if not rigid or step is not None:
+            raise
+        contact_options: dict[str, Any] = {"law": law, "mu_kinetic": mu_kinetic, "restitution": restitution}
+        run_options: dict[str, Any] = {"points": points, "vertical": vertical, "across": across, "gravity": gravity}
+        run_options |= {"stop_at_fall": stop_at_fall, "tilts": tilts, "progress": progress}
+        return _retry_finer(error, body, motion, motion.dt / steps / REFINEMENT_FACTOR, contact_options, run_options)
+    return Response(
+        model="stack",
+        outcome=outcome,
+        motion=motion,
+        body=body,
+        make_histories=partial(_curves, simulation, end),
+        phases=_phases(outcome, motion.start_s, motion.start_s + end.time),
+        events=_events(outcome),
+        options={
+            "law": RIGID if rigid else SPRINGS,
+            "points": points,
+            "mu": body.mu,
+            "mu_kinetic": body.friction()[1],
+            "restitution": restitution,
+            "vertical": vertical_factor,
+            "across": float(across),
+            "gravity_m_s2": gravity,
+            "step_s": motion.dt / steps,
+            "contact": None if springs is None else asdict(springs),
+        },
+        status=end.status,
+        citations=papers("rigid pile" if rigid else "pile"),
+        warnings=_convergence_warnings(end.output.energy_ledger, motion),
+    )
+
+
+def _convergence_warnings(ledger: FloatArray, motion: Motion) -> tuple[Message, ...]:
+    """Return what there is to say against a run most of whose steps did not come to rest: slips are then too large."""
+    share = ledger[UNCONVERGED] / max(ledger[SOLVED], MIN_STEPS_FOR_WARNING)
+    if share <= MAX_UNCONVERGED_SHARE:
+        return ()
+    return (
+        lazy_gettext(
+            "{name}: the forces between the stones did not come to rest in {share:.0f} % of the steps, as where a stone bears one "
+            "a hundred times as heavy: slips may be too large; give a finer `step`",
+            name=motion.name or "x",
+            share=100.0 * share,
+        ),
+    )
+
+
+def _retry_finer(
+    error: SolverError, body: Pile, motion: Motion, step: float, contact_options: dict[str, Any], run_options: dict[str, Any]
+) -> Response[StackOutcome]:
+    """Return what finer steps answer where rigid stones created energy, or springs where these do, too."""
+    label = motion.name or "x"
+    try:
+        response = solve_stack(body, motion, step=step, **contact_options, **run_options)
+        message = lazy_gettext(
+            "{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=step, why=error.message
+        )
+    except SolverError as second_error:
+        needs_rigid = body.has_lower_kinetic_friction or any(stone.is_round for stone in body.stones)
+        if needs_rigid or any(value is not None for value in contact_options.values()):
+            raise
+        response = solve_stack(body, motion, law=SPRINGS, **run_options)
+        message = lazy_gettext(
+            "{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=second_error.message
+        )
+    return replace(response, warnings=(message, *response.warnings))
+
+
+def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
+    """Return whether contacts are rigid."""
+    if law not in (None, RIGID, SPRINGS):
+        raise ParameterError("the law of contact must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
+    if law == RIGID and contact is not None:
+        raise ParameterError("rigid stones have no springs: leave `contact` out, or choose the law {springs!r}", springs=SPRINGS)
+    return contact is None if law is None else law == RIGID
+
+
+def _with_kinetic_friction(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
+    """Return the pile with the kinetic friction asked for, refusing springs what they do not know."""
+    if not rigid and not (mu_kinetic is None and restitution is None):
+        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+    if mu_kinetic is not None:
+        body = body.with_kinetic_friction(mu_kinetic)
+    if not rigid and body.has_lower_kinetic_friction:
+        raise ParameterError(
+            "the pile {name} has a kinetic friction, and springs have one friction for all: say `mu`, which then holds for "
+            "what slides, too, or choose rigid stones",
+            name=body.name,
+        )
+    return body
+
+
+def _joint_restitution(points: int, restitution: float | None) -> float:
+    """Return the rebound of the joints."""
+    if restitution is not None:
+        checks.fraction(N_("the restitution of the joints, a ratio of velocities,"), restitution)
+        if points != EDGE_POINTS:
+            raise ParameterError(
+                "a restitution is one of stones that stand on their edges: leave out {points} points a side", points=points
+            )
+    return PLASTIC_RESTITUTION if restitution is None else float(restitution)
+
+
+def _curves(simulation: Simulation, end: SimulationResult) -> Histories:
+    """Return tilt, slip and place of every stone against time."""
+    track = simulation.full_track(end)
+    return Histories(simulation.motion.start_s + track.time, stone_channels(simulation.pile, track))
+
+
+def _events(outcome: StackOutcome) -> tuple[Event, ...]:
+    """Return the falls, in the order of time."""
+    falls = sorted((stone.fell_at_s, stone.name) for stone in outcome.stones if stone.fell_at_s is not None)
+    return tuple(Event(f"{name} falls", at, np.zeros(0), np.zeros(0)) for at, name in falls)
+
+
+def _phases(outcome: StackOutcome, start: float, end: float) -> tuple[Phase, ...]:
+    """Return the stretch before and the stretch after the first fall."""
+    if outcome.time_s is None:
+        return (Phase("standing", start, end),)
+    return (Phase("standing", start, outcome.time_s), Phase("fallen", outcome.time_s, end))

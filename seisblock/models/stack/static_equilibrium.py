@@ -1,0 +1,200 @@
+"""A pile at rest: how far its stones sink into their springs, and which step its stiffest contact admits."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import eigh
+
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, ParameterError
+from seisblock.core.typing import FloatArray
+from seisblock.models.stack.arrays import PileArrays
+from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.models.stack.step import CARRIER, PARTNER, POINT, SIGMA
+
+STABILITY_LIMIT = 4.0
+"""Leapfrog with lagged dashpots is stable while the largest eigenvalue of dt^2 M^-1 K + 2 dt M^-1 C is below this."""
+
+SAFETY_FACTOR = 0.7
+"""Part of the stable limit that is used."""
+
+MIN_STEP_RATIO = 1e-3
+"""Smallest part of it that may be asked for: the error of a step falls with its square, so that less only takes longer."""
+
+RIGID_STEP_RATIO, RIGID_MIN_STEP_RATIO, RIGID_MAX_STEP_RATIO = 0.018, 1e-5, 0.1
+"""Parts of the time in which a stone swings: the step by default where contacts are rigid, the finest and the coarsest."""
+
+RIGID_MAX_STEP = 1.0 / 300.0
+"""Longest step by default, s: the slips of large stones follow the shaking, not their own swinging."""
+
+_AXES = np.eye(3)
+
+
+def contact_jacobian(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
+    """Return how each contact point of the joints is displaced by the bodies' small motions.
+
+    Returns
+    -------
+    rows : (points, 3, 6 m) array
+        Displacement of the upper side against the lower one along x, y and z, per unit of each body's displacement (3) and rotation (3).
+    index : (points, 3) array
+        Joint, orbit and image of each point.
+    """
+    m = pile.inertias.shape[0]
+    rows, index = [], []
+    for j, (joint, k) in enumerate(zip(pile.joints, pile.constants, strict=True)):
+        for o, q in zip(*np.nonzero(pile.grids[j, :, :, 2] > 0.0), strict=True):
+            carrier, partner = (int(pile.owner[joint[i]]) for i in (CARRIER, PARTNER))
+            box = pile.boxes[joint[CARRIER]]
+            position = pile.bodies[carrier, X : X + 3] + box[3:] + [*pile.grids[j, o, q, :2], k[SIGMA] * box[2]]
+            row = np.zeros((3, 6 * (m + 1)))
+            # seen from the lower stone the upper one moves: the carrier is the upper one where sigma is -1
+            for body, sign in ((carrier, -k[SIGMA]), (partner, k[SIGMA])):
+                arm = position - pile.bodies[body, X : X + 3]
+                row[:, 6 * body : 6 * body + 3] += sign * _AXES
+                row[:, 6 * body + 3 : 6 * body + 6] += sign * np.cross(_AXES, arm).T
+            rows.append(row[:, : 6 * m])
+            index.append((j, o, q))
+    return np.array(rows), np.array(index)
+
+
+def stable_step(pile: PileArrays) -> float:
+    """Return the largest stable step, s, from the linear pile with every point in touch and nothing sliding.
+
+    The step follows from M^-1 (dt^2 K + 2 dt C) having no eigenvalue above 4; the spring and dashpot of a single point are those of
+    [Furukawa2009]_ table 2 or of the stones themselves.
+    """
+    rows, index = contact_jacobian(pile)
+    k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
+    stiffness = np.einsum("pdi,pd,pdj->ij", rows, k[:, [2, 2, 0]], rows)
+    damping = np.einsum("pdi,pd,pdj->ij", rows, k[:, [3, 3, 1]], rows)
+    mass = _mass_matrix(pile)
+
+    def max_eigenvalue(step: float) -> float:
+        values = eigh(step**2 * stiffness + 2.0 * step * damping, mass, eigvals_only=True, subset_by_index=[len(mass) - 1, len(mass) - 1])
+        return float(values[0])
+
+    low, high = 0.0, 1.0
+    while high - low > 1e-4 * high:
+        midpoint = 0.5 * (low + high) if low > 0.0 else 0.1 * high
+        low, high = (midpoint, high) if max_eigenvalue(midpoint) < STABILITY_LIMIT else (low, midpoint)
+    return low
+
+
+def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
+    """Return how many steps a sampling interval takes.
+
+    Raises
+    ------
+    ParameterError
+        If the step asked for is too coarse for the stiffest contact: the answer would be wrong; or so fine that it would never come.
+    """
+    limit = stable_step(pile)
+    if step is not None:
+        checks.positive("the time step", step, "s")
+    if step is not None and not step <= limit:
+        raise ParameterError(
+            "a step of {step:g} s is too coarse for the stiffest contact of the pile {name}, stable up to {limit:.3g} s: leave "
+            "it out, or give at most {most:.2g} s",
+            step=step,
+            name=pile.body.name,
+            limit=limit,
+            most=SAFETY_FACTOR * limit,
+        )
+    if step is not None and step < MIN_STEP_RATIO * limit:
+        raise ParameterError(
+            "a step of {step:g} s is finer than does any good: the stiffest contact of the pile {name} is stable up to "
+            "{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {least:.2g} s",
+            step=step,
+            name=pile.body.name,
+            limit=limit,
+            least=MIN_STEP_RATIO * limit,
+        )
+    return max(1, math.ceil(dt / (SAFETY_FACTOR * limit if step is None else step) * (1.0 - 1e-12)))
+
+
+def _mass_matrix(pile: PileArrays) -> FloatArray:
+    """Return the mass matrix of the free bodies, (6 m, 6 m)."""
+    m = pile.inertias.shape[0]
+    mass = np.zeros((6 * m, 6 * m))
+    for b in range(m):
+        mass[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = pile.inertias[b, MASS] * _AXES
+        mass[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] = pile.inertias[b, INERTIA:INVERSE].reshape(3, 3)
+    return mass
+
+
+def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, gravity: float) -> int:
+    """Return how many steps a sampling interval takes where contacts are rigid.
+
+    Any step is stable. By default it is a part of the time in which the smallest stone would swing, at which thresholds of
+    toppling stand within 0.5 % of those of much finer steps, and at most a three hundredth of a second.
+
+    Raises
+    ------
+    ParameterError
+        If the step asked for is so coarse that a stone would swing in a few of them, or so fine that the answer would never come.
+    """
+    smallest_size = float(np.linalg.norm(pile.boxes[:-1, :3], axis=1).min())
+    swing_time = math.sqrt(smallest_size / gravity)
+    if step is not None:
+        checks.positive("the time step", step, "s")
+        if not RIGID_MIN_STEP_RATIO * swing_time <= step <= RIGID_MAX_STEP_RATIO * swing_time:
+            raise ParameterError(
+                "a step of {step:g} s will not do for the rigid stones of the pile {name}, the smallest of which swings in {swing:.2g} s: "
+                "leave it out, or give {least:.2g} to {most:.2g} s",
+                step=step,
+                name=pile.body.name,
+                swing=swing_time,
+                least=RIGID_MIN_STEP_RATIO * swing_time,
+                most=RIGID_MAX_STEP_RATIO * swing_time,
+            )
+    return max(1, math.ceil(dt / (min(RIGID_STEP_RATIO * swing_time, RIGID_MAX_STEP) if step is None else step) * (1.0 - 1e-12)))
+
+
+def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:
+    """Lower the bodies into their springs until these carry them; points that would have to pull let go.
+
+    Raises
+    ------
+    BodyError
+        If no set of pressing points carries the pile.
+    """
+    rows, index = contact_jacobian(pile)
+    k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
+    m = pile.inertias.shape[0]
+    load = np.zeros(6 * m)
+    load[2::6] = -pile.inertias[:, MASS] * gravity
+    active_points = np.ones(len(rows), dtype=bool)
+    for _ in range(len(rows)):
+        weights = k[:, [2, 2, 0]] * active_points[:, None]
+        stiffness = np.einsum("pdi,pd,pdj->ij", rows, weights, rows)
+        try:
+            u = np.linalg.solve(stiffness, load)
+        except np.linalg.LinAlgError:
+            break
+        displacements = rows @ u
+        in_contact = displacements[:, 2] < 0.0
+        if (in_contact == active_points).all():
+            _displace(pile, u, displacements, index, bodies, stretches)
+            return
+        active_points = in_contact
+    raise BodyError("the pile {name} does not come to rest on its joints: its load lies too close to an edge", name=pile.body.name)
+
+
+def _displace(
+    pile: PileArrays, u: FloatArray, displacements: FloatArray, index: FloatArray, bodies: FloatArray, stretches: FloatArray
+) -> None:
+    """Write small displacements into the bodies, and the stretch of the shear springs that goes with them."""
+    for b in range(pile.inertias.shape[0]):
+        bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
+        half_rotation = 0.5 * u[6 * b + 3 : 6 * b + 6]
+        bodies[b, Q : Q + 4] = np.array([1.0, *half_rotation]) / math.sqrt(1.0 + half_rotation @ half_rotation)
+        w, v = bodies[b, Q], bodies[b, Q + 1 : Q + 4]
+        cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+        bodies[b, R : R + 9] = (np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross).ravel()
+    for (j, o, q), shift in zip(index.tolist(), displacements, strict=True):
+        # the stretch is the carrier's motion against its partner
+        if shift[2] < 0.0:
+            stretches[j, o, q] = -pile.constants[j, SIGMA] * shift[:2]

@@ -1,0 +1,79 @@
+"""What a step asks of its points: the least velocities they may have at its end, and how these change as their bodies turn and roll."""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import VECTOR
+from seisblock.models.stack.buffers import MEMORY
+from seisblock.models.stack.constraint_assembly import FREE_FALL_SPEED, FULL_STEP, MIN_FORCE_TIME_RATIO
+from seisblock.models.stack.constraint_row import ARM_A, ARM_B, BILATERAL, GAP, GYROSCOPIC, MIN_NORMAL_VELOCITY, RIM_RADIUS, ROTATION_BIAS
+from seisblock.models.stack.cylinder import rolling_bias
+from seisblock.models.stack.pgs import TOLERANCE
+
+_t = types()
+
+MIN_STEP_RATIO = 0.00390625
+"""Of a whole step: the least that one has that ends since a rim's lowest point has wandered far."""
+
+BAUMGARTE_FACTOR, MAX_CORRECTION_SPEED = 0.2, 0.05
+"""Part of a gap closed too far that a step makes good, and the speed, m/s, that it may take for it."""
+
+
+@kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
+def _add_rotation_bias(velocity, arm, half, bias):
+    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r) + w' x r."""
+    x, y, z = velocity[3], velocity[4], velocity[5]
+    projection = x * arm[0] + y * arm[1] + z * arm[2]
+    square = x * x + y * y + z * z
+    bias[0] += half * (x * projection - square * arm[0])
+    bias[1] += half * (y * projection - square * arm[1])
+    bias[2] += half * (z * projection - square * arm[2])
+    x, y, z = velocity[GYROSCOPIC], velocity[GYROSCOPIC + 1], velocity[GYROSCOPIC + 2]
+    bias[0] += half * (y * arm[2] - z * arm[1])
+    bias[1] += half * (z * arm[0] - x * arm[2])
+    bias[2] += half * (x * arm[1] - y * arm[0])
+
+
+@kernel(_t.float64(_t.int64, _t.int64, _t.float64, VECTOR, VECTOR, MEMORY), inline=True)
+def _rolling_bias(a, b, dt, row, bias, memory):
+    """Add what :func:`seisblock.models.stack.cylinder.rolling_bias` does with the spins of two bodies, and return what it returns."""
+    u, v = memory.body_velocities[a], memory.body_velocities[b]
+    return rolling_bias(row, u[3] - v[3], u[4] - v[4], u[5] - v[5], dt, bias)
+
+
+@kernel(_t.float64(_t.int64, _t.float64, MEMORY))
+def max_roll_time(count, time_left, memory):
+    """Return when the lowest point of a rim will have wandered far round it, s, at the latest what is left of the step."""
+    bias, min_time = memory.scratch[0], time_left
+    for i in range(count):
+        if memory.constraint_rows[i, RIM_RADIUS] != 0.0:
+            min_time = min(
+                min_time,
+                _rolling_bias(memory.contact_ids[i, 0], memory.contact_ids[i, 1], time_left, memory.constraint_rows[i], bias, memory),
+            )
+    return min(time_left, max(min_time, MIN_STEP_RATIO * memory.step_info[FULL_STEP]))
+
+
+@kernel(_t.void(_t.int64, _t.float64, MEMORY), inline=True)
+def set_velocity_bounds(count, dt, memory):
+    """Write the least normal velocities of a step: an open gap may close and no more, one closed too far opens slowly.
+
+    A gap that the tolerance of the sweeps left is none: a step that is short would let its point do nothing, and the others bear its part.
+    """
+    full_step = memory.step_info[FULL_STEP]
+    gap_tolerance, closing_time = TOLERANCE * memory.step_info[FREE_FALL_SPEED] * full_step, max(dt, MIN_FORCE_TIME_RATIO * full_step)
+    for i in range(count):
+        row, gap, a, b = memory.constraint_rows[i], memory.constraint_rows[i, GAP], memory.contact_ids[i, 0], memory.contact_ids[i, 1]
+        row[BILATERAL] = 0.0
+        if row[MIN_NORMAL_VELOCITY] == 0.0:
+            row[MIN_NORMAL_VELOCITY] = (
+                -gap / (dt if gap > gap_tolerance else closing_time)
+                if gap > 0.0
+                else min(-BAUMGARTE_FACTOR * gap / full_step, MAX_CORRECTION_SPEED)
+            )
+        for k in range(3):
+            row[ROTATION_BIAS + k] = 0.0
+        if row[RIM_RADIUS] != 0.0:
+            _rolling_bias(a, b, dt, row, row[ROTATION_BIAS:], memory)
+        _add_rotation_bias(memory.body_velocities[a], row[ARM_A:], 0.5 * dt, row[ROTATION_BIAS:])
+        _add_rotation_bias(memory.body_velocities[b], row[ARM_B:], -0.5 * dt, row[ROTATION_BIAS:])

@@ -1,0 +1,280 @@
+"""What a point remembers: the force of the one that was where it is, or its part of what all of them bore.
+
+Points are not the same from step to step: those of a round face go round with the push, and where two faces lie over each other corners
+come and go. The velocities of a step are changed by the forces of half the step before. Forces that no point went on with would be missing
+for as long; where there are such, the new points share what all the old ones bore: force, moment and twist of a flat joint remain.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.array_types import MATRIX, VECTOR
+from seisblock.models.stack.constraint_row import ARM_B, GAP, IMPULSE, NORMAL
+from seisblock.models.stack.frames import R
+from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, POSITION, PREVIOUS_FORCE, SLOT
+
+_t = types()
+
+MATCH_RADIUS = 0.02
+"""How far, m, a point of a meeting is sought of which another remembers the force."""
+
+MAX_SHIFT_RATIO = 1e-3
+"""How far, over the size of a stone, the points of a flat face may be laid anew and go on with the forces that they had."""
+
+MIN_AREA = 1e-9
+"""Twice the area, m^2, of a triangle that is none."""
+
+MAX_TENSION_RATIO = 0.1
+"""Part of a load with which a point may pull that takes over from others: as much as to keep its moment where it lies just beyond."""
+
+LOAD_FORCE, LOAD_CENTRE, LOAD_TWIST, LOAD_NORMAL, LOAD_SLIDING = 0, 3, 5, 6, 7
+LOAD_COLUMNS = 8
+"""What a flat joint bears, in the partner's axes: force (3), where it presses (2), its twist about there, and what presses; and behind it
+whether a point slid."""
+
+
+@kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def store_point(slot, y0, y1, y2, axis):
+    """Note a point and its normal in a slot."""
+    slot[POSITION] = y0
+    slot[POSITION + 1] = y1
+    slot[POSITION + 2] = y2
+    for i in range(3):
+        slot[POSITION + 3 + i] = axis[i]
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX), inline=True)
+def save_slots(count, slots, old_slots):
+    """Keep what points remember, and let them be found anew."""
+    for i in range(count):
+        for j in range(SLOT):
+            old_slots[i, j] = slots[i, j]
+        slots[i, ACTIVE] = 0.0
+
+
+@kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
+def match_point(slot, old_slots, count):
+    """Let a point remember the force of the one that was nearest to it."""
+    match, min_distance_squared = -1, MATCH_RADIUS**2
+    for i in range(count):
+        old = old_slots[i]
+        if old[ACTIVE] > 0.0:
+            distance_squared = (
+                (old[POSITION] - slot[POSITION]) ** 2
+                + (old[POSITION + 1] - slot[POSITION + 1]) ** 2
+                + (old[POSITION + 2] - slot[POSITION + 2]) ** 2
+            )
+            if distance_squared < min_distance_squared:
+                match, min_distance_squared = i, distance_squared
+    slot[ACTIVE] = 0.0
+    if match >= 0:
+        old = old_slots[match]
+        slot[ACTIVE] = 1.0
+        slot[CACHED_SLIDING] = old[CACHED_SLIDING]
+        for i in range(3):
+            slot[CACHED_FORCE + i] = old[CACHED_FORCE + i]
+            slot[PREVIOUS_FORCE + i] = old[PREVIOUS_FORCE + i]
+        old[ACTIVE] = 0.0
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(VECTOR, VECTOR), inline=True)
+def _to_body_axes(force, frame):
+    """Return a force in a body's axes."""
+    x, y, z, r = force[0], force[1], force[2], R
+    return (
+        frame[r] * x + frame[r + 3] * y + frame[r + 6] * z,
+        frame[r + 1] * x + frame[r + 4] * y + frame[r + 7] * z,
+        frame[r + 2] * x + frame[r + 5] * y + frame[r + 8] * z,
+    )
+
+
+@kernel(_t.void(_t.int64, MATRIX, VECTOR, VECTOR), inline=True)
+def _sum_forces(field, slots, frame, load):
+    """Add up the forces that the points of a flat joint remember in a field."""
+    for k in range(LOAD_COLUMNS):
+        load[k] = 0.0
+    for i in range(slots.shape[0]):
+        slot = slots[i]
+        if slot[ACTIVE] > 0.0:
+            f0, f1, f2 = _to_body_axes(slot[field:], frame)
+            x, y = slot[POSITION], slot[POSITION + 1]
+            load[LOAD_FORCE] += f0
+            load[LOAD_FORCE + 1] += f1
+            load[LOAD_FORCE + 2] += f2
+            load[LOAD_CENTRE] += f2 * x
+            load[LOAD_CENTRE + 1] += f2 * y
+            load[LOAD_TWIST] += x * f1 - y * f0
+            load[LOAD_NORMAL] += f2
+    if load[LOAD_NORMAL] != 0.0:
+        load[LOAD_CENTRE] /= load[LOAD_NORMAL]
+        load[LOAD_CENTRE + 1] /= load[LOAD_NORMAL]
+        load[LOAD_TWIST] -= load[LOAD_CENTRE] * load[LOAD_FORCE + 1] - load[LOAD_CENTRE + 1] * load[LOAD_FORCE]
+
+
+@kernel(_t.boolean(MATRIX, VECTOR, MATRIX), inline=True)
+def sum_joint_load(slots, frame, loads):
+    """Add up what the points of a flat joint bore; return whether they bore anything.
+
+    Parameters
+    ----------
+    slots : (k, 17) array
+    frame : (31,) array
+        The partner's body.
+    loads : (2, 18) array
+        What they bore in the last step, and in the one before.
+    """
+    _sum_forces(CACHED_FORCE, slots, frame, loads[0])
+    _sum_forces(PREVIOUS_FORCE, slots, frame, loads[1])
+    for i in range(slots.shape[0]):
+        if slots[i, ACTIVE] > 0.0:
+            loads[0, LOAD_SLIDING] = max(loads[0, LOAD_SLIDING], slots[i, CACHED_SLIDING])
+    return loads[0, LOAD_NORMAL] != 0.0
+
+
+@kernel(_t.boolean(_t.int64, MATRIX, MATRIX, _t.float64), inline=True)
+def has_lost_loaded_point(points, slots, old_slots, radius):
+    """Whether a point that bore something has none of the new ones as near as `radius`, m."""
+    for i in range(old_slots.shape[0]):
+        old, is_near = old_slots[i], False
+        if old[ACTIVE] == 0.0 or (old[CACHED_FORCE] == 0.0 and old[CACHED_FORCE + 1] == 0.0 and old[CACHED_FORCE + 2] == 0.0):
+            continue
+        for j in range(points):
+            x, y = slots[j, POSITION] - old[POSITION], slots[j, POSITION + 1] - old[POSITION + 1]
+            is_near = is_near or x * x + y * y < radius * radius
+        if not is_near:
+            return True
+    return False
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(VECTOR, VECTOR, VECTOR, _t.float64, _t.float64), inline=True)
+def _barycentric(a, b, c, x, y):
+    """Return the parts in which three points bear what presses at a place: negative where it lies beyond them."""
+    a0, a1, b0, b1, c0, c1 = (
+        a[POSITION] - x,
+        a[POSITION + 1] - y,
+        b[POSITION] - x,
+        b[POSITION + 1] - y,
+        c[POSITION] - x,
+        c[POSITION + 1] - y,
+    )
+    area = (b0 - a0) * (c1 - a1) - (b1 - a1) * (c0 - a0)
+    if abs(area) < MIN_AREA:
+        return -math.inf, -math.inf, -math.inf
+    u, v = (b0 * c1 - b1 * c0) / area, (c0 * a1 - c1 * a0) / area
+    return u, v, 1.0 - u - v
+
+
+@kernel(_t.void(_t.int64, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR), inline=True)
+def _distribute_to_triangle(field, a, b, c, load, frame):
+    """Let three points bear a load together, each its part of the force, and of the twist by how far it is from where that presses."""
+    x, y = load[LOAD_CENTRE], load[LOAD_CENTRE + 1]
+    u, v, w = _barycentric(a, b, c, x, y)
+    u, v, w = max(u, -MAX_TENSION_RATIO), max(v, -MAX_TENSION_RATIO), max(w, -MAX_TENSION_RATIO)
+    total, polar = u + v + w, 0.0
+    for q in range(3):
+        slot, weight = (a if q == 0 else b if q == 1 else c), (u if q == 0 else v if q == 1 else w) / total
+        polar += weight * ((slot[POSITION] - x) ** 2 + (slot[POSITION + 1] - y) ** 2)
+    rotation = load[LOAD_TWIST] / polar if polar > 0.0 else 0.0
+    for q in range(3):
+        slot, weight = (a if q == 0 else b if q == 1 else c), (u if q == 0 else v if q == 1 else w) / total
+        f0, f1, f2 = (
+            load[LOAD_FORCE] - rotation * (slot[POSITION + 1] - y),
+            load[LOAD_FORCE + 1] + rotation * (slot[POSITION] - x),
+            load[LOAD_FORCE + 2],
+        )
+        for k in range(3):
+            slot[field + k] = weight * (frame[R + 3 * k] * f0 + frame[R + 3 * k + 1] * f1 + frame[R + 3 * k + 2] * f2)
+
+
+@kernel(_t.boolean(_t.int64, MATRIX, MATRIX, VECTOR))
+def distribute_load(points, slots, loads, frame):
+    """Let the points of a flat joint bear what was gathered, by the three among which it presses most evenly; return whether it has three.
+
+    Parameters
+    ----------
+    slots : (k, 17) array
+        The points where they now are.
+    loads : (2, 18) array
+        See :func:`sum_joint_load`.
+    frame : (31,) array
+        The partner's body.
+    """
+    best, first, second, third = -math.inf, 0, 0, 0
+    for i in range(points):
+        for j in range(i):
+            for k in range(j):
+                u, v, w = _barycentric(slots[i], slots[j], slots[k], loads[0, LOAD_CENTRE], loads[0, LOAD_CENTRE + 1])
+                min_weight = min(u, min(v, w))
+                if min_weight > best:
+                    best, first, second, third = min_weight, i, j, k
+    if best == -math.inf:
+        return False
+    for i in range(points):
+        slots[i, ACTIVE] = 1.0
+        slots[i, CACHED_SLIDING] = loads[0, LOAD_SLIDING]
+        for k in range(3):
+            slots[i, CACHED_FORCE + k] = 0.0
+            slots[i, PREVIOUS_FORCE + k] = 0.0
+    _distribute_to_triangle(CACHED_FORCE, slots[first], slots[second], slots[third], loads[0], frame)
+    _distribute_to_triangle(PREVIOUS_FORCE, slots[first], slots[second], slots[third], loads[1], frame)
+    return True
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, MATRIX))
+def project_to_plane(first, count, max_gap, table):
+    """Let the points of a flat joint, where more than three touch, press as a plane over the joint does, as far as none then pulls.
+
+    Which points bear what they bear together is nowhere told; friction against a twist hangs on it. The plane is the one with the same
+    force and moments, of all loads that have these the one whose squares are least (derived here).
+
+    Parameters
+    ----------
+    first, count : int
+        The rows of the joint.
+    max_gap : float, m
+        The gap within which points touch.
+    table : (k, 92) array
+    """
+    if count - first <= 3:
+        return
+    n0, n1, n2 = table[first, NORMAL], table[first, NORMAL + 1], table[first, NORMAL + 2]
+    c0, c1, c2, mean_press = 0.0, 0.0, 0.0, 0.0
+    for i in range(first, count):
+        if table[i, GAP] > max_gap:
+            return
+        c0 += table[i, ARM_B]
+        c1 += table[i, ARM_B + 1]
+        c2 += table[i, ARM_B + 2]
+        mean_press += table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+    points = count - first
+    c0, c1, c2, mean_press = c0 / points, c1 / points, c2 / points, mean_press / points
+    e0, e1, e2 = table[first, ARM_B] - c0, table[first, ARM_B + 1] - c1, table[first, ARM_B + 2] - c2
+    f0, f1, f2 = n1 * e2 - n2 * e1, n2 * e0 - n0 * e2, n0 * e1 - n1 * e0
+    xx, xy, yy, mx, my = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(first, count):
+        a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2
+        x, y = a0 * e0 + a1 * e1 + a2 * e2, a0 * f0 + a1 * f1 + a2 * f2
+        normal_impulse = table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+        xx += x * x
+        xy += x * y
+        yy += y * y
+        mx += x * normal_impulse
+        my += y * normal_impulse
+    d = xx * yy - xy * xy
+    if d <= MIN_AREA * xx * yy:
+        return
+    gx, gy, scale = (mx * yy - my * xy) / d, (my * xx - mx * xy) / d, 1.0
+    for stage in range(2):
+        for i in range(first, count):
+            a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2
+            x, y = a0 * e0 + a1 * e1 + a2 * e2, a0 * f0 + a1 * f1 + a2 * f2
+            normal_impulse = table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+            change = mean_press + gx * x + gy * y - normal_impulse
+            if stage == 1:
+                table[i, IMPULSE] += scale * change * n0
+                table[i, IMPULSE + 1] += scale * change * n1
+                table[i, IMPULSE + 2] += scale * change * n2
+            elif normal_impulse + change < 0.0:
+                scale = min(scale, max(normal_impulse, 0.0) / -change)

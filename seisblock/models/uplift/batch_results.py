@@ -1,0 +1,197 @@
+"""What blocks on corner springs come to under a record, as arrays: here a single answer and rows of many find their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core.typing import BoolArray, FloatArray, IntArray
+from seisblock.dynamics import Ensemble, Trajectory
+from seisblock.dynamics.buffers import TOTAL
+from seisblock.models.uplift.model import ALL_CORNERS, CHANGES, FIRST, TURN_X, TURN_Y, F, U
+
+MAX_LEAN_RATIO = 0.1
+"""Largest slenderness times rotation for which leaving the weight's lever out (P-delta) is defensible."""
+
+ROUND_OFF = 1e-12
+"""A corner that rises by less than this share of the static settlement has not moved."""
+
+CORNERS_IN_CONTACT = np.arange(ALL_CORNERS + 1)[:, None] >> np.arange(4) & 1
+"""Which corners each contact state holds, (16, 4)."""
+
+
+@dataclass(frozen=True, eq=False)
+class UpliftEndStates:
+    """What is left of trajectories, one per row.
+
+    Parameters
+    ----------
+    extrema, final : (m, n_tracked, 4), (m, n_states) arrays
+    contact_times : (m, 16) array, s
+        In each contact state.
+    first : (m,) array, s after sample 0
+        Time of the first event, NaN where there was none.
+    """
+
+    extrema: FloatArray
+    final: FloatArray
+    contact_times: FloatArray
+    first: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class UpliftBatchResult:
+    """The ends of many runs, arrays with one entry per row, (m,) unless told.
+
+    What they are is said in :class:`~seisblock.models.uplift.outcome.UpliftOutcome`.
+
+    Parameters
+    ----------
+    uplifts : bool
+    first_uplift_s : s
+        After the motion's first sample; NaN where no corner lifts.
+    first_corners : (m, 4) array of bool
+        Which lift first, corners 1 to 4.
+    max_uplift_m, static_settlement_m : m
+    uplift_duration_s : s
+    time_on_corners_s : (m, 5) array, s
+        On 4, 3, 2, 1 and 0 corners.
+    max_contact_force_n, max_contact_force_ratio : N, 1
+    contact_changes : int
+    uplift_scale : 1
+        NaN where no amplitude lifts a corner.
+    max_rotation_rad, lean_ratio : rad, 1
+    within_model : bool
+    rise_m, repeat_rise_m : m
+        Highest position of any corner above the spring's natural length, as two integrations with other round-off have it.
+    gave_up : bool
+        Runs without an answer: their other entries are those of the instant at which they were given up.
+    """
+
+    uplifts: BoolArray
+    first_uplift_s: FloatArray
+    first_corners: BoolArray
+    max_uplift_m: FloatArray
+    static_settlement_m: FloatArray
+    uplift_duration_s: FloatArray
+    time_on_corners_s: FloatArray
+    max_contact_force_n: FloatArray
+    max_contact_force_ratio: FloatArray
+    contact_changes: IntArray
+    uplift_scale: FloatArray
+    max_rotation_rad: FloatArray
+    lean_ratio: FloatArray
+    within_model: BoolArray
+    rise_m: FloatArray
+    repeat_rise_m: FloatArray
+    gave_up: BoolArray
+
+    def row_dict(self, row: int, start_s: float) -> dict[str, Any]:
+        """Return the scalars of one run, by their names in its outcome, None where there is no such thing; times on a clock of its own.
+
+        Parameters
+        ----------
+        row : int
+        start_s : float, s
+            What that clock shows at the motion's first sample.
+        """
+        lifts, scale = bool(self.uplifts[row]), float(self.uplift_scale[row])
+        return {
+            "uplifts": lifts,
+            "first_uplift_s": float(start_s + self.first_uplift_s[row]) if lifts else None,
+            "max_uplift_m": float(self.max_uplift_m[row]),
+            "corner": int(np.argmax(self.first_corners[row])) + 1 if lifts else None,
+            "uplift_duration_s": float(self.uplift_duration_s[row]),
+            "max_contact_force_n": float(self.max_contact_force_n[row]),
+            "max_contact_force_ratio": float(self.max_contact_force_ratio[row]),
+            "contact_changes": int(self.contact_changes[row]),
+            "uplift_scale": None if np.isnan(scale) else scale,
+            "max_rotation_rad": float(self.max_rotation_rad[row]),
+            "lean_ratio": float(self.lean_ratio[row]),
+            "within_model": bool(self.within_model[row]),
+            "static_settlement_m": float(self.static_settlement_m[row]),
+        }
+
+
+def end_states(trajectory: Trajectory) -> UpliftEndStates:
+    """Return what is left of a single trajectory, as a row: what :func:`batch_end_states` leaves of it among many."""
+    changes = trajectory.events
+    edges = np.concatenate([[0.0], changes.time, [trajectory.end_time]])
+    # one stay after another is added up, as the engine's loop does it
+    contact_times = np.bincount(np.append(ALL_CORNERS, changes.target), np.diff(edges), minlength=ALL_CORNERS + 1).astype(
+        np.float64, copy=False
+    )
+    first = changes.time[0] if len(changes) else np.nan
+    return UpliftEndStates(trajectory.extrema[np.newaxis], trajectory.final[np.newaxis], contact_times[np.newaxis], np.array([first]))
+
+
+def batch_end_states(ensemble: Ensemble) -> UpliftEndStates:
+    """Return what is left of many."""
+    return UpliftEndStates(ensemble.extrema, ensemble.final, ensemble.dwell_times[:, : ALL_CORNERS + 1, TOTAL], ensemble.first_event_time)
+
+
+def batch_result(
+    bodies: Sequence[SpringBlock],
+    ends: UpliftEndStates,
+    linear_extrema: FloatArray,
+    repeat_extrema: FloatArray,
+    gravity: float,
+    gave_up: BoolArray | None = None,
+) -> UpliftBatchResult:
+    """Return what many runs come to ([Okumura1987]_ section 2, extended to records).
+
+    Parameters
+    ----------
+    bodies : sequence of SpringBlock
+        One per row.
+    ends : UpliftEnds
+    linear_extrema, repeat_extrema : (m, n_tracked, 4) arrays
+        Extrema of the linear system, and of an integration with other round-off.
+    gravity : float, m/s^2
+    gave_up : (m,) array of bool or None
+        Runs without an answer; None: each has one.
+    """
+    settlement = np.array([body.static_settlement(gravity) for body in bodies])
+    mass, width, depth, height = np.array([[body.mass, body.width, body.depth, body.height] for body in bodies]).T
+    about_x, about_y = (_max_abs(ends.extrema[:, state]) / depth for state in (TURN_X, TURN_Y))
+    lean = np.maximum(height / depth * about_x, height / width * about_y)
+    rise, linear_rise = _max_corner_rise(ends.extrema), _max_corner_rise(linear_extrema) + settlement
+    force = mass * ends.extrema[:, F : F + 4, 0].max(axis=1)
+    lifts = ends.final[:, FIRST] > 0.0
+    is_moving = linear_rise > ROUND_OFF * settlement
+    return UpliftBatchResult(
+        uplifts=lifts,
+        first_uplift_s=ends.first,
+        first_corners=ends.final[:, FIRST].astype(np.int64)[:, None] >> np.arange(4) & 1 == 1,
+        max_uplift_m=np.maximum(rise, 0.0),
+        static_settlement_m=settlement,
+        uplift_duration_s=ends.contact_times[:, :ALL_CORNERS].sum(axis=1),
+        time_on_corners_s=np.stack(
+            [ends.contact_times[:, CORNERS_IN_CONTACT.sum(axis=1) == n].sum(axis=1) for n in (4, 3, 2, 1, 0)], axis=1
+        ),
+        max_contact_force_n=force,
+        max_contact_force_ratio=force / np.array([body.static_corner_force(gravity) for body in bodies]),
+        contact_changes=ends.final[:, CHANGES].astype(np.int64),
+        uplift_scale=np.where(is_moving, settlement / np.where(is_moving, linear_rise, 1.0), np.nan),
+        max_rotation_rad=np.maximum(about_x, about_y),
+        lean_ratio=lean,
+        within_model=lean <= MAX_LEAN_RATIO,
+        rise_m=rise,
+        repeat_rise_m=_max_corner_rise(repeat_extrema),
+        gave_up=np.zeros(len(settlement), dtype=np.bool_) if gave_up is None else gave_up,
+    )
+
+
+def _max_corner_rise(extrema: FloatArray) -> FloatArray:
+    """Return the highest position of any corner, (m,), m."""
+    highest: FloatArray = extrema[:, U : U + 4, 0].max(axis=1)
+    return highest
+
+
+def _max_abs(extrema: FloatArray) -> FloatArray:
+    """Return the largest absolute value of a state, (m,)."""
+    return np.maximum(extrema[:, 0], -extrema[:, 2]) + 0.0

@@ -1,0 +1,94 @@
+"""Natural modes of a block on corner springs, all four corners in contact."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.spring_block import SpringBlock, mass_matrix, stiffness_matrix
+from seisblock.core import checks
+from seisblock.core.i18n import N_
+from seisblock.core.typing import FloatArray
+from seisblock.records.record import as_readonly
+
+UNCOUPLED_COORDINATES = {
+    (N_("first rocking in x-z"), N_("second rocking in x-z")): (0, 4),
+    (N_("first rocking in y-z"), N_("second rocking in y-z")): (1, 3),
+    (N_("vertical"),): (2,),
+    (N_("torsion"),): (5,),
+}
+"""Coordinates that move together: the base is symmetric about both of its axes, so that these four do not couple."""
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Natural modes in the order of their frequencies.
+
+    Parameters
+    ----------
+    omega : (6,) array, rad/s
+    shapes : (6, 6) array
+        Columns in the coordinates of ``COORDINATES``, normalised to a unit modal mass.
+    names : tuple of str
+    first_rocking : int
+        Which of them is the first rocking mode, whose frequency is omega_1.
+    """
+
+    omega: FloatArray
+    shapes: FloatArray
+    names: tuple[str, ...]
+    first_rocking: int
+
+    @property
+    def frequencies_hz(self) -> tuple[float, ...]:
+        """Natural frequencies, Hz, ascending."""
+        return tuple(float(w) / (2.0 * math.pi) for w in self.omega)
+
+    @property
+    def omega_1(self) -> float:
+        """Circular frequency of the first rocking mode, rad/s."""
+        return float(self.omega[self.first_rocking])
+
+
+def natural_modes(body: SpringBlock) -> Modes:
+    """Return the six natural modes of a block on corner springs.
+
+    Linear: small rotations and every corner in contact.
+
+    Parameters
+    ----------
+    body : SpringBlock
+
+    Returns
+    -------
+    Modes
+
+    Notes
+    -----
+    K q = omega^2 M q of [Okumura1987]_ eqs. (3) to (5), solved by ``scipy.linalg.eigh`` in each of the four groups of
+    coordinates that symmetry keeps apart, so that equal frequencies of a square base do not mix the directions.
+
+    Examples
+    --------
+    >>> modes = natural_modes(SpringBlock.from_ratios(alpha=1.0, beta=3**0.5 / 2))
+    >>> modes.names[-1], round(modes.frequencies_hz[-1], 12)
+    ('second rocking in y-z', 1.732050807569)
+    """
+    from scipy.linalg import eigh
+
+    checks.instance(body, SpringBlock)
+    mass, stiffness = mass_matrix(body), stiffness_matrix(body)
+    modes: list[tuple[float, str, FloatArray]] = []
+    for labels, members in UNCOUPLED_COORDINATES.items():
+        block = np.ix_(members, members)
+        squares, vectors = eigh(stiffness[block], mass[block])
+        for rank, (square, vector) in enumerate(zip(squares, vectors.T, strict=True)):
+            shape = np.zeros(6)
+            shape[list(members)] = vector * np.copysign(1.0, vector[np.argmax(np.abs(vector))])
+            modes.append((math.sqrt(square), labels[rank], shape))
+    modes.sort(key=lambda mode: mode[0])
+    names = tuple(name for _, name, _ in modes)
+    first = min(index for index, name in enumerate(names) if name.startswith("first"))
+    return Modes(as_readonly([w for w, _, _ in modes]), as_readonly(np.array([shape for *_, shape in modes]).T), names, first)

@@ -1,0 +1,96 @@
+"""A rigid block on corner springs under a three-component record: which corner lifts, when, how far, for how long."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core import checks
+from seisblock.core.results import Channel, Histories, Response, Status
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.dynamics import Trajectory, integrate
+from seisblock.models.uplift.batch_results import batch_result, end_states
+from seisblock.models.uplift.model import ALL_CORNERS, GLUED, UPLIFT, UPLIFT_REPEAT, F, U, X, Y, parameters, rotations, static_state
+from seisblock.models.uplift.outcome import UpliftOutcome, build_outcome, events, phases, warnings
+from seisblock.records._validation import Gain, validate_inputs, vertical_gain
+from seisblock.records.motion import Motion
+from seisblock.references import papers
+
+
+def solve_uplift(
+    body: SpringBlock, motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY
+) -> Response[UpliftOutcome]:
+    """Solve a block on corner springs through a three-component motion, from static equilibrium.
+
+    Extends [Okumura1987]_ eq. (1) to records: the vertical spring and dashpot of a corner act only while compressed, horizontal ones stay
+    attached. Small rotations and no P-delta: this model never overturns.
+
+    Parameters
+    ----------
+    body : SpringBlock
+        Its damping is the ratio zeta of each corner dashpot, c = 2 zeta k / omega of its direction.
+    motion : Motion
+        Ground acceleration along +x, across (+y) and up.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+    gravity : float, m/s^2
+
+    Returns
+    -------
+    Response of UpliftOutcome
+        Channels: corner displacements ``uplift_1`` to ``uplift_4`` (m, positive when lifted), ``contact_force_1`` to ``_4`` (N),
+        of the centre of gravity ``displacement``, ``displacement_across``, ``displacement_up`` (m, relative to the ground; up from the
+        springs' natural length), and ``rotation``, ``rotation_across`` (rad, positive when leaning to +x, +y).
+
+    Raises
+    ------
+    SolverError
+        If the integration had to be given up.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> shaking = 4.0 * np.sin(2 * np.pi * 1.5 * 0.01 * np.arange(400))
+    >>> block = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
+    >>> solve_uplift(block, Motion.from_arrays(shaking, 0.01)).outcome.uplifts
+    True
+    """
+    validate_inputs(body, SpringBlock, motion)
+    checks.gravity(gravity)
+    gains = (1.0, 1.0, vertical_gain(motion, vertical))
+    p, start = parameters(body, gravity), static_state(body, gravity)
+    trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
+    linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
+    repeat = integrate(UPLIFT_REPEAT, motion, p, start, ALL_CORNERS, gains=gains, keep_path=False, keep_events=False)
+    results = batch_result([body], end_states(trajectory), linear.extrema[np.newaxis], repeat.extrema[np.newaxis], gravity)
+    return Response(
+        model="uplift",
+        outcome=build_outcome(body, motion, trajectory, results),
+        motion=motion,
+        body=body,
+        make_histories=partial(_curves, body, motion, trajectory),
+        phases=phases(motion, trajectory),
+        events=events(motion, trajectory.events),
+        options={"vertical": gains[2], "gravity_m_s2": gravity},
+        status=Status(trajectory.status),
+        warnings=warnings(motion, results, 0),
+        citations=papers("uplift"),
+    )
+
+
+def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Histories:
+    """Return what corners and centre did, on the trajectory's own time axis, both limits at each event."""
+    time, states, _ = trajectory.table()
+    theta_x, theta_y = rotations(states, body)
+    channels = (
+        *(Channel(f"uplift_{i + 1}", "m", states[:, U + i], f"u_{i + 1}") for i in range(4)),
+        *(Channel(f"contact_force_{i + 1}", "N", body.mass * states[:, F + i], f"N_{i + 1}") for i in range(4)),
+        Channel("displacement", "m", states[:, X], "x"),
+        Channel("displacement_across", "m", states[:, Y], "y"),
+        Channel("displacement_up", "m", states[:, U : U + 4].mean(axis=1), "z"),
+        Channel("rotation", "rad", theta_y, "theta_y"),
+        Channel("rotation_across", "rad", -theta_x, "-theta_x"),
+    )
+    return Histories(motion.start_s + time, channels)

@@ -1,0 +1,76 @@
+"""Places and times as English headers write them: degrees with the letter of the hemisphere, days in words, clocks of California."""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC, datetime, timedelta
+
+from seisblock.records.site import UTC_OFFSETS
+
+_SEXAGESIMAL = re.compile(r"(\d{1,3})\s+(\d{1,2})\s+(\d{1,2}(?:\.\d+)?)\s*([NSEW])(?![A-Z])", re.IGNORECASE)
+_DECIMAL = re.compile(r"(\d{1,3}\.\d*)\s*([NSEW])(?![A-Z])", re.IGNORECASE)
+_DATETIME = re.compile(
+    r"(\d{1,4})/(\d{1,2})/(\d{1,4}),?\s*(\d{1,2}):\s?(\d{1,2})(?::\s?(\d{1,2}(?:\.\d+)?))?\s*([A-Z]{2,4})?", re.IGNORECASE
+)
+PIVOT_YEAR = 70
+"""Years of two digits from here on are of the 20th century."""
+
+
+def parse_coordinates(text: str) -> tuple[float | None, float | None]:
+    """Return latitude and longitude in a text, degrees north and east, None where it has none.
+
+    Examples
+    --------
+    >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("Site X  42 31 12S  172 49 48E"),
+    ... parse_coordinates("none")
+    ((35.908, -120.458), (-42.52, 172.83), (None, None))
+    """
+    degrees_by_letter: dict[str, float] = {}
+    for degrees, minutes, seconds, letter in _SEXAGESIMAL.findall(text):
+        degrees_by_letter.setdefault(letter.upper(), round(float(degrees) + float(minutes) / 60.0 + float(seconds) / 3600.0, 5))
+    for degrees, letter in _DECIMAL.findall(_SEXAGESIMAL.sub("", text)):
+        degrees_by_letter.setdefault(letter.upper(), float(degrees))
+    latitude = degrees_by_letter["N"] if "N" in degrees_by_letter else -degrees_by_letter["S"] if "S" in degrees_by_letter else None
+    longitude = degrees_by_letter["E"] if "E" in degrees_by_letter else -degrees_by_letter["W"] if "W" in degrees_by_letter else None
+    return latitude, longitude
+
+
+def parse_datetime(text: str) -> tuple[datetime | None, str]:
+    """Return the first moment in a text, UTC, and the clock that tells it; None without a day and an hour.
+
+    Parameters
+    ----------
+    text : str
+        ``05/02/83, 16:42:48.2 PDT``, ``7/06/19, 03:16: 8.0 UTC (GPS)``, ``2018/11/30 17:29:29 UTC``: month, day and year, or the year
+        first where it has four digits. A clock that is not known, or not told, is taken for UTC.
+
+    Examples
+    --------
+    >>> moment, clock = parse_datetime("TRIGGER TIME: 05/02/83, 16:42:48.2 PDT")
+    >>> moment.isoformat(), clock
+    ('1983-05-02T23:42:48.200000+00:00', 'PDT')
+    """
+    match = _DATETIME.search(text)
+    if match is None:
+        return None, "UTC"
+    clock = (match[7] or "UTC").upper()
+    clock = clock if clock in UTC_OFFSETS else "UTC"
+    first, second, third = (int(part) for part in match.group(1, 2, 3))
+    year, month, day = (first, second, third) if len(match[1]) == 4 else (third, first, second)
+    year += 0 if year > 99 else 1900 if year >= PIVOT_YEAR else 2000
+    return utc_datetime(year, month, day, int(match[4]), int(match[5]), float(match[6] or 0.0), clock), clock
+
+
+def utc_datetime(year: int, month: int, day: int, hour: int, minute: int, second: float, clock: str = "UTC") -> datetime | None:
+    """Return a moment that a clock tells, UTC, or None where there is no such time.
+
+    Examples
+    --------
+    >>> utc_datetime(1989, 10, 18, 0, 4, 15.2).isoformat(), utc_datetime(1989, 13, 1, 0, 0, 0.0)
+    ('1989-10-18T00:04:15.200000+00:00', None)
+    """
+    try:
+        local_time = datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=round(second, 6))
+        return local_time - UTC_OFFSETS.get(clock, timedelta(0)) if 0.0 <= second < 61.0 else None
+    except (ValueError, OverflowError):
+        return None

@@ -1,0 +1,118 @@
+"""What speaks against a file that obspy has read: its own counts, times and extremes, and what obspy warned of."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+
+from seisblock.core.i18n import lazy_gettext
+from seisblock.readers._header import parse_number
+from seisblock.readers.source import MAX_QUOTED_LENGTH
+from seisblock.records import QCFlag
+
+_COUNTED_FORMATS = {"SLIST", "TSPAIR"}
+_TIMESERIES = re.compile(r"^TIMESERIES[ \t]+(.*)$", re.MULTILINE)
+_SAC_UNDEFINED = -12345.0
+"""What a SAC header holds where it says nothing."""
+
+_EXTREME_TOLERANCE = 1e-5
+"""How far an extreme of a SAC header may lie from the samples', in the largest of them: both are of single precision."""
+
+_TIME_TOLERANCE_S = 1.5e-6
+"""How far a time may lie from its place, s: TSPAIR prints microseconds."""
+
+
+def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_texts: Sequence[str]) -> tuple[QCFlag, ...]:
+    """Return what speaks against a file.
+
+    Parameters
+    ----------
+    data : bytes
+        Of the file.
+    waveform : str
+        Its format, as obspy spells it.
+    traces : sequence of obspy's Trace
+        What was read from it.
+    warning_texts : sequence of str
+        What obspy warned of meanwhile: integrity checks of miniSEED, ends of files in the middle of a block.
+    """
+    obspy_flags = (
+        QCFlag("header", lazy_gettext("obspy: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH])) for text in warning_texts
+    )
+    file_flags: Iterator[QCFlag] = iter(())
+    if waveform in _COUNTED_FORMATS:
+        file_flags = _flag_sample_lists(data.decode("latin-1"), sum(len(trace.data) for trace in traces))
+    elif waveform == "SAC":
+        file_flags = _flag_extremes(traces)
+    elif waveform == "MSEED":
+        file_flags = _flag_partial_block(len(data), traces)
+    return tuple(dict.fromkeys((*obspy_flags, *file_flags)))
+
+
+def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
+    """Yield a doubt for each channel of SLIST or TSPAIR whose header states another number of samples, or whose times are not even."""
+    pieces = _TIMESERIES.split(text)
+    total_count = 0
+    for head, body in zip(pieces[1::2], pieces[2::2], strict=True):
+        fields = [field.strip() for field in head.split(",")]
+        words = fields[1].split() if len(fields) > 1 else []
+        stated_count = parse_number(words[0]) if words else None
+        cells = body.split()
+        has_times = any(field.upper() == "TSPAIR" for field in fields)
+        count = len(cells) // (2 if has_times else 1)
+        total_count += count
+        if stated_count is None or stated_count != count:
+            text = lazy_gettext(
+                "{channel}: the header states {stated} samples, {count} follow",
+                channel=fields[0],
+                stated=words[0][:20] if words else "no",
+                count=count,
+            )
+            yield QCFlag("count", text)
+        if has_times and not _is_evenly_sampled(cells[::2]):
+            yield QCFlag("clock", lazy_gettext("{channel}: the times of its samples are not those of an even clock", channel=fields[0]))
+    if total_count != read_count:
+        yield QCFlag("count", lazy_gettext("of {promised} samples in the file obspy read {read}", promised=total_count, read=read_count))
+
+
+def _is_evenly_sampled(times: Sequence[str]) -> bool:
+    """Return whether times are those of an even clock."""
+    try:
+        instants = [datetime.fromisoformat(time) for time in times]
+        seconds = np.array([(instant - instants[0]).total_seconds() for instant in instants])
+    except (ValueError, TypeError):  # no times, or some with a time zone
+        return False
+    if not seconds.size:
+        return True
+    even_times = np.linspace(0.0, seconds[-1], seconds.size)
+    return bool(np.abs(seconds - even_times).max() <= _TIME_TOLERANCE_S and (seconds.size < 2 or seconds[-1] > 0.0))
+
+
+def _flag_partial_block(size: int, traces: Sequence[Any]) -> Iterator[QCFlag]:
+    """Yield a doubt about a miniSEED file of so many bytes that ends in the middle of a block, which obspy passes over."""
+    length = min(int(trace.stats.mseed.record_length) for trace in traces)
+    if size % length:
+        yield QCFlag("cut", lazy_gettext("the file ends in the middle of a block of {length} bytes: it looks cut", length=length))
+
+
+def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
+    """Yield a doubt for each extreme and each mean of a SAC header that is not that of the samples."""
+    for trace in traces:
+        header, row = trace.stats.sac, np.asarray(trace.data, dtype=np.float64)
+        extremes = {"depmin": row.min(), "depmax": row.max(), "depmen": row.mean()} if row.size else {}
+        slack = _EXTREME_TOLERANCE * max(abs(row.min()), abs(row.max())) if row.size else 0.0
+        for key, value in extremes.items():
+            header_value = float(header.get(key, _SAC_UNDEFINED))
+            if header_value != _SAC_UNDEFINED and not abs(header_value - value) <= slack:
+                text = lazy_gettext(
+                    "{channel}: the header says {key} {told:g}, that of the samples is {value:g}",
+                    channel=trace.id,
+                    key=key.upper(),
+                    told=header_value,
+                    value=float(value),
+                )
+                yield QCFlag("header", text)

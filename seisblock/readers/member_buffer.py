@@ -1,0 +1,90 @@
+"""Where members of a bundle wait for the rest of their set: in memory while they are few, else in a temporary file."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Hashable
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from typing import IO, NamedTuple
+
+from seisblock.core.errors import RecordError, os_error_text
+from seisblock.readers.source import LARGE_FILE_BYTES, RawFile
+
+
+class _BufferedMember(NamedTuple):
+    """What was put away: its name, and where its bytes are."""
+
+    name: str
+    begin: int
+    size: int
+
+
+@dataclass
+class MemberBuffer:
+    """Bytes put away under a key; not held in memory beyond some.
+
+    Parameters
+    ----------
+    in_memory : int
+        Bytes from which on a temporary file holds them.
+
+    Examples
+    --------
+    >>> with MemberBuffer() as shelf:
+    ...     waiting = [shelf.put("station", RawFile(name, b"1")) for name in ("a.NS", "a.EW")]
+    ...     waiting, [blob.name for blob in shelf.take("station")]
+    ([1, 2], ['a.NS', 'a.EW'])
+    """
+
+    in_memory: int = LARGE_FILE_BYTES
+    _sets: dict[Hashable, list[_BufferedMember]] = field(default_factory=dict, init=False)
+    _file: IO[bytes] = field(init=False)
+    _open: ExitStack = field(default_factory=ExitStack, init=False)
+
+    def __enter__(self) -> MemberBuffer:
+        self._file = self._open.enter_context(tempfile.SpooledTemporaryFile(self.in_memory))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._open.close()
+
+    def add(self, key: Hashable, blob: RawFile) -> int:
+        """Put a member away, and return how many wait under its key.
+
+        Raises
+        ------
+        RecordError
+            If the temporary file has no room.
+        """
+        members = self._sets.setdefault(key, [])
+        try:
+            begin = self._file.seek(0, 2)
+            self._file.write(blob.data)
+        except OSError as error:
+            raise RecordError(
+                "{name} cannot be put away until the rest of its set is unpacked, in {folder}: {reason}",
+                name=blob.name,
+                folder=tempfile.gettempdir(),
+                reason=os_error_text(error),
+            ) from error
+        members.append(_BufferedMember(blob.name, begin, len(blob.content)))
+        return len(members)
+
+    def pop(self, key: Hashable) -> list[RawFile]:
+        """Take what waits under a key, in the order in which it was put away."""
+        members = [self._read_member(member) for member in self._sets.pop(key)]
+        if not self._sets:
+            self._file.seek(0)
+            self._file.truncate()
+        return members
+
+    @property
+    def keys(self) -> list[Hashable]:
+        """The keys under which something waits, the oldest first."""
+        return list(self._sets)
+
+    def _read_member(self, member: _BufferedMember) -> RawFile:
+        """Return a member with its bytes."""
+        self._file.seek(member.begin)
+        return RawFile(member.name, self._file.read(member.size))

@@ -1,0 +1,318 @@
+"""What each column of a plain table is: no column is dropped in silence, and none is read as what it does not say it is."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.table.headers import (
+    TIME,
+    classify_other_quantity,
+    component_code,
+    is_clock_unit,
+    normalize_unit,
+    split_unit,
+    strip_name,
+    time_unit_seconds,
+)
+
+ACCEPTED_NAMES = lazy_gettext(
+    "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or an acceleration by its unit, as in 'table (gal)'"
+)
+_NON_NAMES = {"true", "false", "nan", "inf", "null", "none", "yes"}
+_RIGHT_ANGLE_TOLERANCE_DEG = 1.0
+"""How far from perpendicular, in degrees, two bare numbers may be and still be taken for azimuths."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column that is read.
+
+    Parameters
+    ----------
+    index : int
+        Its place in the table.
+    label : str
+        What messages call it.
+    code : str
+        Component code, or ``TIME``.
+    unit : str
+        Of the acceleration, normalised; of the time, empty.
+    azimuth_deg : float or None
+    sign : float
+        -1 where the samples are turned to positive up.
+    seconds : float
+        Unit of a time column, s.
+    """
+
+    index: int
+    label: str
+    code: str
+    unit: str = ""
+    azimuth_deg: float | None = None
+    sign: float = 1.0
+    seconds: float = 1.0
+
+
+@dataclass(frozen=True)
+class TableColumns:
+    """The columns that are read, and what is to be said about the others and about guesses."""
+
+    columns: tuple[Column, ...]
+    notes: tuple[str, ...] = ()
+
+
+def parse_header(name: str, names: Sequence[str], units: str | None = None) -> TableColumns:
+    """Return what the columns of a table are, by the names in its header.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    names : sequence of str
+        As written; at least one is not empty.
+    units : str or None
+        Unit of columns that name none.
+
+    Raises
+    ------
+    RecordFormatError
+        If a column is not understood, two mean the same, or a unit or a word stands where a name should.
+    UnitError
+        If a unit is unknown, missing or contradicts the option.
+    """
+    entries = [_classify_column(name, index, heading) for index, heading in enumerate(names)]
+    notes = [
+        lazy_gettext("left out column {name!r}: {what}", name=names[i], what=lazy_gettext(entry))
+        for i, entry in enumerate(entries)
+        if isinstance(entry, str)
+    ]
+    columns = [entry for entry in entries if not isinstance(entry, str)]
+    columns = _resolve_transverse(name, names, _resolve_down(names, columns), units)
+    _check_ambiguous(name, names, columns, units)
+    _check_duplicates(name, names, columns)
+    default_unit = _parse_units_option(units)
+    stated_units = {column.unit for column in columns if column.unit}
+    unitless = [column for column in columns if column.code != TIME and not column.unit]
+    if unitless and len(stated_units) == 1 and default_unit is None:
+        common_unit = next(iter(stated_units))
+        stating_names = _quote_names(names, [c for c in columns if c.unit])
+        notes.append(
+            lazy_gettext(
+                "took {unit}, which {states} states, for {others}, too",
+                unit=common_unit,
+                states=stating_names,
+                others=_quote_names(names, unitless),
+            )
+        )
+        default_unit = common_unit
+    final_columns = tuple(_apply_unit(name, names[column.index], column, default_unit, units) for column in columns)
+    notes += [
+        lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=names[c.index])
+        for c in final_columns
+        if c.sign < 0
+    ]
+    if len({column.unit for column in final_columns if column.code != TIME}) > 1:
+        unit_texts = [f"{names[c.index]!r}: {c.unit}" for c in final_columns if c.code != TIME]
+        notes.append(lazy_gettext("the columns state several units, and each was taken in its own ({units})", units=unit_texts))
+    return TableColumns(final_columns, tuple(notes))
+
+
+def is_header_row(names: Sequence[str]) -> bool:
+    """Return whether a line can be a header: one of its words is a direction, the time, or carries a unit of acceleration."""
+    return any(
+        normalize_unit(split_unit(n)[1])
+        or component_code(n) in (TIME, "ACC")
+        or ((d := parse_direction(strip_name(n))) is not None and not d.is_bare_number)
+        for n in names
+    )
+
+
+def _classify_column(name: str, index: int, heading: str) -> Column | str:
+    """Return a column as its own name tells it, or what it is when it is no acceleration and no time."""
+    unit_text = split_unit(heading)[1]
+    bare_heading = strip_name(heading)
+    unit, seconds = normalize_unit(unit_text), time_unit_seconds(unit_text)
+    inner_unit = normalize_unit(split_unit(split_unit(heading)[0])[1])
+    if unit and inner_unit and inner_unit != unit:
+        raise UnitError(
+            "{name}: column {written!r} states two units, {inner} and {unit}: keep one of them",
+            name=name,
+            written=heading,
+            inner=inner_unit,
+            unit=unit,
+        )
+    if bare_heading.isdecimal() and parse_direction(bare_heading) is None:
+        raise RecordFormatError(
+            "{name}: column {written!r} is named by a number that is no azimuth: expected 0 to 360 degrees, or {understood}",
+            name=name,
+            written=heading,
+            understood=ACCEPTED_NAMES,
+        )
+    if normalize_unit(bare_heading) or bare_heading.lower() in _NON_NAMES:
+        raise RecordFormatError(
+            "{name}: {written!r} stands where column {index} should have a name: expected {understood}",
+            name=name,
+            written=heading,
+            index=index + 1,
+            understood=ACCEPTED_NAMES,
+        )
+    direction = parse_direction(bare_heading)
+    if unit:
+        return _acceleration_column(index, heading, direction or _unknown_direction(bare_heading), unit)
+    if component_code(heading) == TIME or seconds:
+        if unit_text and seconds is None and not is_clock_unit(unit_text):
+            raise UnitError(
+                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
+                name=name,
+                written=heading,
+                unit_text=unit_text,
+            )
+        return Column(index, heading, TIME, seconds=seconds or 1.0)
+    if direction is not None and (not unit_text or unit_text.lower() == "deg"):
+        return _acceleration_column(index, heading, direction, "")
+    quantity = classify_other_quantity(heading)
+    if quantity is not None:
+        return quantity
+    if unit_text:
+        raise UnitError(
+            "{name}: column {written!r} has the unknown unit {unit_text!r}: expected gal, m/s2 or g, or no such column",
+            name=name,
+            written=heading,
+            unit_text=unit_text,
+        )
+    if component_code(heading) == "ACC":
+        return Column(index, heading, "ACC")
+    return Column(index, heading or f"number {index + 1}", "", unit="")
+
+
+def _acceleration_column(index: int, heading: str, direction: Direction, unit: str) -> Column:
+    """Return a column of acceleration."""
+    return Column(index, heading, direction.code, unit, direction.azimuth_deg, direction.sign)
+
+
+def _unknown_direction(bare_heading: str) -> Direction:
+    """Return the direction, not known, of a column that is an acceleration by its unit; ``T`` beside a unit is transverse."""
+    return Direction(
+        component_code(bare_heading) if component_code(bare_heading) != TIME else bare_heading.upper() if bare_heading else "ACC"
+    )
+
+
+def _resolve_down(names: Sequence[str], columns: list[Column]) -> list[Column]:
+    """Return the columns with a lone ``D`` taken as down only beside two horizontals that are known, and no vertical."""
+    down_column = next((c for c in columns if c.sign < 0.0 and strip_name(names[c.index]).lower() == "d"), None)
+    known_count = sum(c.azimuth_deg is not None for c in columns)
+    if down_column is None or (known_count == 2 and sum(c.code == down_column.code for c in columns) == 1):
+        return columns
+    return [replace(c, code="D" if c.unit else "", sign=1.0) if c is down_column else c for c in columns]
+
+
+def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> list[Column]:
+    """Return the columns with a lone ``T`` beside ``L`` or ``R`` taken as transverse where a unit of acceleration is known."""
+    time_columns = [c for c in columns if c.code == TIME]
+    # t and T: the small letter is the time
+    time_column = next((c for c in time_columns if names[c.index] == "T" or (names[c.index] == "t" and len(time_columns) == 1)), None)
+    if time_column is None or not {"L", "R"} & {c.code for c in columns}:
+        return columns
+    if units is None and not any(c.unit for c in columns):
+        raise UnitError(
+            "{name}: columns {names} without a unit: {one!r} may be the time or the transverse direction; name the unit in "
+            "the header, as in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
+            name=name,
+            names=[repr(n) for n in names],
+            one=names[time_column.index],
+        )
+    return [replace(c, code="T") if c is time_column else c for c in columns]
+
+
+def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> None:
+    """Refuse what is not understood, and complete what needs company: bare numbers, and channels whose unit is an option."""
+    bare_azimuths = [c for c in columns if not c.unit and (d := parse_direction(strip_name(names[c.index]))) and d.is_bare_number]
+    if bare_azimuths and not (len(bare_azimuths) == 2 and _are_perpendicular(*bare_azimuths)):
+        raise RecordFormatError(
+            "{name}: no names in the header: {names}; azimuths come as a perpendicular pair (10,280), with N and E (N10E), or "
+            "with a degree sign (10°)",
+            name=name,
+            names=_quote_names(names, bare_azimuths),
+        )
+    velocity_columns = [
+        c for c in columns if not c.unit and units is None and (d := parse_direction(strip_name(names[c.index]))) and d.velocity
+    ]
+    if velocity_columns:
+        raise UnitError(
+            "{name}: codes of instruments that measure velocity: {names}; expected accelerations: if they are, name the unit in "
+            "the header, as in 'HHN (gal)', or give `units`, gal|m/s2|g",
+            name=name,
+            names=_quote_names(names, velocity_columns),
+        )
+    unknown_columns = [c for c in columns if not c.code]
+    known_columns = [c for c in columns if c.code and c.code != TIME]
+    if unknown_columns and (known_columns or units is None):
+        raise RecordFormatError(
+            "{name}: column not understood: {names}; expected {understood}; name it so, or take it out",
+            name=name,
+            names=_quote_names(names, unknown_columns),
+            understood=ACCEPTED_NAMES,
+        )
+    for position, column in enumerate(columns):
+        if not column.code:  # the option says that they are accelerations
+            columns[position] = replace(column, code=re.sub(r"\s+", " ", names[column.index].upper()) or f"C{column.index + 1}")
+
+
+def _are_perpendicular(first: Column, second: Column) -> bool:
+    """Return whether two azimuths are a right angle apart."""
+    angle = abs((first.azimuth_deg or 0.0) - (second.azimuth_deg or 0.0)) % 180.0
+    return abs(angle - 90.0) <= _RIGHT_ANGLE_TOLERANCE_DEG
+
+
+def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]) -> None:
+    """Refuse two columns that mean the same."""
+    for code, count in Counter(c.code for c in columns).items():
+        if count > 1:
+            meaning = lazy_gettext("the time") if code == TIME else code
+            raise RecordFormatError(
+                "{name}: several columns mean {meant} ({names}): keep one of them",
+                name=name,
+                meant=meaning,
+                names=_quote_names(names, [c for c in columns if c.code == code]),
+            )
+
+
+def _parse_units_option(units: str | None) -> str | None:
+    """Return the unit that the caller states."""
+    unit = None if units is None else normalize_unit(units)
+    if units is not None and unit is None:
+        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
+    return unit
+
+
+def _apply_unit(name: str, heading: str, column: Column, option: str | None, units: str | None) -> Column:
+    """Return a column of acceleration with the unit it states, or the one that is given."""
+    if column.code == TIME:
+        return column
+    unit = column.unit or option
+    if unit is None:
+        raise UnitError(
+            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
+            name=name,
+            written=heading or column.index + 1,
+        )
+    if units is not None and unit != option:
+        raise UnitError(
+            "{name}: column {written!r} is in {unit}, the option says {units}: leave the option out",
+            name=name,
+            written=heading,
+            unit=unit,
+            units=units,
+        )
+    return replace(column, unit=unit)
+
+
+def _quote_names(names: Sequence[str], columns: Sequence[Column]) -> str:
+    """Return the names of columns as they are written, each in quotes."""
+    return ", ".join(repr(names[c.index]) for c in columns)

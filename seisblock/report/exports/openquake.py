@@ -1,0 +1,131 @@
+"""A fragility as OpenQuake reads it: a ``fragilityModel`` in NRML 0.5, continuous (lognormal) or discrete (shares at the levels)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+from seisblock import __version__
+from seisblock.core.errors import OutputError
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.report.exports.names import ascii_identifiers
+from seisblock.studies.fragility.estimate import CLOUD
+from seisblock.studies.fragility.intensity import ARIAS, PGA, PGD, PGV, SA, IntensityMeasure
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.fragility.results import Fragility, FragilityStudy
+
+NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
+SHAPES = ("logncdf", "discrete")
+
+_IMTS = {PGA: ("PGA", STANDARD_GRAVITY), PGV: ("PGV", 0.01), PGD: ("PGD", 0.01), SA: ("SA", STANDARD_GRAVITY), ARIAS: ("IA", 1.0)}
+"""What OpenQuake calls a measure, and its unit there, SI: g, cm/s, cm, m/s."""
+
+UPPER_PROBABILITY = 0.9999
+"""Probability up to which, and from whose complement on, a continuous curve is followed at least."""
+
+
+def imt_of(measure: IntensityMeasure) -> tuple[str, float]:
+    """Return what OpenQuake calls a measure, and its unit there, SI.
+
+    Raises
+    ------
+    OutputError
+        If it has none such.
+    """
+    if measure.kind not in _IMTS:
+        raise OutputError("OpenQuake knows no intensity measure {im}: take pga, pgv, pgd, sa or arias", im=measure.name)
+    name, size = _IMTS[measure.kind]
+    return (name if measure.period_s is None else f"{name}({measure.period_s:g})"), size
+
+
+def nrml(study: FragilityStudy, *, shape: str = "logncdf") -> str:
+    """Return a fragility model in NRML 0.5: a function for each body, a limit state for each limit that has a curve.
+
+    Parameters
+    ----------
+    study : FragilityStudy
+    shape : str
+        ``logncdf``, by mean and standard deviation of the intensity itself, or ``discrete``, the shares at the levels, made to rise.
+
+    Raises
+    ------
+    OutputError
+        If OpenQuake has no such measure, no body has a curve for each limit, or records were not scaled to levels that shares stand at.
+
+    Notes
+    -----
+    Of a lognormal intensity the mean is median exp(beta^2/2), and the standard deviation mean sqrt(exp(beta^2) - 1) (derived here).
+    """
+    imt, size = imt_of(study.measure)
+    if shape not in SHAPES:
+        raise OutputError("there is no shape {shape!r} of a fragility model; there are {known}", shape=str(shape)[:40], known=list(SHAPES))
+    if shape == "discrete" and study.method == CLOUD:
+        raise OutputError("a cloud has no levels that shares stand at: take logncdf, or the method stripes")
+    bodies = dict.fromkeys(curve.body for curve in study.curves if curve.curve is not None)
+    limits = list(dict.fromkeys(curve.limit for curve in study.curves if shape == "discrete" or curve.curve is not None))
+    complete = {body: [c for c in study.curves if c.body == body and c.limit in limits] for body in bodies}
+    complete = {body: curves for body, curves in complete.items() if shape == "discrete" or all(c.curve is not None for c in curves)}
+    if not complete:
+        raise OutputError("no body has a curve for each limit, which a fragility model needs: leave a limit out, or ask for other levels")
+    states = list(ascii_identifiers(limits, prefix="state").values())
+    root = ElementTree.Element("nrml", xmlns=NAMESPACE)
+    model = ElementTree.SubElement(root, "fragilityModel", id="seisblock", assetCategory="contents", lossCategory="contents")
+    text = f"seisblock {__version__}: {study.solver}, {study.method}, {study.curves[0].records} records"
+    ElementTree.SubElement(model, "description").text = text
+    ElementTree.SubElement(model, "limitStates").text = " ".join(states)
+    names = ascii_identifiers(complete)
+    for body, curves in complete.items():
+        _add_function(model, names[body], imt, curves, states, size, continuous=shape == "logncdf")
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _add_function(
+    model: ElementTree.Element, name: str, imt: str, curves: Sequence[Fragility], states: Sequence[str], size: float, *, continuous: bool
+) -> None:
+    """Add the function of one body."""
+    levels = [level.im / size for level in curves[0].levels]
+    if continuous:
+        function = ElementTree.SubElement(model, "fragilityFunction", id=name, format="continuous", shape="logncdf")
+        with_curve = [curve.curve for curve in curves if curve.curve is not None]
+        low = min(min(levels), *(curve.quantile(1.0 - UPPER_PROBABILITY) / size for curve in with_curve))
+        top = max(max(levels), *(curve.quantile(UPPER_PROBABILITY) / size for curve in with_curve))
+        ElementTree.SubElement(function, "imls", imt=imt, minIML=_format_number(low), maxIML=_format_number(top))
+        for state, curve in zip(states, with_curve, strict=True):
+            mean, deviation = lognormal_moments(curve)
+            ElementTree.SubElement(function, "params", ls=state, mean=_format_number(mean / size), stddev=_format_number(deviation / size))
+        return
+    function = ElementTree.SubElement(model, "fragilityFunction", id=name, format="discrete")
+    ElementTree.SubElement(function, "imls", imt=imt).text = " ".join(map(_format_number, levels))
+    for state, fragility in zip(states, curves, strict=True):
+        shares = pool_adjacent_violators([level.exceeding / level.runs for level in fragility.levels])
+        ElementTree.SubElement(function, "poes", ls=state).text = " ".join(map(_format_number, shares))
+
+
+def _format_number(value: float) -> str:
+    """Return a number with all digits that count."""
+    return f"{value:.12g}"
+
+
+def lognormal_moments(curve: Lognormal) -> tuple[float, float]:
+    """Return mean and standard deviation of a lognormal intensity: median exp(beta^2/2), mean sqrt(exp(beta^2) - 1) (derived here)."""
+    mean = curve.median * math.exp(curve.beta**2 / 2.0)
+    return mean, mean * math.sqrt(math.expm1(curve.beta**2))
+
+
+def pool_adjacent_violators(shares: Sequence[float]) -> list[float]:
+    """Return shares that never fall, nearest to those given by least squares: neighbours that fall are pooled.
+
+    Examples
+    --------
+    >>> pool_adjacent_violators([0.0, 0.5, 0.25, 1.0])
+    [0.0, 0.375, 0.375, 1.0]
+    """
+    pools: list[tuple[float, int]] = []
+    for share in shares:
+        pools.append((share, 1))
+        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
+            (a, m), (b, n) = pools[-2:]
+            pools[-2:] = [((m * a + n * b) / (m + n), m + n)]
+    return [value for value, count in pools for _ in range(count)]

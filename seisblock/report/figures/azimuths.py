@@ -1,0 +1,110 @@
+"""What becomes of a body in every direction: a rose for each record, in which falls stand out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from seisblock.core.i18n import gettext
+from seisblock.core.results import Response
+from seisblock.report.directions import direction_label
+from seisblock.report.figures import style
+from seisblock.report.figures.body import style_rose
+from seisblock.report.figures.heading import record_label, records_heading
+from seisblock.report.figures.spectrum import OVERTURNED_COLOUR, ROCKED_COLOUR
+from seisblock.report.units_display import length_unit
+
+Directions = Sequence[Any]
+
+RIM = 1.0
+"""Lean over alpha at the rim of a rose: what falls reaches it."""
+
+
+def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True) -> Figure:
+    """Return the figure: per record a rose of the largest lean over alpha and, of what slides, one of the furthest displacement.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+        That of the worst direction, for each record.
+    directions : sequence of sequences
+        What became of the body in each direction.
+    gal : bool
+        Displacements in cm, else m.
+    """
+    slides = any(hasattr(result, "max_displacement_m") for group in directions for result in group)
+    fig = _build_figure(responses, directions, slides=slides, narrow=False, gal=gal)
+    fig.narrow_layout = lambda: _build_figure(responses, directions, slides=slides, narrow=True, gal=gal)
+    return fig
+
+
+def _build_figure(
+    responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, narrow: bool, gal: bool
+) -> style.StyledFigure:
+    """Return the figure, the roses of a record beside or below each other."""
+    across, down = 1 + slides, len(responses)
+    rows, columns = (across * down, 1) if narrow else (down, across)
+    title = records_heading([response.motion.record for response in responses], [gettext("all azimuths")])
+    fig = style.titled_figure(title, width=0.6 + 4.4 * columns, height=1.0 + 4.2 * rows)
+    for row, (response, results) in enumerate(zip(responses, directions, strict=True)):
+        record = response.motion.record
+        prefix = f"{record_label(record)}: " if record is not None and down > 1 else ""
+        lean = fig.add_subplot(rows, columns, across * row + 1, projection="polar")
+        worst = direction_label(response.motion.name, _worst_direction(response, results))
+        _bars(lean, results, [RIM if result.overturned else min(result.max_rotation_ratio, RIM) for result in results])
+        if not any(result.max_rotation_ratio for result in results):
+            lean.annotate(
+                gettext("rocks in no direction"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
+            )
+        style_rose(lean, prefix + gettext("largest lean over α, worst: {direction}", direction=worst), RIM)
+        if slides:
+            path = fig.add_subplot(rows, columns, across * row + 2, projection="polar")
+            unit = length_unit((result.max_displacement_m for result in results), gal=gal)
+            displacements = [result.max_displacement_m / unit.size for result in results]
+            _bars(path, results, displacements)
+            style_rose(path, prefix + gettext("furthest from start ({unit})", unit=unit.name), max(*displacements, 1e-3 / unit.size))
+    handles = [Patch(facecolor=ROCKED_COLOUR, edgecolor="0.4", linewidth=0.5, label=gettext("stands"))]
+    half_circle = all(map(_is_half_circle, directions))
+    if any(result.overturned for results in directions for result in results):
+        handles.append(
+            Patch(
+                facecolor=OVERTURNED_COLOUR,
+                edgecolor="0.4",
+                linewidth=0.5,
+                label=gettext("falls to this side") if half_circle else gettext("falls"),
+            )
+        )
+    style.add_figure_legend(fig, handles, loc="outside lower center", ncols=2)
+    return fig
+
+
+def _worst_direction(response: Response[Any], results: Directions) -> str:
+    """Return to which side of its direction the worst is told: to that to which the body falls, where its bar is."""
+    name = response.motion.name
+    return next((result.overturned_towards for result in results if result.overturned and f"{result.azimuth_deg:g}" == name), "+x")
+
+
+def _bars(panel: Any, results: Directions, values: Sequence[float]) -> None:
+    """Draw a bar for each direction; where half of the circle stands for all of it to both sides, or to that to which the body falls."""
+    sides = ("+x", "-x") if _is_half_circle(results) else ("+x",)
+    width = np.radians((180.0 if len(sides) == 2 else 360.0) / len(results))
+    for result, value in zip(results, values, strict=True):
+        for towards in (result.overturned_towards,) if len(sides) == 2 and result.overturned else sides:
+            turn = np.radians(result.azimuth_deg + (180.0 if towards == "-x" else 0.0))
+            panel.bar(
+                turn,
+                value,
+                width=0.9 * width,
+                color=OVERTURNED_COLOUR if result.overturned else ROCKED_COLOUR,
+                edgecolor="0.4",
+                linewidth=0.4,
+            )
+
+
+def _is_half_circle(results: Directions) -> bool:
+    """Return whether directions are those of half the circle."""
+    return max(result.azimuth_deg for result in results) < 180.0

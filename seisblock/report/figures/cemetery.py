@@ -1,0 +1,203 @@
+"""Cemeteries in pictures: how slender the stones are, and which share falls ([Furukawa2009]_ figs. 14 to 20)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.core.i18n import gettext
+from seisblock.core.units import GAL
+from seisblock.records import Record
+from seisblock.report.figures.heading import panel_label, records_heading
+from seisblock.report.figures.style import ACCENT, INPUT, SEPARATOR, add_legend, label_axes, new_figure, set_panel_title
+from seisblock.report.units_display import acceleration_unit
+from seisblock.studies.survey.assessment import LARGER_COMPONENT, CemeteryRate, Reinforcement
+from seisblock.studies.survey.overturning_rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
+from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
+
+LINES = (
+    ("#08214a", "-"),
+    ("#1f4e8c", (0, (6, 1.5))),
+    ("#3f78b5", (0, (1.5, 1.2))),
+    ("#0a6b5e", (0, (5, 1, 1.2, 1))),
+    ("#3fa08f", "-"),
+    ("#9bb3c4", (0, (6, 1.5))),
+)
+"""Colour and dashes of the curves by frequency: dark to light, so that their order can be read in grey too."""
+
+MARKERS = "osD^vP"
+BIN = 0.25
+"""Width of the histogram's bins of H/B."""
+
+FINE_PGA = tuple(round(0.1 * i, 1) for i in range(1, 181))
+"""PGA at which curves of the formula are drawn, m/s^2."""
+
+
+def draw_slenderness(axis: Axes, cemetery: Cemetery, threshold: float | None = None) -> None:
+    """Draw how slender the stones are: shares per bin, and the share above each H/B; what lies beyond a threshold is in colour."""
+    ratios = np.sort(cemetery.ratios)
+    edges = np.arange(np.floor(ratios[0] / BIN) * BIN, ratios[-1] + BIN, BIN).tolist()
+    share = np.full(ratios.size, 1.0 / ratios.size)
+    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=gettext("share per {width:g}", width=BIN))
+    if threshold is not None:
+        exceeds = ratios > threshold
+        axis.hist(ratios[exceeds], bins=edges, weights=share[exceeds], color=ACCENT, alpha=0.55, edgecolor="white", label=gettext("falls"))
+        axis.axvline(threshold, color=ACCENT, linewidth=0.9, linestyle=(0, (4, 2)))
+    exceedance = 1.0 - np.arange(ratios.size + 1) / ratios.size
+    axis.step(np.concatenate([ratios, ratios[-1:]]), exceedance, where="pre", color="0.15", linewidth=1.1, label=gettext("share above"))
+    axis.set_ylim(0.0, 1.02)
+    label_axes(axis, x=gettext("H/B"), y=gettext("share of stones"))
+    add_legend(axis, loc="upper right", bbox_to_anchor=None, ncols=1)
+
+
+def draw_rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, frequencies: Sequence[float] = FREQUENCIES) -> None:
+    """Draw the rate against PGA for each frequency."""
+    unit, name = acceleration_unit(gal=gal)
+    points = list(curve)
+    for frequency in dict.fromkeys(point.frequency_hz for point in points):
+        pga = np.array([p.pga_m_s2 for p in points if p.frequency_hz == frequency]) / unit
+        rate = np.array([p.rate for p in points if p.frequency_hz == frequency])
+        index = list(frequencies).index(frequency) if frequency in frequencies else len(LINES) - 1
+        colour, dashes = LINES[index % len(LINES)]
+        axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
+    axis.set_ylim(-0.02, 1.02)
+    label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("overturning rate"))
+
+
+def _add_side_legend(axis: Axes) -> None:
+    """Add the key beside the panel: six curves and some points hide too much inside it."""
+    add_legend(axis, loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=1)
+
+
+def overturn_rate_figure(
+    cemetery: Cemetery,
+    groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
+    curve: Sequence[CurvePoint],
+    *,
+    gal: bool = True,
+) -> Figure:
+    """Return the figure of ``overturn-rate``: the stones, the curves and the points of a record, and the same with dowels.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    groups : sequence of (Record or None, results)
+        Of records' components, or of bare numbers; may be empty.
+    curve : sequence of CurvePoint
+        Drawn where there is no result.
+    gal : bool
+        Unit of accelerations, else m/s^2.
+    """
+    records = [record for record, _ in groups]
+    results = [(record, result) for record, record_results in groups for result in record_results if result.component != LARGER_COMPONENT]
+    points = [(_point_label(record, result, records), result) for record, result in results]
+    governing = max((result for _, result in points), key=lambda result: result.rate, default=None)
+    has_reinforced = governing is not None and governing.reinforced is not None
+    columns = 3 if has_reinforced else 2
+    stones = gettext("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    title = SEPARATOR.join(part for part in (records_heading(records, [result.component or "" for _, result in results]), stones) if part)
+    figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=title)
+    draw_slenderness(axes[0], cemetery, governing.threshold_ratio if governing else None)
+    _draw_rates(axes[1], [(name, result, result) for name, result in points], governing, curve, gal=gal)
+    if governing is not None and governing.reinforced is not None:
+        reinforced_points = [(name, result, result.reinforced) for name, result in points if result.reinforced is not None]
+        _draw_rates(axes[2], reinforced_points, governing.reinforced, curve, gal=gal)
+        set_panel_title(axes[1], gettext("as surveyed"))
+        text = gettext("{stones} of {all} stones reinforced", stones=governing.reinforced.reinforced_stones, all=cemetery.size)
+        set_panel_title(axes[2], text)
+    _add_side_legend(axes[-1])
+    return figure
+
+
+def _point_label(record: Record | None, result: CemeteryRate, records: Sequence[Record | None]) -> str:
+    """Return what a point is called before its frequency."""
+    return "" if record is None else f"{panel_label(record, result.component or '', records)}, "
+
+
+def _draw_rates(
+    axis: Axes,
+    shakings: Sequence[tuple[str, CemeteryRate, CemeteryRate | Reinforcement]],
+    governing: CemeteryRate | Reinforcement | None,
+    curve: Sequence[CurvePoint],
+    *,
+    gal: bool,
+) -> None:
+    """Draw the curves, those of the results in colour, and the rate of each result with its interval."""
+    unit, _ = acceleration_unit(gal=gal)
+    frequencies = {result.equivalent_frequency_hz for _, result, _ in shakings}
+    draw_rates(axis, [p for p in (governing.curve if governing else curve) if p.frequency_hz not in frequencies], gal=gal)
+    for index, (name, result, curve_source) in enumerate(shakings):
+        points = [p for p in curve_source.curve if p.frequency_hz == result.equivalent_frequency_hz]
+        thick = 1.8 if curve_source is governing else 0.9
+        axis.plot([p.pga_m_s2 / unit for p in points], [p.rate for p in points], color=ACCENT, linewidth=thick, zorder=3)
+        (low, high), pga = curve_source.rate_interval, result.pga_m_s2 / unit
+        axis.errorbar(
+            [pga],
+            [curve_source.rate],
+            yerr=[[curve_source.rate - low], [high - curve_source.rate]],
+            fmt=MARKERS[index % len(MARKERS)] + "-",  # of one point there is no line but in the key, which so names the curve, too
+            color=ACCENT,
+            ecolor="black",
+            markeredgecolor="black",
+            markersize=5,
+            markerfacecolor=ACCENT,
+            capsize=2.5,
+            linewidth=thick,
+            elinewidth=0.9,
+            zorder=4,
+            label=f"{name}{result.equivalent_frequency_hz:.3g} Hz",
+        )
+    axis.set_xlim(left=0.0)  # last, for it ends the scaling to what is drawn
+
+
+def figure_14(cemetery: Cemetery) -> Figure:
+    """Return the histogram and the cumulative distribution of H/B ([Furukawa2009]_ figs. 14, 15)."""
+    title = gettext("{name}: height over width of {stones} stones", name=cemetery.name, stones=cemetery.size)
+    figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=title)
+    draw_slenderness(axis, cemetery)
+    return figure
+
+
+def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence[SurveyedRate] = ()) -> Figure:
+    """Return the rate curves: fig. 16, fig. 17 reinforced, and figs. 18, 19 with surveyed rates ([Furukawa2009]_).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    reinforced : bool
+        All stones with a dowel.
+    surveys : sequence of SurveyedRate
+        Points to draw; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
+    """
+    kind = gettext("reinforced") if reinforced else gettext("not reinforced")
+    figure, (axis,) = new_figure(1, width=7.2, height=4.4, title=f"{cemetery.name}, {kind}")
+    draw_rates(axis, rate_curve(cemetery.with_dowels() if reinforced else cemetery, FINE_PGA))
+    for index, survey in enumerate(surveys):
+        style: dict[str, Any] = {"marker": MARKERS[index % len(MARKERS)], "color": ACCENT, "s": 26, "zorder": 4}
+        axis.scatter([survey.pga / GAL], [survey.rate], label=f"{survey.name}, {survey.frequency:.2f} Hz", **style)
+    axis.set_xlim(left=0.0)
+    _add_side_legend(axis)
+    return figure
+
+
+def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> Figure:
+    """Return surveyed rates against those of the curves, without a dowel and with one ([Furukawa2009]_ fig. 20)."""
+    title = gettext("rates: curves of {name}, and surveys", name=cemetery.name)
+    figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=title)
+    axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)
+    for index, survey in enumerate(surveys):
+        undowelled = overturning_rate(cemetery, survey.pga, survey.frequency).rate
+        dowelled = overturning_rate(cemetery.with_dowels(), survey.pga, survey.frequency).rate
+        marker = MARKERS[index % len(MARKERS)]
+        axis.plot([dowelled, undowelled], [survey.rate] * 2, color="0.8", linewidth=0.8, zorder=1)
+        axis.scatter([undowelled], [survey.rate], marker=marker, color=ACCENT, s=30, zorder=3, label=survey.name)
+        axis.scatter([dowelled], [survey.rate], marker=marker, facecolor="white", edgecolor="0.4", s=26, zorder=2)
+    axis.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
+    label_axes(axis, x=gettext("rate by the curves (hollow: reinforced)"), y=gettext("surveyed rate"))
+    _add_side_legend(axis)
+    return figure

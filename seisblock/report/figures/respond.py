@@ -1,0 +1,134 @@
+"""What a free-standing object does, in pictures: ground motion with its thresholds, displacement, lean and lift, modes shaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.core.i18n import gettext
+from seisblock.core.results import Phase, Response
+from seisblock.models.respond.describe import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
+from seisblock.models.respond.outcome import RespondOutcome
+from seisblock.report.figures import style
+from seisblock.report.figures.curves import draw_curve
+from seisblock.report.figures.heading import motions_heading, panel_labels
+from seisblock.report.figures.time_histories import Interval, history_columns, strong_motion_interval
+from seisblock.report.text.threshold import effective_friction
+from seisblock.report.units_display import Unit, acceleration_unit, length_unit
+
+COLOURS = {SLIDE: "#eef2f9", ROCK: "#ecc3a6", SLIDE_ROCK: "#8f77b0", FLIGHT: "#84ae91"}
+MIN_VISIBLE_SHARE = 1 / 2000
+"""Phases shorter than this share of what is shown are not drawn: dying hops come by the thousand."""
+
+MIN_LIFT = 1e-4
+"""Lift that is drawn, m: hops below a tenth of a millimetre are not to be seen."""
+
+Responses = Sequence[Response[RespondOutcome]]
+
+
+GROUND, DISPLACEMENT, LEAN, LIFT = range(4)
+"""What a panel shows, from above downwards."""
+
+
+def figure(responses: Responses, *, gal: bool = True) -> Figure:
+    """Return the figure: per component a column with ground acceleration and, where it moves, leans, flies, what of this it did."""
+    fig = _build_figure(responses, gal=gal)
+    fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
+    return fig
+
+
+def _build_figure(responses: Responses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
+    """Return the figure, its columns beside or below each other."""
+    panel_groups = [panel_kinds(response) for response in responses]
+    rows = [len(kinds) for kinds in panel_groups]
+    motions, stretches = [response.motion for response in responses], [motion_interval(response) for response in responses]
+    wide, high = (7.4, 1.2 + 1.75 * sum(rows)) if narrow else (2.0 + 5.4 * len(responses), 1.2 + 1.75 * max(rows))
+    fig = style.titled_figure(motions_heading(motions), width=wide, height=high)
+    disp_unit = length_unit((item.outcome.max_displacement_m for item in responses), gal=gal)
+    columns, names = history_columns(fig, motions, stretches, rows, narrow=narrow), panel_labels(motions)
+    for panels, name, response, kinds, (first, last) in zip(columns, names, responses, panel_groups, stretches, strict=True):
+        for kind, panel in zip(kinds, panels, strict=True):
+            _draw_panel(kind, panel, name, response, disp_unit, gal=gal)
+            style.shade_phases(panel, visible_phases(response.phases, first, last), COLOURS, names=kind == DISPLACEMENT)
+            style.add_legend(panel)
+    return fig
+
+
+def panel_kinds(response: Response[RespondOutcome]) -> list[int]:
+    """Return the panels of a response: what did not happen has none."""
+    outcome = response.outcome
+    moves = outcome.max_displacement_m > 0.0 or outcome.slip_path_m > 0.0
+    flies = float(response["lift"].max()) >= MIN_LIFT
+    flags = ((GROUND, True), (DISPLACEMENT, moves), (LEAN, outcome.max_rotation_rad > 0.0), (LIFT, flies))
+    return [kind for kind, does in flags if does]
+
+
+def _draw_panel(kind: int, panel: Axes, panel_name: str, response: Response[RespondOutcome], disp_unit: Unit, *, gal: bool) -> None:
+    """Draw one panel."""
+    if kind == GROUND:
+        _draw_ground(panel, panel_name, response, gal=gal)
+    elif kind == DISPLACEMENT:
+        _draw_curve(panel, response, response["displacement"] / disp_unit.size, gettext("x ({unit})", unit=disp_unit.name), style.SECOND)
+    elif kind == LEAN:
+        _draw_lean(panel, response)
+    else:
+        _draw_curve(
+            panel, response, np.maximum(response["lift"], 0.0) / disp_unit.size, gettext("lift ({unit})", unit=disp_unit.name), "#2e7d4f"
+        )
+
+
+def motion_interval(response: Response[RespondOutcome]) -> Interval:
+    """Return the stretch of time worth drawing: from before it first moves until it rests, the record's strong part where it never does."""
+    moving = [phase for phase in response.phases if phase.name in COLOURS]
+    if not moving:
+        return strong_motion_interval(response.motion)
+    start, end = moving[0].start_s, moving[-1].end_s
+    margin = 0.05 * (end - start) + 0.2
+    return max(float(response.motion.time[0]), start - margin), min(float(response.time[-1]), end + margin)
+
+
+def visible_phases(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
+    """Return the phases that are long enough to be seen."""
+    return [phase for phase in phases if phase.duration_s >= MIN_VISIBLE_SHARE * (last - first)]
+
+
+def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome], *, gal: bool) -> None:
+    """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
+    unit, name = acceleration_unit(gal=gal)
+    block, options = response.body, response.options
+    right, left = block.arms
+    gravity = options["gravity_m_s2"] / unit
+    draw_curve(axis, response.time, response["ground_acceleration"] / unit, color=style.INPUT)
+    peak = float(np.abs(response["ground_acceleration"]).max()) / unit
+    friction, dashes = effective_friction(options), ((0, (6, 2)), (0, (1.5, 1.5)))
+    levels = [(-right / block.centre * gravity, left / block.centre * gravity, gettext("rocks: b/h"))]
+    if math.isfinite(friction):
+        levels.append((-friction * gravity, friction * gravity, gettext("slides: μ")))
+    visible = style.fit_ylim(axis, peak, levels, name)
+    for (low, high, text), dash, is_visible in zip(levels, dashes[: len(levels)], visible, strict=True):
+        for level in (low, high) if is_visible else ():
+            axis.axhline(level, color=style.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if level == low else None)
+    style.label_axes(axis, y=gettext("a ({unit})", unit=name))
+    title = f"{panel_name}  " + gettext("{name}: {what}", name=gettext(block.name), what=gettext(response.outcome.outcome))
+    style.set_panel_title(axis, title)
+
+
+def _draw_curve(axis: Axes, response: Response[RespondOutcome], values: np.ndarray, text: str, colour: str) -> None:
+    """Draw one curve of the response."""
+    draw_curve(axis, response.time, values, color=colour, linewidth=1.1)
+    style.label_axes(axis, y=text)
+
+
+def _draw_lean(axis: Axes, response: Response[RespondOutcome]) -> None:
+    """Draw the lean over alpha, up to a little beyond what matters."""
+    alpha = min(response.body.slendernesses)
+    _draw_curve(axis, response, response["rotation"] / alpha, gettext("θ/α"), style.ACCENT)
+    peak = float(np.abs(response["rotation"]).max()) / alpha
+    if peak > 0.8:
+        style.draw_thresholds(axis, [-1.0, 1.0])
+    limit = max(1.15 * min(peak, 1.5), 1e-3)
+    axis.set_ylim(-limit, limit)

@@ -1,0 +1,314 @@
+"""An earthquake's stations on a map: a colour for what happened at each, the epicentre, the coast where its lines are installed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import gettext
+from seisblock.core.typing import FloatArray
+from seisblock.records.site import EARTH_RADIUS_KM, great_circle_km, unwrap_longitude
+from seisblock.report.coastline import coastlines
+from seisblock.report.figures import style
+from seisblock.report.figures.label_placement import Box, Place, place_labels
+from seisblock.report.text.map import EVENT_WORDS
+from seisblock.report.units_display import acceleration_unit
+from seisblock.studies.map.station_response import StationBody, StationModel
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.map.surveyed_places import SurveyComparison
+
+SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#c0392b", "#3d0c11"])
+"""Light where nothing happens, dark where everything falls: in grey, too."""
+
+COAST = "#5b7f95"
+
+MAX_NAMES = 5
+"""Stations that bear their names, the worst, and surveyed places."""
+
+EDGE, RIM = ("0.25", 0.5), ("black", 1.5)
+"""Colour and width of the rim of a station's point, and of one at which the body falls as it was given."""
+
+HALO = [withStroke(linewidth=2.0, foreground="white")]
+KM_PER_DEGREE = EARTH_RADIUS_KM * math.pi / 180.0
+MARGIN = 0.08
+"""Room around the outermost points, a share of the extent."""
+
+NORTH = 0.95
+"""How far east north's arrow stands, a share of the map."""
+
+SCALE_AT = ((0.03, 0.02, 0.32, 0.15), (0.68, 0.02, 0.97, 0.15), (0.03, 0.85, 0.32, 0.98))
+"""Where the scale may be, the first of these that hides fewest places: west, south, east and north end, shares of the map."""
+
+NORTH_AT = (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
+"""Where north is."""
+
+STAR = (0.17, 0.16, 0.03)
+"""How far the epicentre with its name reaches to either side, down and up, shares of the map."""
+
+HALF_TURN = 180.0
+"""Degrees east or west at which longitudes change their name."""
+
+MIN_EXTENT_KM = 10.0
+"""Extent of a map of one station."""
+
+MAX_DISTANCE_KM = 1000.0
+"""What lies further from the middle of the stations is off the map: they would be one dot on it."""
+
+
+def figure(stations: Stations, model: StationModel | None, *, gal: bool = True, surveys: Sequence[SurveyComparison] = ()) -> Figure:
+    """Return the figure: a point for each station whose place is known.
+
+    Parameters
+    ----------
+    stations : Stations
+    model : StandingBody, StandingStones or None
+        What the colours tell of; the shaking itself without one.
+    gal : bool
+        Whether the shaking is in gal.
+    surveys : sequence of SurveyAnswer
+        Squares in the colour of the share that fell, or of the PGA that the stones tell of.
+
+    Raises
+    ------
+    ParameterError
+        If of no station it is known where it is.
+    """
+    if not stations.mapped:
+        raise ParameterError("of no station it is known where it is: there is nothing to map")
+    fig = style.titled_figure(map_title(stations, model), width=7.2, height=6.4)
+    axis = fig.add_subplot(1, 1, 1)
+    values, label, max_value = colour_values(stations, model, gal=gal)
+    places = np.array([map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped])
+    order = np.arange(len(places))[::-1]  # the worst on top
+    rims = [RIM if answer.effect.overturns_nominally else EDGE for answer in stations.mapped[::-1]]
+    points = axis.scatter(
+        places[order, 0],
+        places[order, 1],
+        c=values[order],
+        cmap=SHADES,
+        norm=Normalize(0.0, max_value),
+        s=34,
+        edgecolors=[colour for colour, _ in rims],
+        linewidths=[wide for _, wide in rims],
+        zorder=3,
+    )
+    if surveys:
+        squares = np.array([map_position(stations, survey.surveyed.longitude, survey.surveyed.latitude) for survey in surveys])
+        colours = [survey_value(survey, model, gal=gal) for survey in surveys]
+        norm = Normalize(0.0, max_value)
+        axis.scatter(squares[:, 0], squares[:, 1], c=colours, cmap=SHADES, norm=norm, marker="s", s=52, edgecolor="black", zorder=3.5)
+    _draw_epicentre(axis, stations)
+    scale = _set_extent(axis, map_extent_points(stations, surveys))
+    if coast := coastlines(*axis.get_xlim(), *axis.get_ylim()):
+        axis.add_collection(LineCollection(coast, colors=COAST, linewidths=0.8, zorder=1.5))
+    _draw_names(axis, stations, surveys, scale)
+    fig.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
+    return fig
+
+
+def map_position(stations: Stations, longitude: float | None, latitude: float | None) -> tuple[float, float]:
+    """Return degrees east and north on the map, east counted on beyond 180 where its stations lie on both sides of the date line.
+
+    Parameters
+    ----------
+    stations : Stations
+    longitude, latitude : float, degrees
+    """
+    first = next((answer.longitude for answer in stations.answers if answer.is_mapped), None)
+    return unwrap_longitude(longitude or 0.0, first or 0.0), latitude or 0.0
+
+
+def epicentre_position(stations: Stations) -> tuple[float, float] | None:
+    """Return where the epicentre lies on the map, degrees east and north, None where it is not known.
+
+    Parameters
+    ----------
+    stations : Stations
+    """
+    earthquake = stations.earthquake
+    if earthquake is None or earthquake.place is None:
+        return None
+    return map_position(stations, earthquake.longitude_deg, earthquake.latitude_deg)
+
+
+def map_extent_points(survey_map: Stations, surveys: Sequence[SurveyComparison] = ()) -> FloatArray:
+    """Return the places that a map shows from the first: its stations; epicentre and surveyed places that are not too far away.
+
+    Parameters
+    ----------
+    survey_map : Stations
+    surveys : sequence of SurveyAnswer
+
+    Returns
+    -------
+    (n, 2) array, degrees
+        East and north.
+    """
+    stations = np.array([map_position(survey_map, answer.longitude, answer.latitude) for answer in survey_map.mapped])
+    epicentre = epicentre_position(survey_map)
+    further_points = [map_position(survey_map, survey.surveyed.longitude, survey.surveyed.latitude) for survey in surveys] + (
+        [epicentre] if epicentre else []
+    )
+    east, north = 0.5 * (stations.min(axis=0) + stations.max(axis=0))
+    nearby = [point for point in further_points if great_circle_km((point[1], point[0]), (north, east)) <= MAX_DISTANCE_KM]
+    return np.vstack([stations, *nearby])
+
+
+def colour_values(stations: Stations, model: StationModel | None, *, gal: bool) -> tuple[FloatArray, str, float]:
+    """Return what the colours tell: a value for each station on the map, its name with its unit, and the end of the scale."""
+    if model is None:
+        unit = acceleration_unit(gal=gal)
+        values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in stations.mapped])
+        return values, f"PGA ({unit.name})", float(values.max()) or 1.0
+    if isinstance(model, StationBody):
+        name = gettext("share that falls") if model.runs else gettext(EVENT_WORDS[model.solver])
+        if any(answer.effect.overturns_nominally for answer in stations.mapped):
+            name = gettext("share that falls; thick rim: falls as given")
+        return np.array([_overturned_share(answer) for answer in stations.mapped]), name, 1.0
+    return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("share that falls"), 1.0
+
+
+def survey_value(answer: SurveyComparison, model: StationModel | None, *, gal: bool) -> float:
+    """Return the value of a surveyed place on the scale of the stations: the share that fell, or the PGA by the stones.
+
+    Parameters
+    ----------
+    answer : SurveyAnswer
+    model : StandingBody, StandingStones or None
+    gal : bool
+    """
+    if model is not None:
+        return answer.surveyed.fallen / answer.surveyed.stones
+    pga_values = (answer.estimate.pga_m_s2, *answer.estimate.pga_interval_m_s2)
+    return next((pga for pga in pga_values if pga is not None), 0.0) / acceleration_unit(gal=gal).size
+
+
+def share_colour(share: float) -> str:
+    """Return the colour of a share of the scale, as a page writes it.
+
+    Parameters
+    ----------
+    share : float, 1
+
+    Examples
+    --------
+    >>> share_colour(0.0)
+    '#f3efe6'
+    """
+    return to_hex(SHADES(min(max(share, 0.0), 1.0)))
+
+
+def _overturned_share(answer: StationReport) -> float:
+    """Return the share of versions that fall at a station, or whether what is asked about happened."""
+    effect = answer.effect
+    return float(effect.happened or False) if effect.probability is None else effect.probability
+
+
+def map_title(stations: Stations, model: StationModel | None, *, between: str = style.SEPARATOR) -> str:
+    """Return the line above: magnitude, name and time of the earthquake, and what stands there.
+
+    Parameters
+    ----------
+    stations : Stations
+    model : StandingBody, StandingStones or None
+    between : str
+        What stands between its parts.
+    """
+    earthquake = stations.earthquake
+    parts = []
+    if earthquake is not None:
+        parts += [f"M {earthquake.magnitude:.2g}"] if earthquake.magnitude else []
+        parts += [earthquake.name, stations.origin_told]
+    parts += [gettext(model.name)] if model is not None else []
+    return between.join(part for part in parts if part)
+
+
+def _draw_epicentre(axis: Axes, stations: Stations) -> None:
+    """Draw the epicentre as a star, named."""
+    at = epicentre_position(stations)
+    if at is None:
+        return
+    axis.scatter(*at, marker="*", s=170, color="white", edgecolor="black", linewidth=1.0, zorder=4)
+    axis.annotate(
+        gettext("epicentre"),
+        at,
+        xytext=(0, -13),
+        textcoords="offset points",
+        ha="center",
+        va="top",
+        fontsize=8,
+        path_effects=HALO,
+        zorder=5,
+    )
+
+
+def _set_extent(axis: Axes, places: FloatArray) -> Box:
+    """Give the map its extent, its proportions at that latitude, a scale bar and north; return where the scale bar is."""
+    (west, south), (east, north) = places.min(axis=0), places.max(axis=0)
+    middle = 0.5 * (south + north)
+    narrowing = max(math.cos(math.radians(middle)), 0.01)
+    km = np.array([(east - west) * narrowing, north - south]) * KM_PER_DEGREE
+    half_width = 0.5 * max(float(km.max()) * (1.0 + 2.0 * MARGIN), MIN_EXTENT_KM) / KM_PER_DEGREE
+    axis.set_xlim(0.5 * (west + east) - half_width / narrowing, 0.5 * (west + east) + half_width / narrowing)
+    axis.set_ylim(middle - half_width, middle + half_width)
+    axis.set_aspect(1.0 / narrowing)
+    axis.set_xlabel(gettext("longitude (°)"))
+    axis.set_ylabel(gettext("latitude (°)"))
+    axis.ticklabel_format(useOffset=False)
+    if max(abs(west), abs(east)) > HALF_TURN:
+        axis.xaxis.set_major_formatter(lambda east, _: f"{unwrap_longitude(east, 0.0):g}".replace("-", "\N{MINUS SIGN}"))
+    axis.locator_params(nbins=6)
+    corner, extent = np.array([axis.get_xlim()[0], axis.get_ylim()[0]]), 2.0 * half_width * np.array([1.0 / narrowing, 1.0])
+    east, north = ((places - corner) / extent).T
+    at = min(SCALE_AT, key=lambda box: np.count_nonzero((east > box[0]) & (east < box[2]) & (north > box[1]) & (north < box[3])))
+    _scale_bar(axis, 2.0 * half_width * KM_PER_DEGREE, at)
+    arrow = {"arrowstyle": "-|>", "color": "black"}
+    axis.annotate("", (NORTH, 0.97), xytext=(NORTH, 0.88), xycoords="axes fraction", arrowprops=arrow, zorder=5)
+    axis.text(NORTH, 0.87, gettext("N"), transform=axis.transAxes, ha="center", va="top", fontsize=9, path_effects=HALO, zorder=5)
+    return at
+
+
+def _scale_bar(axis: Axes, across_km: float, at: Box) -> None:
+    """Draw a bar of a round number of kilometres, about a quarter of the map."""
+    quarter = across_km / 4.0
+    step = 10.0 ** math.floor(math.log10(quarter))
+    length = next(factor * step for factor in (5.0, 2.0, 1.0) if factor * step <= quarter * 1.001)
+    share = length / across_km
+    style: dict[str, Any] = {"transform": axis.transAxes, "zorder": 5}
+    x, y = at[0] + 0.02, at[1] + 0.03
+    axis.plot([x, x + share], [y, y], color="black", linewidth=2.5, solid_capstyle="butt", path_effects=HALO, **style)
+    axis.text(x + 0.5 * share, y + 0.01, f"{length:g} km", ha="center", va="bottom", fontsize=8, path_effects=HALO, **style)
+
+
+def _draw_names(axis: Axes, stations: Stations, surveys: Sequence[SurveyComparison], scale: Box) -> None:
+    """Write the name of the worst station, then those of surveyed places and of the next stations, as far as there is room."""
+    (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
+
+    def to_place(name: str, at: tuple[float, float]) -> Place:
+        return Place(name, (at[0] - left) / (right - left), (at[1] - bottom) / (top - bottom))
+
+    points = [
+        to_place(answer.station or answer.record, map_position(stations, answer.longitude, answer.latitude)) for answer in stations.mapped
+    ]
+    squares = [
+        to_place(answer.surveyed.place, map_position(stations, answer.surveyed.longitude, answer.surveyed.latitude)) for answer in surveys
+    ]
+    epicentre, occupied = epicentre_position(stations), [scale, NORTH_AT]
+    if epicentre is not None:
+        star = to_place("", epicentre)
+        occupied.append((star.east - STAR[0], star.north - STAR[1], star.east + STAR[0], star.north + STAR[2]))
+    for place, (east, north) in place_labels([*points[:1], *squares[:MAX_NAMES], *points[1:MAX_NAMES]], occupied, [*points, *squares]):
+        at = (left + place.east * (right - left), bottom + place.north * (top - bottom))
+        axis.annotate(
+            place.name, at, xytext=(6 * east, 4 * north), textcoords="offset points", fontsize=8, path_effects=HALO, zorder=6,
+            ha="left" if east > 0 else "right", va="baseline" if north > 0 else "top",
+        )  # fmt: skip

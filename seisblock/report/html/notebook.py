@@ -1,0 +1,188 @@
+"""What a value shows of itself in a notebook: its numbers as a table, and its figure."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seisblock.core.i18n import gettext, join_list
+from seisblock.core.results import Response
+from seisblock.core.typing import FloatArray
+from seisblock.measures import RecordMeasures, ResponseSpectrum
+from seisblock.records import Motion, Record
+from seisblock.report.figures.fonts import build_localized
+from seisblock.report.figures.svg import embed_figure
+from seisblock.report.json.encode import to_builtins
+from seisblock.report.json.units import split_unit
+from seisblock.report.registry import response_figure, verdict_text
+from seisblock.report.templating import render_page
+from seisblock.report.text.tables import format_number
+from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
+from seisblock.studies.fragility.results import FragilityStudy
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+SEPARATOR = " · "
+MEASURE_KEYS = ("components", "jma_intensity", "jma_class")
+
+
+def plot(value: Any) -> Figure:
+    """Return the figure of a response, a record, a motion or a spectrum, in the language of the locale; a notebook shows it.
+
+    Parameters
+    ----------
+    value : Response, Record, Motion, ResponseSpectrum, RockingSpectrum or FragilityStudy
+
+    Raises
+    ------
+    ParameterError
+        If the model has no figure.
+    """
+    figure = build_localized(lambda: _figure(value))
+    # a notebook asks what it shows for its picture; pyplot, which would teach it Figures, is not used here
+    vars(figure)["_repr_png_"] = lambda: _png(figure)
+    return figure
+
+
+def _png(figure: Figure) -> bytes:
+    """Return a figure as .png."""
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png")
+    return buffer.getvalue()
+
+
+def html(value: Any) -> str:
+    """Return a value as a notebook shows it: what it is about, its numbers, its warnings, its figure."""
+    title, numbers, warnings = _summary(value)
+    return render_page(
+        "notebook.html",
+        title,
+        verdict=verdict_text(value) if isinstance(value, Response) else "",
+        tables=list(_tables(numbers)),
+        warnings=[gettext(text) for text in warnings],
+        picture=None if isinstance(value, RecordMeasures) else embed_figure(build_localized(lambda: _figure(value)), title),
+    )
+
+
+def _figure(value: Any) -> Figure:
+    """Return the figure of a value."""
+    if isinstance(value, Response):
+        return response_figure([value])
+    from seisblock.report.figures import inputs
+
+    if isinstance(value, Record):
+        return inputs.record_figure(value)
+    if isinstance(value, Motion):
+        return inputs.motion_figure(value)
+    if isinstance(value, FragilityStudy):
+        from seisblock.report.figures.fragility import figure
+
+        return figure(value)
+    return inputs.response_spectrum_figure(value) if isinstance(value, ResponseSpectrum) else inputs.rocking_spectrum_figure(value)
+
+
+def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
+    """Return the title of a value, its numbers under the names of keys, and its warnings."""
+    if isinstance(item, Response):
+        parts = (item.model, item.motion.name, gettext(str(getattr(item.body, "name", ""))))
+        return SEPARATOR.join(part for part in parts if part), to_builtins(item.outcome), item.warnings
+    if isinstance(item, Record):
+        numbers = {"samples": item.samples, "dt_s": item.dt, "format": item.format}
+        peaks = [{"component": part.code, "pga_m_s2": _peak(part.acceleration)} for part in item.components]
+        return item.station or item.source or gettext("record"), {**numbers, "components": peaks}, [flag.message for flag in item.doubts]
+    if isinstance(item, Motion):
+        numbers = {"samples": item.acceleration.shape[1], "dt_s": item.dt, "start_s": item.start_s, "pga_m_s2": _peak(item.horizontal)}
+        return SEPARATOR.join(part for part in (item.record.station if item.record else "", item.name) if part), numbers, ()
+    if isinstance(item, RecordMeasures):
+        return (
+            "JMA " + (item.jma_class or "-"),
+            {key: value for key, value in to_builtins(item).items() if key in MEASURE_KEYS},
+            item.warnings,
+        )
+    if isinstance(item, ResponseSpectrum):
+        highest = int(item.sa_m_s2.argmax())
+        return "Sₐ", {"damping": item.damping, "sa_m_s2": float(item.sa_m_s2[highest]), "period_s": float(item.period_s[highest])}, ()
+    if isinstance(item, FragilityStudy):
+        keys = ("body", "limit", "median", "unit", "beta", "records")
+        curves = [{key: value for key, value in to_builtins(curve).items() if key in keys} for curve in item.curves]
+        return item.measure.label, {"solver": item.solver, "method": item.method, "curves": curves}, item.notes
+    return "2R, α", {"overturned": int(item.overturned.sum()), "blocks": item.overturned.size}, ()
+
+
+def _peak(row: FloatArray) -> float:
+    """Return the largest absolute value."""
+    return float(np.abs(row).max())
+
+
+def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]:
+    """Yield the numbers of an outcome, then a table with its name for each list of things in it."""
+    flat = {key: value for key, value in outcome.items() if not isinstance(value, (Mapping, list)) or _fits_cell(value)}
+    yield "", [_row(key, [value]) for key, value in flat.items()]
+    for key, value in outcome.items():
+        if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
+            names = [name for name, entry_value in value[0].items() if not isinstance(entry_value, Mapping)]
+            rows = [_row(name, [entry.get(name) for entry in value[:MAX_COLUMNS]]) for name in names]
+            table_name = key.replace("_", " ")
+            is_truncated = len(value) > MAX_COLUMNS
+            yield (
+                gettext("{things}: {shown} of {all}", things=table_name, shown=MAX_COLUMNS, all=len(value)) if is_truncated else table_name,
+                rows,
+            )
+
+
+MAX_COLUMNS, MAX_ENTRIES = 8, 12
+"""How many things of a list a table shows."""
+
+
+def _fits_cell(value: Any) -> bool:
+    """Whether a list of plain values fits a cell."""
+    return isinstance(value, list) and len(value) <= MAX_ENTRIES and not any(isinstance(entry, (Mapping, list)) for entry in value)
+
+
+def _row(key: str, values: Sequence[Any]) -> list[str]:
+    """Return a key as words, and its values, in the unit in which people see them."""
+    name, unit = split_unit(key)
+    size, unit_name = _display_unit(unit, values) if key not in ENERGIES else (1.0, unit)
+    words = name.replace("_", " ")
+    heading = f"{words} ({_superscript(unit_name)})" if unit_name else words
+    return [heading, *(_cell(_in_unit(value, size)) for value in values)]
+
+
+ENERGIES = ("arias_m_s",)
+"""What has the unit of a velocity and is none."""
+
+
+def _display_unit(unit: str, values: Sequence[Any]) -> tuple[float, str]:
+    """Return what one of the unit shown is worth, and its name; only accelerations, velocities and lengths have one of their own."""
+    if unit == "m/s^2":
+        return acceleration_unit(gal=True)
+    if unit == "m/s":
+        return velocity_unit(gal=True)
+    if unit == "m":
+        flat = [item for value in values for item in (value if isinstance(value, list) else [value])]
+        return length_unit((item for item in flat if isinstance(item, float)), gal=True)
+    return 1.0, unit
+
+
+def _in_unit(value: Any, size: float) -> Any:
+    """Return a value, or each of several, in a unit."""
+    if isinstance(value, list):
+        return [_in_unit(item, size) for item in value]
+    return value / size if isinstance(value, float) and size != 1.0 else value
+
+
+def _superscript(unit: str) -> str:
+    """Return a unit with raised powers."""
+    return unit.replace("^2", "²").replace("^3", "³")
+
+
+def _cell(value: Any) -> str:
+    """Return a value as text."""
+    if isinstance(value, list):
+        return join_list(_cell(entry) for entry in value) or "-"
+    return gettext(value) if isinstance(value, str) and value else "-" if value in ("", None) else format_number(value)

@@ -1,0 +1,1 @@
+"""Output files of answers: time histories, tables and their formats."""

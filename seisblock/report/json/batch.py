@@ -1,0 +1,76 @@
+"""What ``seisblock batch`` answers beside its table: how often it happened to each body."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from seisblock.references import COMMAND_PAPERS
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.batch.tally import Tally
+from seisblock.studies.batch.task import Plan
+
+
+class BatchParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    solver : str
+    table : str
+        The file with a row for each record, component and body; it is not written where no row has an answer.
+    components : list of str
+        Codes or azimuths; empty for all horizontals.
+    runs, seed : int
+        Perturbed runs behind a probability, and their seed.
+    """
+
+    solver: str
+    table: str
+    components: tuple[str, ...]
+    runs: int
+    seed: int
+
+
+class BatchEntry(Result, frozen=True, kw_only=True):
+    """One body.
+
+    Parameters
+    ----------
+    body : str
+    answers_count, failures_count : int
+        Rows with an answer, and without.
+    happened_count : int
+        Rows in which what is asked about happened: it overturned, slipped, jumped, lifted, or a stone fell.
+    """
+
+    body: str
+    answers_count: int
+    failures_count: int
+    happened_count: int
+
+
+TOTALS = {
+    "records_count": Annotated[int, Meta(description="Records.")],
+    "unread_count": Annotated[int, Meta(description="Records, and components, that could not be read.")],
+}
+BATCH = DocumentSchema("batch", BatchParameters, BatchEntry, TOTALS)
+
+
+def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
+    """Return the document of a batch that is done."""
+    entries = (
+        (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.happened))
+        for c in tally.ranked()
+    )
+    return BATCH.document(
+        BatchParameters(solver=plan.solver, table=table, components=plan.components, runs=plan.runs, seed=plan.seed),
+        entries,
+        citations=COMMAND_PAPERS[plan.solver],
+        warnings=notes,
+        upstairs=plan.preparation.floor is not None,
+        records_count=tally.records,
+        unread_count=tally.unreadable,
+    )

@@ -1,0 +1,144 @@
+"""What ``seisblock body`` answers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from msgspec import Struct
+
+from seisblock.bodies.scan.azimuths import ScanAzimuth
+from seisblock.bodies.scan.body import Pair, Triple, min_slenderness
+from seisblock.bodies.scan.qc import scan_qc_messages
+from seisblock.bodies.scan.scan import Scan
+from seisblock.references import papers
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+
+
+class BodyParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    density_kg_m3 : float
+    tolerance_m : float
+        How far above the ground a point may lie that carries.
+    inset_m : float
+        How far in from each side of the base the worn body turns.
+    unit, up : str
+        Of the file's numbers, and its axis that points upwards.
+    facing_deg : float
+        Azimuth of +x.
+    step_deg : float
+        Between azimuths.
+    gravity_m_s2 : float
+    """
+
+    density_kg_m3: float
+    tolerance_m: float
+    inset_m: float
+    unit: str
+    up: str
+    facing_deg: float
+    step_deg: float
+    gravity_m_s2: float
+
+
+class ScanResult(Result, frozen=True, kw_only=True):
+    """One scanned body; x and y are the scan's, z is above the ground.
+
+    Parameters
+    ----------
+    name : str
+    source, sha256 : str
+        The file, and its digest.
+    triangles_count, touching_count, pieces_count : int
+        Triangles; vertices that touch the ground; surfaces that do not touch each other.
+    size_m : three floats
+        Extents of the file.
+    volume_m3, mass_kg, height_m : float
+    centre_m : three floats
+        Centre of gravity.
+    inertia_kg_m2 : three rows of three floats
+        Tensor about it.
+    tilt_deg : float
+        By how much the scan was turned so that it rests.
+    base_m, carrying_m : list of pairs
+        Corners of the polygon that carries, sharp, and within its worn edges; counter-clockwise.
+    base_area_m2 : float
+        Within its worn edges.
+    slenderness_rad, slenderness_azimuth_deg : float
+        The least alpha in any direction, and towards which azimuth.
+    slenderness_interval_rad : list of two floats or None
+        The least alpha, of sharp edges, with half and with twice the tolerance; null where it would not stand.
+    directions : list
+        All around, from north.
+    """
+
+    name: str
+    source: str
+    sha256: str
+    triangles_count: int
+    touching_count: int
+    pieces_count: int
+    size_m: Triple
+    volume_m3: float
+    mass_kg: float
+    height_m: float
+    centre_m: Triple
+    inertia_kg_m2: tuple[Triple, Triple, Triple]
+    tilt_deg: float
+    base_m: tuple[Pair, ...]
+    carrying_m: tuple[Pair, ...]
+    base_area_m2: float
+    slenderness_rad: float
+    slenderness_azimuth_deg: float
+    slenderness_interval_rad: tuple[float | None, float | None]
+    directions: list[ScanAzimuth]
+
+
+BODY = DocumentSchema("body", BodyParameters, ScanResult)
+
+
+def document(scan: Scan, directions: list[ScanAzimuth], *, step_deg: float, gravity: float) -> Document:
+    """Return the document of a scan."""
+    body = scan.body
+    x, y = body.support_polygon.T
+    result = ScanResult(
+        name=body.name,
+        source=scan.source.replace("\\", "/").rsplit("/", 1)[-1],
+        sha256=scan.sha256,
+        triangles_count=scan.triangles,
+        touching_count=scan.touching,
+        pieces_count=scan.pieces,
+        size_m=scan.size,
+        volume_m3=scan.volume,
+        mass_kg=body.mass,
+        height_m=body.height,
+        centre_m=body.centre,
+        inertia_kg_m2=body.inertia,
+        tilt_deg=math.degrees(scan.tilt),
+        base_m=body.base,
+        carrying_m=tuple((point[0], point[1]) for point in body.support_polygon.tolist()),
+        base_area_m2=0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)),
+        slenderness_rad=min_slenderness(body)[0],
+        slenderness_azimuth_deg=min_slenderness(body)[1],
+        slenderness_interval_rad=(_finite_or_none(scan.slenderness_half_tolerance), _finite_or_none(scan.slenderness_double_tolerance)),
+        directions=directions,
+    )
+    parameters = BodyParameters(
+        density_kg_m3=scan.density,
+        tolerance_m=scan.tolerance,
+        inset_m=body.inset_m,
+        unit=scan.unit,
+        up=scan.up,
+        facing_deg=body.facing,
+        step_deg=step_deg,
+        gravity_m_s2=gravity,
+    )
+    return BODY.document(parameters, [(None, result)], citations=papers("a scan's arms"), warnings=scan_qc_messages(scan))
+
+
+def _finite_or_none(value: float) -> float | None:
+    """Return a number, None for one that is none."""
+    return None if math.isnan(value) else value

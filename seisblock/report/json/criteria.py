@@ -1,0 +1,153 @@
+"""What ``seisblock criteria`` answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from seisblock.bodies.block import Restitution
+from seisblock.criteria.compare import CriterionResult, unique_criteria
+from seisblock.measures.frequency import EquivalentFrequency
+from seisblock.models.rock.outcome import RockOutcome
+from seisblock.references import find_citations, papers
+from seisblock.report.json.bodies import BlockEntry, block_entry
+from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.criteria_comparison import CriteriaComparison
+from seisblock.studies.model_comparison import ModelComparison
+
+
+class CriteriaParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    restitution : float, two of them, or None
+        Ratio of angular velocities at an impact, onto the right and onto the left corner; null: from the angular momentum.
+    linear, vertical : bool
+        Whether the equation is linear, and whether the vertical component acts.
+    gravity_m_s2 : float
+    block : BlockEntry
+    velocity_highpass_hz : float or None
+        Filter behind the PGV.
+    """
+
+    restitution: Restitution
+    linear: bool
+    vertical: bool
+    gravity_m_s2: float
+    block: BlockEntry
+    velocity_highpass_hz: float | None
+
+
+AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="What other models of the same block say.")]
+SIMULATED: Any = entry_type("Simulated", RockOutcome, extra={"agreement": AGREEMENT_KEY})
+
+
+class RespondEntry(Struct, frozen=True, kw_only=True):
+    """What the body does with all of its motions together, as ``seisblock respond`` answers.
+
+    Parameters
+    ----------
+    mu : float
+    friction_known : bool
+        False where nothing is known of it, and feet that hold are taken.
+    outcome : str
+        In words.
+    overturned : bool
+    overturned_towards : str or None
+        ``+x`` or ``-x``.
+    overturning_time_s : float or None
+    max_rotation_ratio : float
+        Largest lean over alpha.
+    slip_path_m, final_displacement_m : float
+        Length slid, and where it ends, signed.
+    criteria_agree : bool
+        Whether more than half of the criteria, each counted once, say the same of its fall.
+    """
+
+    mu: float
+    friction_known: bool
+    outcome: str
+    overturned: bool
+    overturned_towards: str | None
+    overturning_time_s: float | None
+    max_rotation_ratio: float
+    slip_path_m: float
+    final_displacement_m: float
+    criteria_agree: bool
+
+
+def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
+    """Return what the body does with all of its motions together, where that was asked."""
+    if card.governing is None:
+        return None
+    outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
+    return RespondEntry(
+        mu=card.governing.response.options["mu"],
+        friction_known=card.governing.friction_known,
+        outcome=outcome.outcome,
+        overturned=outcome.overturned,
+        overturned_towards=outcome.overturned_towards,
+        overturning_time_s=outcome.overturning_time_s,
+        max_rotation_ratio=outcome.max_rotation_ratio,
+        slip_path_m=outcome.slip_path_m,
+        final_displacement_m=outcome.final_displacement_m,
+        criteria_agree=2 * sum(row.overturns == outcome.overturned for row in rows) > len(rows),
+    )
+
+
+class CriteriaResult(Result, frozen=True, kw_only=True):
+    """One direction.
+
+    Parameters
+    ----------
+    component : str
+        Direction of the record that is +x.
+    pga_m_s2, pgv_m_s : float
+    equivalent_frequency_hz : EquivalentFrequency
+    criteria : list of Row
+        Threshold and demand are in the unit that the row names.
+    simulated : Simulated
+        What ``seisblock rock`` answers.
+    respond : RespondEntry or None
+        What ``seisblock respond`` answers.
+    """
+
+    component: str
+    pga_m_s2: float
+    pgv_m_s: float
+    equivalent_frequency_hz: EquivalentFrequency
+    criteria: tuple[CriterionResult, ...]
+    simulated: SIMULATED
+    respond: RespondEntry | None
+
+
+CRITERIA = DocumentSchema("criteria", CriteriaParameters, CriteriaResult)
+
+
+def document(cards: Sequence[CriteriaComparison], options: Mapping[str, Any], *, gravity: float) -> Document:
+    """Return the document of one card per direction."""
+    first = cards[0]
+    parameters = CriteriaParameters(
+        **options, gravity_m_s2=gravity, block=block_entry(first.block), velocity_highpass_hz=first.velocity_highpass_hz
+    )
+    entries = (
+        (
+            card.record,
+            CriteriaResult(
+                component=card.component,
+                pga_m_s2=card.measures.pga_m_s2,
+                pgv_m_s=card.measures.pgv_m_s,
+                equivalent_frequency_hz=card.measures.equivalent_frequency_hz,
+                criteria=card.rows,
+                simulated=to_entry(SIMULATED, card.outcome, agreement=card.agreement),
+                respond=_respond_entry(card),
+            ),
+        )
+        for card in cards
+    )
+    cited = [*find_citations(row.where for card in cards for row in card.rows), *papers("rocking", "all modes")]
+    return CRITERIA.document(parameters, entries, citations=cited, warnings=[text for card in cards for text in card.warnings])

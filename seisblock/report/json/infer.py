@@ -1,0 +1,187 @@
+"""What ``seisblock infer`` answers: shaking from stones, or factors on records from a displacement."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.records import Record
+from seisblock.references import papers
+from seisblock.report.json.bodies import TwoLayerEntry, two_layer_entry
+from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.schema import Document, DocumentSchema
+from seisblock.studies.survey.estimate import ShakingEstimate
+from seisblock.studies.survey.joint import JointEstimate
+from seisblock.studies.survey.scale_search import ScaleFactors
+
+
+class StonesParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    cemetery : str
+        File of the stones.
+    stones, unknown_stones : int
+        How many there are, and of how many nobody says what became of them.
+    rate : str or None
+        Fallen of all, where they were counted.
+    confidence : float
+        Level of the intervals.
+    common_error_ln_pga, stone_error_ln_pga : float
+        Standard deviations in ln PGA, of a cemetery and of each stone.
+    bias_ln_pga, frequency_error_ln_f : float
+        How much more PGA than the criterion's the ground must have; standard deviation of a given frequency.
+    criterion, prior, intensity : str
+        What the estimate rests on.
+    inset : Inset or None
+        How far the edges are worn, for the criteria that ask.
+    """
+
+    cemetery: str
+    stones: int
+    rate: str | None
+    unknown_stones: int
+    confidence: float
+    common_error_ln_pga: float
+    stone_error_ln_pga: float
+    bias_ln_pga: float
+    frequency_error_ln_f: float
+    criterion: str
+    inset: EdgeWear | None
+    prior: str = "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given"
+    intensity: str = "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21"
+
+
+class SlidParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    observed_m : float
+        How far the object slid.
+    object : str
+        ``slid``.
+    largest : bool
+        Whether the largest slip counts, not the one left at the end.
+    mu, mu_kinetic : float
+        Static and kinetic friction; null: one friction.
+    vertical : bool
+        Whether the vertical component acts.
+    gravity_m_s2 : float
+    limit, steps : float, int
+        Largest factor, and steps of the scan up to it.
+    """
+
+    observed_m: float
+    object: str = "slid"
+    largest: bool
+    mu: float
+    mu_kinetic: float | None
+    vertical: bool
+    gravity_m_s2: float
+    limit: float
+    steps: int
+
+
+Windows = tuple[tuple[float | None, float | None], ...]
+
+
+class JumpedParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    observed_m : float
+        How far the block was displaced.
+    object : str
+        ``jumped``.
+    block : TwoLayerEntry
+    contact : Contact
+    flight_only, first : bool
+        Whether the jump alone counts, and whether only the first chain of motion does.
+    windows_s : list of pairs
+        Stretches in which a chain may start; all of the record without any.
+    drop_m : float
+        Height of the floor above the ground.
+    spin, landing : str
+        Rules of the impact and of the landing.
+    gravity_m_s2 : float
+    limit, steps : float, int
+        Largest factor, and steps of the scan up to it.
+    """
+
+    observed_m: float
+    object: str = "jumped"
+    block: TwoLayerEntry
+    contact: Contact
+    flight_only: bool
+    first: bool
+    windows_s: Windows
+    drop_m: float
+    spin: str
+    landing: str
+    gravity_m_s2: float
+    limit: float
+    steps: int
+
+
+@dataclass(frozen=True)
+class ScanPoint:
+    """The displacement at one factor on the record."""
+
+    scale: float
+    displacement_m: float
+
+
+CONTOUR_KEYS = {
+    "contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")],
+    "joint": Annotated[list[JointEstimate], Meta(description="What several cemeteries say together, at each frequency; empty for one.")],
+}
+STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
+STONES = DocumentSchema("infer", StonesParameters, STONES_RESULT, CONTOUR_KEYS, name="stones")
+
+SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against the factor on the record.")]}
+FACTORS_RESULT = entry_type("FactorsResult", ScaleFactors, exclude=("curve",), extra=SCAN_KEYS)
+SLID = DocumentSchema("infer", SlidParameters, FACTORS_RESULT, name="slid")
+JUMPED = DocumentSchema("infer", JumpedParameters, FACTORS_RESULT, name="jumped")
+
+RecordFactors = Sequence[tuple[Record | None, ScaleFactors]]
+
+
+def stones_document(
+    estimates: Sequence[ShakingEstimate],
+    contour: Sequence[ShakingEstimate],
+    parameters: StonesParameters,
+    warnings: Sequence[str],
+    joint: Sequence[JointEstimate] = (),
+) -> Document:
+    """Return the document of what fallen stones say of the shaking."""
+    entries = ((None, to_entry(STONES_RESULT, estimate)) for estimate in estimates)
+    stones = "gravestones as blocks" if parameters.criterion == "rigid" else "gravestones as fitted"
+    citations = papers(stones, "intensity of a velocity")
+    return STONES.document(parameters, entries, citations=citations, warnings=warnings, contour=list(contour), joint=list(joint))
+
+
+def slid_document(factors: RecordFactors, **options: Any) -> Document:
+    """Return the document of every factor at which an object slides so far; `chosen` are the parameters."""
+    return SLID.document(SlidParameters(**options), _factor_entries(factors), citations=papers("sliding"))
+
+
+def jumped_document(factors: RecordFactors, block: TwoLayerBlock, contact: Contact, **options: Any) -> Document:
+    """Return the document of every factor at which a two-layer block is displaced so far; `chosen` are the other parameters."""
+    parameters = JumpedParameters(**options, block=two_layer_entry(block), contact=contact)
+    return JUMPED.document(parameters, _factor_entries(factors), citations=papers("jump"))
+
+
+def _factor_entries(factors: RecordFactors) -> Any:
+    """Return the factors as results."""
+    return (
+        (record, to_entry(FACTORS_RESULT, factor, curve=tuple(ScanPoint(s, d) for s, d in zip(*factor.curve, strict=True))))
+        for record, factor in factors
+    )

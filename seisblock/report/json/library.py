@@ -1,0 +1,99 @@
+"""What ``seisblock cite`` and ``seisblock samples`` answer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from seisblock.core.units import GAL
+from seisblock.references.reference import Reference
+from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.samples import Sample, sample_directory
+
+
+class CiteParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    command : str or None
+        Whose papers; null: all there are.
+    """
+
+    command: str | None
+
+
+class SamplesParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    copied_to : str or None
+        Directory of the copies.
+    """
+
+    copied_to: str | None
+
+
+class SampleResult(Result, frozen=True, kw_only=True):
+    """One bundled file.
+
+    Parameters
+    ----------
+    name, kind, description, origin, licence, sha256 : str
+    pga_m_s2 : dict
+        Of each component; empty where the file is no record.
+    path : str
+    """
+
+    name: str
+    kind: str
+    description: str
+    origin: str
+    licence: str
+    sha256: str
+    pga_m_s2: dict[str, float]
+    path: str
+
+
+REFERENCE_RESULT = entry_type(
+    "ReferenceResult",
+    Reference,
+    extra={
+        "text": Annotated[str, Meta(description="One line of a bibliography.")],
+        "bibtex": Annotated[str, Meta(description="A BibTeX entry.")],
+    },
+)
+CITE = DocumentSchema("cite", CiteParameters, REFERENCE_RESULT)
+SAMPLES = DocumentSchema("samples", SamplesParameters, SampleResult)
+
+
+def cite_document(command: str | None, references: Sequence[Reference], keys: Sequence[str]) -> Document:
+    """Return the document of some references."""
+    entries = ((None, to_entry(REFERENCE_RESULT, reference, text=reference.text(), bibtex=reference.bibtex())) for reference in references)
+    return CITE.document(CiteParameters(command=command), entries, citations=keys)
+
+
+def samples_document(samples: Sequence[Sample], copied_to: Path | None) -> Document:
+    """Return the document of bundled files."""
+    entries = (
+        (
+            None,
+            SampleResult(
+                name=sample.name,
+                kind=sample.kind,
+                description=sample.description,
+                origin=sample.origin,
+                licence=sample.licence,
+                sha256=sample.sha256,
+                pga_m_s2={code: round(value * GAL, 9) for code, value in sample.pga_gal.items()},
+                path=str(sample_directory() / sample.name),
+            ),
+        )
+        for sample in samples
+    )
+    return SAMPLES.document(SamplesParameters(copied_to=None if copied_to is None else str(copied_to)), entries)

@@ -1,0 +1,250 @@
+"""What ``seisblock map`` answers: an earthquake's stations, and what each did."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.references import papers
+from seisblock.report.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry
+from seisblock.studies.map.earthquakes import ONE_DAY
+from seisblock.studies.map.row import station_row
+from seisblock.studies.map.station_response import StationBody, StationModel
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
+
+
+class MapParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    subject : str
+        What stands at each station; empty where only the shaking was asked for.
+    solver : str
+        Which model follows it: that of a body, ``gravestones`` of a cemetery; empty for none.
+    runs, seed : int
+        Plausible versions behind a probability, and their seed.
+    step_deg : float
+        Between the directions that are looked in; 0 where only the components are (``jump``, ``uplift``).
+    """
+
+    subject: str
+    solver: str
+    runs: int
+    seed: int
+    step_deg: float
+
+
+class StationEntry(Result, frozen=True, kw_only=True):
+    """One station.
+
+    Parameters
+    ----------
+    record : str
+        File name.
+    station, name : str
+        Empty where the file has none.
+    latitude, longitude : float or None
+        Degrees north and east; null where the file does not say.
+    epicentral_distance_km : float or None
+    local_start : str
+        Time of the first sample on the network's own clock.
+    pga_m_s2, pgv_m_s : float or None
+        The larger of the horizontal components.
+    jma_intensity : float or None, 1
+    azimuth_deg : float or None
+        The worst direction, clockwise from north.
+    rate : float or None
+        Share of the cemetery's stones that fall.
+    happened : bool or None
+        Whether what the solver is asked about happened: the body overturns (respond, rock), slips, jumps, lifts.
+    overturned : bool or None
+        Null of a solver in which nothing falls.
+    probability : float or None
+        Share of the plausible versions of body and shaking that fall.
+    max_slip_m : float or None
+        Furthest displacement of the body from where it stood.
+    max_uplift_m : float or None
+        How far a corner of a body on springs rose.
+    failure : str or None
+        Why there is no answer.
+    doubts : str or None
+        What a careful reader notices about the record.
+    history : str or None
+        What was done to it, the storey on which a body stands among it.
+    """
+
+    record: str
+    station: str
+    name: str
+    latitude: float | None
+    longitude: float | None
+    epicentral_distance_km: float | None
+    local_start: str
+    pga_m_s2: float | None
+    pgv_m_s: float | None
+    jma_intensity: float | None
+    azimuth_deg: float | None
+    rate: float | None
+    happened: bool | None
+    overturned: bool | None
+    probability: float | None
+    max_slip_m: float | None
+    max_uplift_m: float | None
+    failure: str | None
+    doubts: str | None
+    history: str | None
+
+
+class NeighbourEntry(Struct, frozen=True, kw_only=True):
+    """A station near a surveyed place."""
+
+    station: str
+    distance_km: float
+    jma_intensity: float
+
+
+class SurveyEntry(Struct, frozen=True, kw_only=True):
+    """A surveyed place beside the stations around it.
+
+    Parameters
+    ----------
+    place : str
+    latitude, longitude : float
+        Degrees north and east.
+    stones_count, fallen_count : int
+    pga_m_s2 : float or None
+        By the fallen stones; null where they tell only a bound.
+    pga_interval_m_s2 : two floats or None
+    jma_intensity : float or None, 1
+    jma_intensity_interval : two floats or None, 1
+    neighbours : list of Neighbour
+        The nearest stations.
+    expected_jma_intensity : float or None, 1
+        Theirs, weighted by the inverse of the distance.
+    residual_jma_intensity : float or None, 1
+        The estimate less that.
+    """
+
+    place: str
+    latitude: float
+    longitude: float
+    stones_count: int
+    fallen_count: int
+    pga_m_s2: float | None
+    pga_interval_m_s2: tuple[float | None, float | None]
+    jma_intensity: float | None
+    jma_intensity_interval: tuple[float | None, float | None]
+    neighbours: tuple[NeighbourEntry, ...]
+    expected_jma_intensity: float | None
+    residual_jma_intensity: float | None
+
+
+EXTRA_KEYS = {
+    "earthquake": Annotated[EarthquakeEntry | None, Meta(description="What shook.")],
+    "surveys": Annotated[tuple[SurveyEntry, ...], Meta(description="Surveyed cemeteries beside the stations around them.")],
+    "contradictions": Annotated[
+        tuple[str, ...], Meta(description="Pairs of places, or of a place and a station, that cannot both be right.")
+    ],
+}
+MAP = DocumentSchema("map", MapParameters, StationEntry, EXTRA_KEYS)
+
+_SURVEY_CITATIONS = papers("gravestones as fitted", "intensity of a velocity")
+
+UNMAPPED = N_("{station}: its file does not say where it is: it is listed, and on no map")
+FAILED = N_("{station}: {failure}")
+QC_FLAGGED = N_("{count} record(s) are doubtful; {station}: {doubt}")
+
+DATES_APART = N_(
+    "the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}): a map is of one earthquake, are these of two?"
+)
+
+
+def document(
+    stations: Stations, model: StationModel | None, surveys: Sequence[SurveyComparison] = (), *, upstairs: bool = False
+) -> Document:
+    """Return the document of an earthquake's stations, the worst first.
+
+    Parameters
+    ----------
+    stations : Stations
+    model : StandingBody, StandingStones or None
+    surveys : sequence of SurveyAnswer
+    upstairs : bool
+        Whether they stand on a storey.
+    """
+    body = model if isinstance(model, StationBody) else None
+    parameters = MapParameters(
+        subject=model.name if model else "",
+        solver="" if model is None else body.solver if body else "gravestones",
+        runs=getattr(model, "runs", 0),
+        seed=getattr(model, "seed", 0),
+        step_deg=getattr(model, "step_deg", 0.0) if body is None or body.is_directional else 0.0,
+    )
+    return MAP.document(
+        parameters,
+        [(None, StationEntry(**station_row(answer))) for answer in stations.answers],
+        citations=tuple(dict.fromkeys((*papers("measures"), *(model.citations if model else ()), *(_SURVEY_CITATIONS if surveys else ())))),
+        warnings=warnings(stations),
+        upstairs=upstairs,
+        earthquake=None if stations.earthquake is None else earthquake_entry(stations.earthquake),
+        surveys=tuple(map(survey_entry, surveys)),
+        contradictions=tuple(contradictions(surveys)),
+    )
+
+
+def survey_entry(answer: SurveyComparison) -> SurveyEntry:
+    """Return a surveyed place as documents tell it."""
+    survey, estimate = answer.surveyed, answer.estimate
+    return SurveyEntry(
+        place=survey.place,
+        latitude=survey.latitude,
+        longitude=survey.longitude,
+        stones_count=survey.stones,
+        fallen_count=survey.fallen,
+        pga_m_s2=estimate.pga_m_s2,
+        pga_interval_m_s2=estimate.pga_interval_m_s2,
+        jma_intensity=estimate.jma_intensity,
+        jma_intensity_interval=estimate.jma_intensity_interval,
+        neighbours=tuple(
+            NeighbourEntry(station=neighbour.station, distance_km=neighbour.distance_km, jma_intensity=neighbour.jma_intensity)
+            for neighbour in answer.neighbours
+        ),
+        expected_jma_intensity=answer.expected_intensity,
+        residual_jma_intensity=answer.residual,
+    )
+
+
+def warnings(stations: Stations) -> list[str]:
+    """Return what is to be known of some stations, a sentence each: no answer, no place, other days; how many records are doubtful."""
+    texts: list[str] = _date_warnings(stations)
+    texts += [_failure_text(answer) for answer in stations.answers if answer.failure]
+    texts += [
+        lazy_gettext(UNMAPPED, station=answer.label) for answer in stations.answers if answer.pga_m_s2 is not None and not answer.is_mapped
+    ]
+    flagged = [answer for answer in stations.answers if answer.doubts]
+    return (
+        [*texts, lazy_gettext(QC_FLAGGED, count=len(flagged), station=flagged[0].label, doubt=flagged[0].doubts[0])] if flagged else texts
+    )
+
+
+def _date_warnings(stations: Stations) -> list[str]:
+    """Return that some records began on other days than others, which no header of an earthquake tells."""
+    starts = sorted(((answer.start, answer) for answer in stations.answers if answer.start is not None), key=lambda pair: pair[0])
+    if not starts or starts[-1][0] - starts[0][0] <= ONE_DAY:
+        return []
+    (start, earliest), (end, latest) = starts[0], starts[-1]
+    days = (end - start) / ONE_DAY
+    return [
+        lazy_gettext(DATES_APART, days=days, first=earliest.local_start, one=earliest.label, last=latest.local_start, other=latest.label)
+    ]
+
+
+def _failure_text(answer: StationReport) -> str:
+    """Return why a station has no answer, its file or its name said once."""
+    failure = answer.failure or ""
+    return failure if answer.record in failure else lazy_gettext(FAILED, station=answer.label, failure=failure)

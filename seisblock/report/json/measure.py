@@ -1,0 +1,80 @@
+"""What ``seisblock measure`` answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures
+from seisblock.measures.long_period import LongPeriodMotion
+from seisblock.measures.peaks import HorizontalPeak
+from seisblock.records import Record
+from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.schema import Document, DocumentSchema
+
+
+class MeasureParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    threshold_m_s2, threshold_from : float and str
+        Threshold of the durations, and where it comes from.
+    velocity_highpass_hz, velocity_baseline : float or None, str
+        What was done before PGV and PGD were taken.
+    fourier_smoothing, fourier_smoothing_hz, fourier_band_hz : str, float, two floats
+        Window of the Fourier amplitude, its bandwidth, and where the dominant frequency was looked for.
+    threshold_side : str
+        Which sign of the acceleration counts.
+    gravity_m_s2 : float
+    """
+
+    threshold_m_s2: float
+    threshold_from: str
+    velocity_highpass_hz: float | None
+    velocity_baseline: str
+    fourier_smoothing: str
+    fourier_smoothing_hz: float
+    fourier_band_hz: tuple[float, float]
+    threshold_side: str
+    gravity_m_s2: float
+
+
+EXTRA_KEYS = {
+    "jma_intensity": Annotated[float | list[float | None] | None, Meta(description="Instrumental intensity, not rounded.")],
+    "jma_class": Annotated[str | list[str | None] | None, Meta(description="Class of that intensity.")],
+    "long_period": Annotated[
+        LongPeriodMotion | list[LongPeriodMotion | None] | None,
+        Meta(description="JMA's class of long-period ground motion, and the floor velocity behind it."),
+    ],
+    "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="The longest horizontal vector.")],
+}
+"""What belongs to a record, not to a component; lists where there are several records."""
+
+MEASURE_RESULT = entry_type("MeasureResult", ComponentMeasures)
+MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEYS)
+
+
+def document(
+    records: Sequence[Record], answers: Sequence[RecordMeasures], conventions: Conventions, *, threshold: float, threshold_from: str
+) -> Document:
+    """Return the document of some records: one result per component; what belongs to a record stands beside them."""
+    entries = [
+        (r, to_entry(MEASURE_RESULT, component)) for r, measures in zip(records, answers, strict=True) for component in measures.components
+    ]
+    extra: dict[str, Any] = {
+        "jma_intensity": [measures.jma_intensity for measures in answers],
+        "jma_class": [measures.jma_class for measures in answers],
+        "long_period": [measures.long_period for measures in answers],
+        "peak_horizontal": [measures.horizontal for measures in answers],
+    }
+    return MEASURE.document(
+        MeasureParameters(threshold_m_s2=threshold, threshold_from=threshold_from, **asdict(conventions)),
+        entries,
+        citations=answers[0].citations,
+        warnings=[text for measures in answers for text in measures.warnings],
+        **{key: values if len(records) > 1 else values[0] for key, values in extra.items()},
+    )

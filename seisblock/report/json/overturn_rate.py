@@ -1,0 +1,109 @@
+"""What ``seisblock overturn-rate`` answers: rates of some shakings, or the curve alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.criteria.gravestones import GravestoneFit
+from seisblock.measures import Conventions
+from seisblock.records import Record
+from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.survey.assessment import AssessmentMethod, CemeteryRate
+from seisblock.studies.survey.overturning_rate import CurvePoint
+
+
+class RateParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    cemetery : str
+        File of the stones.
+    stones, reinforced_stones, compared_with_reinforced_stones : int
+        How many there are, with dowels, and with dowels in the comparison.
+    criterion : str
+        ``furukawa``, ``rigid`` or ``simulate``.
+    fit, fit_reinforced : GravestoneFit
+        Parameters of eq. (8) without and with a dowel.
+    inset : Inset or None
+        How far the edges are worn, for the criteria that ask.
+    stone_width_m : float
+        Of stones whose width is not in the file.
+    gravity_m_s2 : float
+    confidence : float
+        Level of the interval of a rate.
+    equivalent_frequency : str
+        Which definition, or that it was given.
+    velocity_highpass_hz, velocity_baseline : float or None, str
+        What was done before PGV was taken.
+    """
+
+    cemetery: str
+    stones: int
+    reinforced_stones: int
+    compared_with_reinforced_stones: int | None
+    criterion: str
+    fit: GravestoneFit
+    fit_reinforced: GravestoneFit
+    inset: EdgeWear | None
+    stone_width_m: float
+    gravity_m_s2: float
+    confidence: float
+    equivalent_frequency: str
+    velocity_highpass_hz: float | None
+    velocity_baseline: str
+
+
+class CurveResult(Result, frozen=True, kw_only=True):
+    """The rate against PGA, where no shaking was named."""
+
+    curve: tuple[CurvePoint, ...]
+
+
+CURVE_KEY = {"curve": Annotated[tuple[CurvePoint, ...], Meta(description="The rate against PGA at the frequencies asked for.")]}
+RATE_RESULT = entry_type("RateResult", CemeteryRate)
+RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY)
+CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve")
+
+
+def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, frequency_kind: str) -> RateParameters:
+    """Return everything that determines the answer."""
+    rules = Conventions()
+    return RateParameters(
+        cemetery=stones.source,
+        stones=stones.size,
+        reinforced_stones=int(stones.reinforced.sum()),
+        compared_with_reinforced_stones=None if dowelled is None else int(dowelled.reinforced.sum()),
+        criterion=method.criterion,
+        fit=method.fits[0],
+        fit_reinforced=method.fits[1],
+        inset=None if method.criterion == "furukawa" else method.inset,
+        stone_width_m=method.width,
+        gravity_m_s2=method.gravity,
+        confidence=method.confidence,
+        equivalent_frequency=frequency_kind,
+        velocity_highpass_hz=rules.velocity_highpass_hz,
+        velocity_baseline=rules.velocity_baseline,
+    )
+
+
+def document(
+    groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
+    curve: Sequence[CurvePoint],
+    parameters: RateParameters,
+    *,
+    citations: Sequence[str],
+    warnings: Sequence[str],
+) -> Document:
+    """Return the document of some rates, or of the curve where no shaking was named."""
+    points = tuple(curve)
+    if not groups:
+        return CURVE_ALONE.document(parameters, [(None, CurveResult(curve=points))], citations=citations, warnings=warnings, curve=points)
+    entries = ((record, to_entry(RATE_RESULT, rate)) for record, rates in groups for rate in rates)
+    return RATE.document(parameters, entries, citations=citations, warnings=warnings, curve=points)

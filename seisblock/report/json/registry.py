@@ -1,0 +1,110 @@
+"""Every kind of document, and its schema."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+
+from seisblock.core.errors import ParameterError
+from seisblock.report.json.schema import DocumentSchema
+from seisblock.report.json.units import split_unit
+
+DOCUMENTS: dict[str, tuple[str, ...]] = {
+    "measure": ("measure:MEASURE",),
+    "respond": ("respond:RESPOND",),
+    "slide": ("slide:SLIDE", "slide:STUDY"),
+    "rock": ("rock:ROCK",),
+    "jump": ("jump:JUMP",),
+    "uplift": ("uplift:UPLIFT", "uplift:HARMONIC"),
+    "stack": ("stack:STACK", "stack:STUDY"),
+    "criteria": ("criteria:CRITERIA",),
+    "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING", "spectrum:MODES"),
+    "overturn-rate": ("overturn_rate:RATE", "overturn_rate:CURVE_ALONE"),
+    "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
+    "body": ("body:BODY",),
+    "batch": ("batch:BATCH",),
+    "map": ("map:MAP",),
+    "fragility": ("fragility:FRAGILITY",),
+    "risk": ("risk:RISK",),
+    "fit": ("fit:FIT",),
+    "validate": ("validate:VALIDATE",),
+    "cite": ("library:CITE",),
+    "samples": ("library:SAMPLES",),
+}
+"""Command: module of this package and name of each kind of document it answers with. Kept as text so that a list costs no import."""
+
+JSON_SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def document_schemas(command: str) -> list[DocumentSchema]:
+    """Return the kinds of documents of a command.
+
+    Raises
+    ------
+    ParameterError
+        If it answers with none.
+    """
+    if command not in DOCUMENTS:
+        raise ParameterError("{command!r} answers with no document; those that do are {known}", command=command, known=list(DOCUMENTS))
+    pairs = (name.split(":") for name in DOCUMENTS[command])
+    return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
+
+
+def json_schema(command: str) -> dict[str, Any]:
+    """Return the JSON Schema of a command's documents.
+
+    Keys, their units and what they mean follow from the types that the documents are made of. A key that is not required is left out
+    where it says nothing.
+
+    Raises
+    ------
+    ParameterError
+        If the command answers with no document.
+    """
+    kinds = document_schemas(command)
+    references, definitions = msgspec.json.schema_components([kind.type for kind in kinds])
+    for definition in definitions.values():
+        _add_descriptions(definition)
+    root = dict(references[0]) if len(kinds) == 1 else {"anyOf": list(references)}
+    return {"$schema": JSON_SCHEMA_DIALECT, "title": kinds[0].schema, **root, "$defs": definitions}
+
+
+def _add_descriptions(definition: dict[str, Any]) -> None:
+    """Give each key of an object its description and unit; a key with a default is always written."""
+    summary, docs = _parse_docstring(definition.get("description", ""))
+    definition.pop("description", None)
+    if summary:
+        definition["description"] = summary
+    for key, shape in definition.get("properties", {}).items():
+        if "default" in shape:
+            del shape["default"]
+            definition["required"].append(key)
+        unit = split_unit(key)[1]
+        if unit:
+            shape["unit"] = unit
+        if key in docs and "description" not in shape:
+            shape["description"] = docs[key]
+    if "required" in definition:
+        definition["required"].sort(key=list(definition["properties"]).index)
+
+
+def _parse_docstring(docstring: str) -> tuple[str, dict[str, str]]:
+    """Return the first line of a numpydoc docstring, and what its Parameters say."""
+    # Python 3.13 and later strip the indentation when they compile, earlier ones do not
+    text = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", inspect.cleandoc(docstring).replace("]_", "]"))
+    summary, _, body = text.partition("\n")
+    section = re.split(r"\n\s*\w+\n\s*-{3,}\n", body.partition("Parameters\n")[2].lstrip(" -\n"))[0]
+    return summary.strip(), dict(_parameter_docs(section))
+
+
+def _parameter_docs(section: str) -> Iterator[tuple[str, str]]:
+    """Yield each name of a Parameters section with its text."""
+    for names, text in re.findall(r"^(\w[\w, ]*?)(?: : .*)?\n((?: {4,}.*\n?)*)", section.rstrip() + "\n", re.MULTILINE):
+        for name in names.split(", "):
+            if text.strip():
+                yield name, " ".join(text.split())

@@ -1,0 +1,264 @@
+"""What a document is made of: a command, and the types of its parameters and results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import msgspec
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from seisblock import __version__
+from seisblock.records import QCFlag, Record
+from seisblock.records.floor_motion import is_floor_motion
+from seisblock.records.qc_report import qc_summary
+from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
+from seisblock.references import papers
+from seisblock.report.json.versions import schema_name
+
+
+class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
+    """One answer, ready to be written.
+
+    Its type is made by a :class:`DocumentSchema`; ``schema``, the first key, names the command and the version of the keys.
+    """
+
+    if TYPE_CHECKING:
+        version: str
+        record: Any
+        parameters: Any
+        results: list[Any]
+        warnings: list[str]
+        citations: list[str]
+
+    @property
+    def command(self) -> str:
+        """The command that answers so."""
+        return str(type(self).__struct_config__.tag).split("/")[1]
+
+
+class EarthquakeEntry(Struct, frozen=True, kw_only=True):
+    """What shook, as far as the record's file says.
+
+    Parameters
+    ----------
+    origin_time : str or None
+        ISO 8601, UTC.
+    latitude_deg, longitude_deg : float or None
+        Epicentre, degrees north and east.
+    depth_km : float or None
+    magnitude : float or None
+    name : str
+        Empty where the file has none.
+    """
+
+    origin_time: str | None
+    latitude_deg: float | None
+    longitude_deg: float | None
+    depth_km: float | None
+    magnitude: float | None
+    name: str
+
+
+def _record_earthquake(record: Record) -> EarthquakeEntry | None:
+    """Return what shook, or None where the file does not say."""
+    earthquake = get_earthquake(record)
+    return None if earthquake is None else earthquake_entry(earthquake)
+
+
+def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
+    """Return what shook, as documents tell it."""
+    return EarthquakeEntry(
+        origin_time=earthquake.origin_time.isoformat() if earthquake.origin_time else None,
+        latitude_deg=earthquake.latitude_deg,
+        longitude_deg=earthquake.longitude_deg,
+        depth_km=earthquake.depth_km,
+        magnitude=earthquake.magnitude,
+        name=earthquake.name,
+    )
+
+
+class RecordEntry(Struct, frozen=True, kw_only=True):
+    """What identifies a record.
+
+    Parameters
+    ----------
+    station : str
+    station_name : str
+        Empty where the file has none.
+    latitude_deg, longitude_deg : float or None
+        Of the station, degrees north and east.
+    start : str or None
+        Time of the first sample, ISO 8601, UTC.
+    local_start : str
+        The same as the network's own clock tells it, with the name of the clock; empty where it is unknown.
+    earthquake : Earthquake or None
+    epicentral_distance_km : float or None
+        From the epicentre to the station.
+    dt_s : float
+        Sampling interval.
+    samples : int
+    sha256 : str
+        Of the file.
+    format, source : str
+        How it was read, and the file's name.
+    components : list of str
+    offset_s : float
+        Time of the first sample used, from the record's first.
+    history : list of str
+        What was done to it, in this order.
+    azimuths_deg : list of float or None
+        Of the components, clockwise from north; null where vertical or not known.
+    doubts : list of Doubt
+        What a careful reader notices before he believes it; in words also among the warnings.
+    """
+
+    station: str
+    station_name: str
+    latitude_deg: float | None
+    longitude_deg: float | None
+    start: str | None
+    local_start: str
+    earthquake: EarthquakeEntry | None
+    epicentral_distance_km: float | None
+    dt_s: float
+    samples: int
+    sha256: str
+    format: str
+    source: str
+    components: tuple[str, ...]
+    offset_s: float
+    history: tuple[str, ...]
+    azimuths_deg: tuple[float | None, ...]
+    doubts: tuple[QCFlag, ...]
+
+
+def record_entry(record: Record) -> RecordEntry:
+    """Return what identifies a record."""
+    site = get_site(record)
+    return RecordEntry(
+        station=record.station,
+        station_name=site.name,
+        latitude_deg=site.latitude_deg,
+        longitude_deg=site.longitude_deg,
+        local_start=format_local_time(record, record.start),
+        earthquake=_record_earthquake(record),
+        epicentral_distance_km=epicentral_distance_km(record),
+        start=record.start.isoformat() if record.start else None,
+        dt_s=record.dt,
+        samples=record.samples,
+        sha256=record.sha256,
+        format=record.format,
+        source=Path(record.source).name if record.source else "",
+        components=record.codes,
+        offset_s=record.offset_s,
+        history=tuple(record.history),
+        azimuths_deg=tuple(c.azimuth_deg for c in record.components),
+        doubts=record.doubts,
+    )
+
+
+class Result(Struct, frozen=True, kw_only=True):
+    """One entry of ``results``."""
+
+    record_index: Annotated[int, Meta(description="Which of the records it is of, where there are several.")] | UnsetType = UNSET
+
+
+def is_optional(kind: Any) -> bool:
+    """Whether a key of this type is missing from documents in which it says nothing."""
+    return UnsetType in getattr(kind, "__args__", ())
+
+
+RecordResult = tuple[Record | None, Result]
+"""A result, and the record it is of."""
+
+
+@dataclass(frozen=True)
+class DocumentSchema:
+    """One kind of document.
+
+    Parameters
+    ----------
+    command : str
+    parameters, result : type
+        What the user could have chosen, and one entry of ``results``.
+    extra : mapping of str to type
+        Further keys, between the results and the warnings.
+    name : str
+        Tells several kinds of one command apart.
+    """
+
+    command: str
+    parameters: type[Struct]
+    result: type[Result]
+    extra: Mapping[str, Any] = field(default_factory=dict)
+    name: str = ""
+
+    @property
+    def schema(self) -> str:
+        """What stands under the key ``schema``."""
+        return schema_name(self.command)
+
+    @cached_property
+    def type(self) -> type[Document]:
+        """The type of such documents; its fields are the keys."""
+        fields = {
+            "version": Annotated[str, Meta(description="Of seisblock.")],
+            "record": Annotated[
+                RecordEntry | list[RecordEntry] | None, Meta(description="The record used, a list of several, null without any.")
+            ],
+            "parameters": self.parameters,
+            "results": list[self.result],  # type: ignore[name-defined]
+            **self.extra,
+            "warnings": Annotated[list[str], Meta(description="What to know before believing the numbers.")],
+            "citations": Annotated[list[str], Meta(description="Keys of the papers relied on; seisblock cite prints them.")],
+        }
+        declared = [(key, kind, UNSET) if is_optional(kind) else (key, kind) for key, kind in fields.items()]
+        name = "".join(part.capitalize() for part in f"{self.command}-{self.name}".replace("-", " ").split()) + "Document"
+        document_type: Any = msgspec.defstruct(name, declared, bases=(Document,), tag=self.schema, frozen=True, kw_only=True)
+        return document_type  # type: ignore[no-any-return]
+
+    def document(
+        self,
+        parameters: Struct,
+        results: Iterable[RecordResult],
+        *,
+        records: Sequence[Record] = (),
+        citations: Sequence[str] = (),
+        warnings: Iterable[str] = (),
+        upstairs: bool = False,
+        **extra: Any,
+    ) -> Document:
+        """Return the document of some results; with several records each result says which it is of.
+
+        Parameters
+        ----------
+        parameters : Struct
+            Everything the user could have chosen.
+        results : iterable of (Record or None, Result)
+            In the order asked.
+        records : sequence of Record
+            Those that no single result is of.
+        citations, warnings : sequences of str
+            Each is said once.
+        upstairs : bool
+            Whether the motions are those of a storey, where no record here says so.
+        beside
+            The further keys.
+        """
+        pairs = list(results)
+        records = list({id(record): record for record in (*(r for r, _ in pairs), *records) if record is not None}.values())
+        index = {id(record): i for i, record in enumerate(records)} if len(records) > 1 else {}
+        entries = [record_entry(record) for record in records]
+        return self.type(
+            version=__version__,
+            record=entries[0] if len(entries) == 1 else entries or None,
+            parameters=parameters,
+            results=[msgspec.structs.replace(entry, record_index=index[id(r)]) if id(r) in index else entry for r, entry in pairs],
+            warnings=list(dict.fromkeys([*qc_summary(records), *warnings])),
+            citations=list(dict.fromkeys([*citations, *(papers("storey") if upstairs or any(map(is_floor_motion, records)) else ())])),
+            **extra,
+        )

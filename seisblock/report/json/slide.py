@@ -1,0 +1,107 @@
+"""What ``seisblock slide`` answers: one run per direction, or a study."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Annotated, Any
+
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from seisblock.core.results import Response
+from seisblock.models.slide.solve import SlideOutcome
+from seisblock.records import Record
+from seisblock.references import papers
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_entry, to_outcome_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.sliding import SlidePoint
+
+FloatTuple = tuple[float, ...]
+
+SCALE_KEY = "vertical_scale"
+"""Key of the factor on the vertical component."""
+
+
+class SlideParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    mu, mu_kinetic, kappa : float
+        Static and kinetic friction, and the kinetic over the static.
+    vertical_scale : float
+        Factor on the vertical component, 0 where it does not act.
+    slope_deg, slope_length_m : float
+        Angle of the base, and the distance to its foot; null without an end.
+    one_way : bool
+    gravity_m_s2 : float
+    """
+
+    mu: float
+    mu_kinetic: float
+    kappa: float
+    vertical_scale: float
+    slope_deg: float
+    slope_length_m: float | None
+    one_way: bool
+    gravity_m_s2: float
+
+
+class SlideStudyParameters(Struct, frozen=True, kw_only=True):
+    """What was combined; null: what the others give.
+
+    Parameters
+    ----------
+    mu, mu_kinetic, kappa : list of float
+        Static and kinetic friction, and the kinetic over the static.
+    vertical_scale : list of float
+        Factors on the vertical component, 0 where it does not act.
+    slope_deg, slope_length_m : list of float, float
+        Angles of the base, and the distance to its foot; null without an end.
+    one_way : bool
+    gravity_m_s2 : float
+    """
+
+    mu: FloatTuple
+    mu_kinetic: FloatTuple | None
+    kappa: FloatTuple | None
+    vertical_scale: FloatTuple
+    slope_deg: FloatTuple
+    slope_length_m: float | None
+    one_way: bool
+    gravity_m_s2: float
+
+
+SLIDE_RESULT = entry_type("SlideResult", SlideOutcome, leading=COMPONENT_KEY)
+SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": SCALE_KEY})
+AZIMUTHS_KEY: dict[str, Any] = {
+    "azimuths": Annotated[list[SLIDE_POINT], Meta(description="Every direction of a sweep.")] | UnsetType  # type: ignore[valid-type]
+}
+SLIDE = DocumentSchema("slide", SlideParameters, SLIDE_RESULT, AZIMUTHS_KEY)
+STUDY = DocumentSchema("slide", SlideStudyParameters, SLIDE_POINT, name="study")
+
+
+def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlidePoint] = ()) -> Document:
+    """Return the document of one run per direction, and of the sweep that found the worst."""
+    return SLIDE.document(
+        SlideParameters(**_with_scale_key(responses[0].options)),
+        (to_outcome_entry(SLIDE_RESULT, response) for response in responses),
+        citations=[key for response in responses for key in response.citations],
+        warnings=[text for response in responses for text in response.warnings],
+        azimuths=[point_entry(point) for point in sweep] or UNSET,
+    )
+
+
+def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record, SlidePoint]], warnings: Sequence[str]) -> Document:
+    """Return the document of a study, point by point."""
+    entries = ((record, point_entry(point)) for record, point in points)
+    return STUDY.document(SlideStudyParameters(**_with_scale_key(parameters)), entries, citations=papers("sliding"), warnings=warnings)
+
+
+def point_entry(point: SlidePoint) -> Result:
+    """Return one point of a study."""
+    return to_entry(SLIDE_POINT, point, vertical_scale=point.vertical)
+
+
+def _with_scale_key(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return options with the factor on the vertical component under its key."""
+    return {SCALE_KEY if key == "vertical" else key: value for key, value in options.items()}

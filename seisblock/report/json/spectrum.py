@@ -1,0 +1,264 @@
+"""What ``seisblock spectrum`` answers: blocks of all sizes, or all frictions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from msgspec import UNSET, Struct, UnsetType
+
+from seisblock.bodies.block import Restitution
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.core.typing import FloatArray
+from seisblock.records import Motion
+from seisblock.references import papers
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, ModeMap
+from seisblock.studies.rocking.spectrum import RockingSpectrum
+from seisblock.studies.sliding import SlidePoint
+
+
+class RockingParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    kind : str
+        ``rocking`` or ``overturning``.
+    gravity_m_s2 : float
+    restitution : float, two of them, or None
+        Ratio of angular velocities at an impact; null: from the angular momentum.
+    linear, vertical : bool
+        Whether the equation is linear, and whether the vertical component acts.
+    inset : Inset
+        How far the edges are worn.
+    """
+
+    kind: str
+    gravity_m_s2: float
+    restitution: Restitution
+    linear: bool
+    vertical: bool
+    inset: EdgeWear
+
+
+class SlidingParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    kind : str
+        ``sliding``.
+    gravity_m_s2 : float
+    vertical : bool
+        Whether the vertical component acts.
+    """
+
+    kind: str
+    gravity_m_s2: float
+    vertical: bool
+
+
+class RockingResult(Result, frozen=True, kw_only=True):
+    """One direction: axes, and matrices with a row per size and a column per slenderness.
+
+    Parameters
+    ----------
+    component : str
+    size_m, frequency_parameter_rad_s : list of float
+        2R, and p of the same blocks.
+    slenderness_rad, height_over_width : list of float
+        alpha, and H/B of the same blocks.
+    max_rotation_ratio : matrix of float
+        Largest lean over alpha.
+    overturned : matrix of bool
+    azimuths_deg : list of float
+        With --component all-azimuths: the directions; the leans are then those of the worst, and what falls in any has overturned.
+    overturning_rate : matrix of float
+        Share of the directions in which a block falls.
+    worst_azimuth_deg : matrix of float
+        Direction in which it falls first, or leans furthest.
+    """
+
+    component: str
+    size_m: list[float]
+    frequency_parameter_rad_s: list[float]
+    slenderness_rad: list[float]
+    height_over_width: list[float]
+    max_rotation_ratio: list[list[float]]
+    overturned: list[list[bool]]
+    azimuths_deg: list[float] | UnsetType = UNSET
+    overturning_rate: list[list[float]] | UnsetType = UNSET
+    worst_azimuth_deg: list[list[float]] | UnsetType = UNSET
+
+
+class SlidingResult(Result, frozen=True, kw_only=True):
+    """One direction.
+
+    Parameters
+    ----------
+    component : str
+    mu : list of float
+    max_slip_m, residual_slip_m : list of float
+        At each of these frictions; null where friction does not hold at rest.
+    """
+
+    component: str
+    mu: list[float]
+    max_slip_m: list[float | None]
+    residual_slip_m: list[float | None]
+
+
+class ModesParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    kind : str
+        ``modes``.
+    gravity_m_s2 : float
+    restitution : float
+        Poisson's, of an impact at one corner.
+    vertical : bool
+        Whether the vertical component acts, where the record has one.
+    inset : Inset
+        How far the edges are worn.
+    """
+
+    kind: str
+    gravity_m_s2: float
+    restitution: float
+    vertical: bool
+    inset: EdgeWear
+
+
+class InitiationEntry(Struct, frozen=True, kw_only=True):
+    """Closed-form limits of the motion that begins from rest.
+
+    Parameters
+    ----------
+    acceleration_ratio : float or None
+        Largest horizontal acceleration over the weight per unit mass, abs(a)/(g + a_y); a block rests throughout if neither mu nor b/h
+        is below it; null where the ground falls faster than gravity.
+    time_s : float
+        When.
+    friction_to_rock : list of float or None
+        Friction that the corner of each row's block needs if that comes as a jump: with less it slides while it rocks, or slides; null
+        where the block would not rock.
+    """
+
+    acceleration_ratio: float | None
+    time_s: float
+    friction_to_rock: list[float | None]
+
+
+class ModesResult(Result, frozen=True, kw_only=True):
+    """One direction: axes, and matrices with a row per block and a column per friction.
+
+    Parameters
+    ----------
+    component : str
+    mu : list of float
+        Static and kinetic.
+    size_m, b_over_h : list of float
+        2R, and half of the base that is left over the height of the centre of gravity, of each row's block.
+    mode : matrix of str
+        The worst that one could see: rest, slide, rock, slide-rock, flight, overturned.
+    max_rotation_ratio : matrix of float
+        Largest lean over alpha.
+    slip_path_m, final_displacement_m : matrix of float
+        Length slid, and where it ends, signed.
+    initiation : InitiationEntry
+    """
+
+    component: str
+    mu: list[float]
+    size_m: list[float]
+    b_over_h: list[float]
+    mode: list[list[str]]
+    max_rotation_ratio: list[list[float]]
+    slip_path_m: list[list[float]]
+    final_displacement_m: list[list[float]]
+    initiation: InitiationEntry
+
+
+MODES = DocumentSchema("spectrum", ModesParameters, ModesResult, name="modes")
+ROCKING = DocumentSchema("spectrum", RockingParameters, RockingResult, name="rocking")
+SLIDING = DocumentSchema("spectrum", SlidingParameters, SlidingResult, name="sliding")
+
+
+def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, options: Mapping[str, Any], *, gravity: float) -> Document:
+    """Return the document of rocking spectra, one per direction."""
+    entries = (
+        (
+            motion.record,
+            RockingResult(
+                component=motion.name,
+                size_m=spectrum.size_m.tolist(),
+                frequency_parameter_rad_s=spectrum.frequency_parameter_rad_s.tolist(),
+                slenderness_rad=spectrum.slenderness_rad.tolist(),
+                height_over_width=(1 / np.tan(spectrum.slenderness_rad)).tolist(),
+                max_rotation_ratio=spectrum.max_rotation_ratio.tolist(),
+                overturned=spectrum.overturned.tolist(),
+                azimuths_deg=_to_list(spectrum.azimuths_deg),
+                overturning_rate=_to_list(spectrum.overturning_rate),
+                worst_azimuth_deg=_to_list(spectrum.worst_azimuth_deg),
+            ),
+        )
+        for motion, spectrum in spectra
+    )
+    return ROCKING.document(RockingParameters(kind=kind, gravity_m_s2=gravity, **options), entries, citations=papers("rocking"))
+
+
+def _to_list(values: FloatArray | None) -> Any:
+    """Return an array as a list, nothing for none."""
+    return UNSET if values is None else values.tolist()
+
+
+def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, gravity: float, vertical: bool) -> Document:
+    """Return the document of slips against friction, one curve per direction."""
+    entries = (
+        (
+            motion.record,
+            SlidingResult(
+                component=motion.name,
+                mu=[point.mu for point in points],
+                max_slip_m=[point.max_slip_m for point in points],
+                residual_slip_m=[point.residual_slip_m for point in points],
+            ),
+        )
+        for motion, points in curves
+    )
+    parameters = SlidingParameters(kind="sliding", gravity_m_s2=gravity, vertical=vertical)
+    return SLIDING.document(parameters, entries, citations=papers("sliding"))
+
+
+def modes_document(
+    maps: Sequence[tuple[Motion, ModeMap]], *, gravity: float, restitution: float, inset: EdgeWear, vertical: bool
+) -> Document:
+    """Return the document of maps of modes, one per direction."""
+    entries = (
+        (
+            motion.record,
+            ModesResult(
+                component=motion.name,
+                mu=mode_map.mu.tolist(),
+                size_m=mode_map.size_m.tolist(),
+                b_over_h=mode_map.b_over_h.tolist(),
+                mode=[[MODES_BY_SEVERITY[index] for index in row] for row in mode_map.governing],
+                max_rotation_ratio=mode_map.max_rotation_ratio.tolist(),
+                slip_path_m=mode_map.slip_path_m.tolist(),
+                final_displacement_m=mode_map.final_displacement_m.tolist(),
+                initiation=InitiationEntry(
+                    acceleration_ratio=mode_map.loading if math.isfinite(mode_map.loading) else None,
+                    time_s=mode_map.loading_time_s,
+                    friction_to_rock=[None if math.isnan(value) else value for value in mode_map.friction_to_rock.tolist()],
+                ),
+            ),
+        )
+        for motion, mode_map in maps
+    )
+    parameters = ModesParameters(kind="modes", gravity_m_s2=gravity, restitution=restitution, vertical=vertical, inset=inset)
+    return MODES.document(parameters, entries, citations=papers("all modes"))

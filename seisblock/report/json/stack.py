@@ -1,0 +1,213 @@
+"""What ``seisblock stack`` answers: a pile under a record, or the criterion study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct, UnsetType
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.core.results import Response
+from seisblock.criteria.gravestones import GravestoneFit, furukawa_fit, overturning_level
+from seisblock.models.stack.joint_geometry import EffectiveBase, effective_base
+from seisblock.models.stack.outcome import StackOutcome
+from seisblock.models.stack.solve import SPRINGS
+from seisblock.records import Record
+from seisblock.references import papers
+from seisblock.report.json.bodies import PileContactEntry, PileEntry, pile_contact_entry, pile_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_outcome_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
+from seisblock.studies.model_comparison import ModelComparison
+from seisblock.studies.respond.pile_probability import PileProbability
+
+
+class StackParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    law : str
+        Of contact: rigid or springs.
+    points : int
+        Contact points along each side of a joint; 2: its edges.
+    mu, mu_kinetic : float
+        Friction of the joints that have none of their own, and of what slides on them.
+    restitution : float or None
+        Of the joints, a ratio of velocities; null: what angular momentum gives.
+    base : Base
+        What the contact points make of the top stone's base.
+    vertical, across : bool
+        Whether the vertical and the other horizontal component act.
+    gravity_m_s2, step_s : float
+    contact : PileContactEntry or None
+        Null where stones are rigid.
+    pile : PileEntry
+    """
+
+    law: str
+    points: int
+    mu: float
+    mu_kinetic: float
+    restitution: float | None
+    base: EffectiveBase
+    vertical: bool
+    across: bool
+    gravity_m_s2: float
+    step_s: float
+    contact: PileContactEntry | None
+    pile: PileEntry
+
+
+class StudyParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen for the criterion study.
+
+    Parameters
+    ----------
+    law : str
+        Of contact: rigid or springs.
+    points : int
+        Contact points along each side of a joint; 2: its edges.
+    gravity_m_s2 : float
+    criterion : bool
+        True.
+    grid : int
+        Every so many-th amplitude and height was taken.
+    contact : PileContactEntry or None
+        Null where stones are rigid.
+    pile : PileEntry
+    """
+
+    law: str
+    points: int
+    gravity_m_s2: float
+    criterion: bool
+    grid: int
+    contact: PileContactEntry | None
+    pile: PileEntry
+
+
+class LevelEntry(Struct, frozen=True, kw_only=True):
+    """a(f) = PGA H/B at one frequency.
+
+    Parameters
+    ----------
+    frequency_hz : float
+    level_m_s2 : float or None
+        Of the pile, eq. (7); null where nothing fell.
+    rigid_block_m_s2 : float or None
+        Of one rigid block on the outermost points.
+    published_m_s2 : float
+    """
+
+    frequency_hz: float
+    level_m_s2: float | None
+    rigid_block_m_s2: float | None
+    published_m_s2: float
+
+
+class PublishedEntry(Struct, frozen=True, kw_only=True):
+    """The paper's fit, and the number of its equation."""
+
+    equation: str
+    fit: GravestoneFit
+
+
+class ScaledEntry(Struct, frozen=True, kw_only=True):
+    """One record, scaled, and the thresholds found with it."""
+
+    record: str
+    thresholds: tuple[Threshold, ...]
+
+
+class StudyResult(Result, frozen=True, kw_only=True):
+    """The criterion study.
+
+    Parameters
+    ----------
+    thresholds : list of Threshold
+    levels : list of LevelEntry
+    fit : GravestoneFit or None
+        Least squares of eq. (8); null with too few levels.
+    published : PublishedEntry
+    scaled_records : list of ScaledEntry
+    """
+
+    thresholds: tuple[Threshold, ...]
+    levels: tuple[LevelEntry, ...]
+    fit: GravestoneFit | None
+    published: PublishedEntry
+    scaled_records: tuple[ScaledEntry, ...]
+
+
+AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="What the models of the top stone say; null where it is held.")]
+PROBABILITY_KEY = (
+    Annotated[PileProbability, Meta(description="Share of plausible versions in which stones fall; left out with --runs 0.")] | UnsetType
+)
+STACK_RESULT = entry_type(
+    "StackResult", StackOutcome, leading=COMPONENT_KEY, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY}
+)
+STACK = DocumentSchema("stack", StackParameters, STACK_RESULT)
+STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion")
+
+
+def document(
+    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, extras: Sequence[Mapping[str, Any]]
+) -> Document:
+    """Return the document of one run per direction, with what its models and its versions say; a contact of None is rigid."""
+    options: dict[str, Any] = {**responses[0].options, "base": effective_base(responses[0])}
+    if contact is None and options["law"] == SPRINGS:
+        contact = PileContact()  # where rigid stones created energy
+    options["contact"] = None if contact is None else pile_contact_entry(contact)
+    options |= {name: bool(options[name]) for name in ("vertical", "across")}
+    return STACK.document(
+        StackParameters(**options, pile=pile_entry(pile)),
+        (to_outcome_entry(STACK_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
+        citations=[key for response in responses for key in response.citations],
+        warnings=[text for response in responses for text in response.warnings],
+    )
+
+
+def study_document(
+    study: CriterionStudy,
+    rigid: Mapping[float, float],
+    record_thresholds: Mapping[str, tuple[Threshold, ...]],
+    records: Sequence[Record],
+    *,
+    reinforced: bool,
+    pile: Pile,
+    law: str,
+    contact: PileContact | None,
+    points: int,
+    gravity: float,
+    grid: int,
+) -> Document:
+    """Return the document of the criterion study, of levels of one rigid block, and of thresholds of scaled records by their names."""
+    fit, equation = furukawa_fit(reinforced)
+    result = StudyResult(
+        thresholds=study.thresholds,
+        levels=tuple(
+            LevelEntry(
+                frequency_hz=f,
+                level_m_s2=study.levels.get(f),
+                rigid_block_m_s2=rigid.get(f),
+                published_m_s2=float(overturning_level(f, fit)),
+            )
+            for f in study_frequencies(study)
+        ),
+        fit=study.fit,
+        published=PublishedEntry(equation=equation, fit=fit),
+        scaled_records=tuple(ScaledEntry(record=name, thresholds=thresholds) for name, thresholds in record_thresholds.items()),
+    )
+    parameters = StudyParameters(
+        law=law,
+        points=points,
+        gravity_m_s2=gravity,
+        criterion=True,
+        grid=grid,
+        contact=None if contact is None else pile_contact_entry(contact),
+        pile=pile_entry(pile),
+    )
+    return STUDY.document(parameters, [(None, result)], records=records, citations=papers("rigid pile" if contact is None else "pile"))

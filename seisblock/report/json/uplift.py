@@ -1,0 +1,170 @@
+"""What ``seisblock uplift`` answers: under a record, or under harmonic shaking."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from msgspec import Struct
+
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core.results import Response
+from seisblock.models.uplift.minima import UpliftMinimum
+from seisblock.models.uplift.outcome import UpliftOutcome
+from seisblock.references import papers
+from seisblock.report.json.bodies import SpringBlockEntry, spring_block_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_outcome_entry
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.studies.uplift_regions import UpliftRegion
+
+RATIO_KEYS = {"alpha": "alpha", "gamma": "gamma", "beta": "beta", "damping": "damping", "phi": "phi_deg", "rho": "rho_deg"}
+"""Keys of what may be varied under harmonic shaking."""
+
+ScalarOrTuple = float | tuple[float, ...]
+
+
+class UpliftParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    vertical : bool
+        Whether the vertical component acts.
+    gravity_m_s2 : float
+    block : SpringBlockEntry
+    """
+
+    vertical: bool
+    gravity_m_s2: float
+    block: SpringBlockEntry
+
+
+class HarmonicParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen; a list where it was varied.
+
+    Parameters
+    ----------
+    alpha, gamma, beta, damping : float
+        H/b, a/b, horizontal over vertical frequency, damping ratio of each mode.
+    phi_deg, rho_deg : float
+        Azimuth of the shaking from x towards y, and its angle from the vertical.
+    corner : int or None
+        The corner looked at; null: whichever lifts first.
+    block : SpringBlockEntry or None
+        Null where several were combined.
+    """
+
+    alpha: ScalarOrTuple
+    gamma: ScalarOrTuple
+    beta: ScalarOrTuple
+    damping: ScalarOrTuple
+    phi_deg: ScalarOrTuple
+    rho_deg: ScalarOrTuple
+    corner: int | None
+    block: SpringBlockEntry | None
+
+
+class ModeEntry(Struct, frozen=True, kw_only=True):
+    """One natural mode.
+
+    Parameters
+    ----------
+    name : str
+    frequency_hz, frequency_ratio, over_omega_v : float
+        Its frequency, over that of the first rocking mode, and over the vertical one.
+    """
+
+    name: str
+    frequency_hz: float
+    frequency_ratio: float
+    over_omega_v: float
+
+
+class CurvePointEntry(Struct, frozen=True, kw_only=True):
+    """One point of the uplift curve.
+
+    Parameters
+    ----------
+    frequency_ratio : float
+        theta/omega_1.
+    acceleration_ratio : float or None
+        Least A/g that lifts a corner; null where none does.
+    """
+
+    frequency_ratio: float
+    acceleration_ratio: float | None
+
+
+class HarmonicResult(Result, frozen=True, kw_only=True):
+    """One combination of parameters.
+
+    Parameters
+    ----------
+    alpha, gamma, beta, damping, phi_deg, rho_deg : float
+        As in the parameters.
+    natural_frequencies_hz : six floats
+    modes : list of ModeEntry
+    minimum : UpliftMinimum
+        The least A/g of all.
+    minima : list of UpliftMinimum
+    curve : list of CurvePointEntry
+    """
+
+    alpha: float
+    gamma: float
+    beta: float
+    damping: float
+    phi_deg: float
+    rho_deg: float
+    natural_frequencies_hz: tuple[float, ...]
+    modes: tuple[ModeEntry, ...]
+    minimum: UpliftMinimum
+    minima: tuple[UpliftMinimum, ...]
+    curve: tuple[CurvePointEntry, ...]
+
+
+UPLIFT_RESULT = entry_type("UpliftResult", UpliftOutcome, leading=COMPONENT_KEY)
+UPLIFT = DocumentSchema("uplift", UpliftParameters, UPLIFT_RESULT)
+HARMONIC = DocumentSchema("uplift", HarmonicParameters, HarmonicResult, name="harmonic")
+
+
+def document(responses: Sequence[Response[UpliftOutcome]], body: SpringBlock) -> Document:
+    """Return the document of one run per direction."""
+    return UPLIFT.document(
+        UpliftParameters(**{**responses[0].options, "vertical": bool(responses[0].options["vertical"])}, block=spring_block_entry(body)),
+        (to_outcome_entry(UPLIFT_RESULT, response) for response in responses),
+        citations=[key for response in responses for key in response.citations],
+        warnings=[text for response in responses for text in response.warnings],
+    )
+
+
+def harmonic_document(regions: Sequence[UpliftRegion]) -> Document:
+    """Return the document of harmonic shaking, one result per combination of parameters."""
+    ratios = {key: tuple(sorted({region.ratios[name] for region in regions})) for name, key in RATIO_KEYS.items()}
+    parameters = HarmonicParameters(
+        **{key: values if len(values) > 1 else values[0] for key, values in ratios.items()},
+        corner=regions[0].corner,
+        block=spring_block_entry(regions[0].body) if len(regions) == 1 else None,
+    )
+    return HARMONIC.document(parameters, ((None, _harmonic_result(region)) for region in regions), citations=papers("uplift"))
+
+
+def _harmonic_result(region: UpliftRegion) -> HarmonicResult:
+    """Return one combination of parameters."""
+    modes, vertical = region.modes, region.body.omega[2]
+    ratios: dict[str, Any] = {key: region.ratios[name] for name, key in RATIO_KEYS.items()}
+    return HarmonicResult(
+        **ratios,
+        natural_frequencies_hz=modes.frequencies_hz,
+        modes=tuple(
+            ModeEntry(name=name, frequency_hz=w / (2.0 * math.pi), frequency_ratio=w / modes.omega_1, over_omega_v=w / vertical)
+            for name, w in zip(modes.names, modes.omega.tolist(), strict=True)
+        ),
+        minimum=region.minimum,
+        minima=region.minima,
+        curve=tuple(
+            CurvePointEntry(frequency_ratio=r, acceleration_ratio=a)
+            for r, a in zip(region.frequency_ratio.tolist(), region.acceleration_ratio.tolist(), strict=True)
+        ),
+    )

@@ -1,0 +1,103 @@
+"""What ``seisblock validate`` answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from seisblock.report.json.schema import Document, DocumentSchema, Result
+from seisblock.validation.case import CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
+
+
+class ValidateParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    papers : list of str
+    quick : bool
+        Whether the cases that take more than a moment were left out.
+    """
+
+    papers: tuple[str, ...]
+    quick: bool
+
+
+class CaseEntry(Result, frozen=True, kw_only=True):
+    """One statement of a paper.
+
+    Parameters
+    ----------
+    key, paper, where : str
+        Identifier, paper, and equation, table or figure.
+    quantity, unit : str
+        What is compared, and the unit of the four numbers.
+    expected, computed, error, tolerance : float
+        The paper's value and this machine's, their difference, and what is allowed; null where nothing could be computed.
+    status, verdict : str
+        What is claimed (``holds``, ``differs``), and what this machine found (``fails`` too).
+    kind : str
+        What it is worth: ``computed`` by the program against what the paper states; from an input ``rebuilt`` or replaced; against what was
+        ``derived`` here; or the ``print`` checked against itself.
+    today : float or None
+        The computed value when a difference was explained; null where it should hold.
+    note : str
+    """
+
+    key: str
+    paper: str
+    where: str
+    quantity: str
+    unit: str
+    expected: float
+    computed: float | None
+    error: float | None
+    tolerance: float
+    status: str
+    verdict: str
+    kind: str
+    today: float | None
+    note: str
+
+
+COUNT_KEYS = {
+    "counts": Annotated[dict[str, int], Meta(description="How many cases of each verdict.")],
+    "counts_by_kind": Annotated[dict[str, dict[str, int]], Meta(description="The same for each kind.")],
+}
+VALIDATE = DocumentSchema("validate", ValidateParameters, CaseEntry, COUNT_KEYS)
+
+
+def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
+    """Return the document of the evidence: what fails first, then what differs."""
+    papers = tuple(dict.fromkeys(result.case.paper for result in results))
+    entries = (
+        (
+            None,
+            CaseEntry(
+                key=result.case.key,
+                paper=result.case.paper,
+                where=result.case.place,
+                quantity=result.case.quantity,
+                unit=result.case.unit,
+                expected=result.expected,
+                computed=result.computed,
+                error=result.error,
+                tolerance=result.case.tolerance,
+                status=result.case.status,
+                verdict=result.verdict,
+                kind=result.case.kind,
+                today=None if result.case.today is None else result.case.today[0],
+                note=result.case.note,
+            ),
+        )
+        for result in sort_by_verdict(results)
+    )
+    return VALIDATE.document(
+        ValidateParameters(papers=papers, quick=quick),
+        entries,
+        citations=papers,
+        counts=count_verdicts(results),
+        counts_by_kind=count_verdicts_by_kind(results),
+    )

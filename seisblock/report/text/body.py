@@ -1,0 +1,75 @@
+"""How a scanned body is told: what it is, on what it stands, and how easily it turns in each direction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from seisblock.bodies.scan.azimuths import ScanAzimuth
+from seisblock.bodies.scan.body import min_slenderness
+from seisblock.bodies.scan.scan import Scan
+from seisblock.core.i18n import N_, gettext
+from seisblock.report.io.atomic import write_table
+from seisblock.report.text.tables import acceleration_cell, format_fixed, format_number, styled_line, table
+from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit
+
+PLANE = N_(
+    "in the vertical plane of the azimuth: about the level line across it that touches the base; turning aside about a corner is left out"
+)
+"""What the numbers of a direction hold for."""
+
+
+def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Iterator[Any]:
+    """Yield what the body is in a sentence, its numbers, and a row for each azimuth."""
+    body = scan.body
+    alpha, azimuth = min_slenderness(body)
+    yield styled_line(
+        gettext(
+            "{name}: {mass:.4g} kg; alpha is least towards azimuth {azimuth:.0f}: {alpha:.2f} degrees.",
+            name=body.name,
+            mass=body.mass,
+            azimuth=azimuth,
+            alpha=math.degrees(alpha),
+        ),
+        "bold",
+    )
+    yield table("", ["", ""], [[gettext(name), *cells] for name, cells in _scan_rows(scan, gal=gal)])
+    level, arm = acceleration_unit(gal=gal), length_unit((direction.arm_m for direction in directions), gal=gal)
+    headings = (
+        gettext("azimuth (deg)"), f"b ({arm.name})", gettext("alpha (deg)"), gettext("R (m)"), gettext("I_O (kg m²)"), gettext("p (rad/s)"),
+        f"g b/h ({level.name})",
+    )  # fmt: skip
+    rows = [
+        [
+            f"{direction.azimuth_deg:g}",
+            length_cell(direction.arm_m, arm),
+            f"{math.degrees(direction.slenderness_rad):.2f}",
+            format_number(direction.radius_m),
+            format_number(direction.pivot_inertia_kg_m2),
+            f"{direction.frequency_parameter_rad_s:.3f}",
+            acceleration_cell(direction.threshold_m_s2, gal=gal),
+        ]
+        for direction in directions
+    ]
+    yield table(gettext("Towards each azimuth"), headings, rows, caption=gettext(PLANE))
+
+
+def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:
+    """Yield what is the same in all directions."""
+    body = scan.body
+    yield N_("volume (m³)"), [format_number(scan.volume)]
+    yield N_("height (m)"), [format_number(body.height)]
+    yield N_("centre of gravity x, y, z (m)"), [", ".join(format_fixed(value, 4) for value in body.centre)]
+    yield N_("inertia about it xx, yy, zz (kg m²)"), [", ".join(format_number(body.inertia[i][i]) for i in range(3))]
+    yield N_("  xy, xz, yz (kg m²)"), [", ".join(format_number(body.inertia[i][k]) for i, k in ((0, 1), (0, 2), (1, 2)))]
+    yield N_("base: corners, points that touch"), [f"{len(body.base)}, {scan.touching}"]
+    unit = length_unit([body.inset_m, scan.tolerance], gal=gal)
+    yield N_("  inset, tolerance"), [f"{format_length(body.inset_m, unit)}, {format_length(scan.tolerance, unit)}"]
+
+
+def write_csv(path: Path, directions: Sequence[ScanAzimuth]) -> None:
+    """Write the rows of the azimuths, SI units."""
+    names = list(vars(directions[0]))
+    write_table(path, names, ([getattr(direction, name) for name in names] for direction in directions))

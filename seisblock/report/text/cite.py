@@ -1,0 +1,18 @@
+"""The papers an answer relies on, as they are printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from rich.padding import Padding
+
+from seisblock.references.reference import Reference
+from seisblock.report.text.tables import styled_line
+
+
+def reference_lines(references: Sequence[Reference]) -> Iterator[Any]:
+    """Yield what is printed: the key of each reference, and the reference below it."""
+    for reference in references:
+        yield styled_line(f"[{reference.key}]", "bold")
+        yield Padding(styled_line(reference.text()), (0, 0, 0, 2))

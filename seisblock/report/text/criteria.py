@@ -1,0 +1,155 @@
+"""How the criteria card is told: one table per component, the simulated outcome on top."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.text import Text
+
+from seisblock.core.i18n import N_, gettext
+from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_criteria
+from seisblock.report.describe_wear import describe_edges
+from seisblock.report.io.history_csv import write_by_record
+from seisblock.report.text.agreement import agreement_line
+from seisblock.report.text.respond import verdict as fate
+from seisblock.report.text.rock import verdict
+from seisblock.report.text.tables import format_number, group_answers, styled_line, table
+from seisblock.report.units_display import acceleration_unit, velocity_unit
+from seisblock.studies.criteria_comparison import CriteriaComparison
+from seisblock.studies.respond.best_estimate import BestEstimate
+
+HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": N_("pulse")}
+"""The equivalent frequencies, as short as a column."""
+MAX_DECIMALS = 6
+"""Of a ratio that is all but 1, or 0."""
+
+DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": N_("pulse width")}
+
+
+def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
+    """Yield the record's line, then per component the simulated outcome, the tables, and how far the models of it are apart."""
+    for heading, part in group_answers(cards, lambda card: card.record, lambda card: _summary(card, gal=gal)):
+        yield from heading
+        for card in part:
+            yield from _tables(card, gal=gal)
+            if card.agreement is not None:
+                yield styled_line(agreement_line(card.component, card.agreement))
+            yield styled_line()
+
+
+def _summary(card: CriteriaComparison, *, gal: bool) -> Iterator[Text]:
+    """Yield what the simulation says, and what governs."""
+    yield styled_line(simulated_text(card))
+    if card.governing is not None:
+        yield styled_line(respond_text(card, card.governing, gal=gal))
+
+
+def simulated_text(card: CriteriaComparison) -> str:
+    """Return the simulated outcome in words, and how many criteria say so, each counted once."""
+    rows = unique_criteria(card.rows)
+    return gettext(
+        "{name}, simulated: {verdict}. {right} of {all} criteria agree.",
+        name=card.component,
+        verdict=verdict(card.outcome, card.component),
+        right=sum(row.overturns == card.outcome.overturned for row in rows),
+        all=len(rows),
+    )
+
+
+def respond_text(card: CriteriaComparison, best_estimate: BestEstimate, *, gal: bool) -> str:
+    """Return what the body does with all of its motions together, and how many criteria say so, each counted once."""
+    rows = unique_criteria(card.rows)
+    outcome, mu = best_estimate.response.outcome, best_estimate.response.options["mu"]
+    right = sum(row.overturns == outcome.overturned for row in rows)
+    if best_estimate.friction_known:
+        text = N_("With all motions and friction {mu:g} (respond): {verdict} {right} of {all} criteria agree.")
+    else:
+        text = N_("With all motions and feet that hold, friction {mu:.2f} (respond): {verdict} {right} of {all} criteria agree.")
+    return gettext(text, mu=mu, verdict=fate(best_estimate.response, gal=gal), right=right, all=len(rows))
+
+
+def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
+    """Yield the criteria that ask for no frequency, then those that do, with a column per equivalent frequency."""
+    m = card.measures
+    shaking, speed = acceleration_unit(gal=gal), velocity_unit(gal=gal)
+    title = gettext(
+        "{name}: {body} {width:g} x {height:g} m, PGA {pga}, PGV {pgv}",
+        name=card.component,
+        body=gettext(card.block.name),
+        width=card.block.width,
+        height=card.block.height,
+        pga=f"{m.pga_m_s2 / shaking.size:.4g} {shaking.name}",
+        pgv=f"{m.pgv_m_s / speed.size:.4g} {speed.name}",
+    ) + (f"\n{gettext(wear_text)}" if (wear_text := describe_edges(card.block, gal=gal)) else "")
+    frequency_free = [row for row in card.rows if row.frequency is None]
+    cells = []
+    for row in frequency_free:
+        size, unit = shaking if row.unit == ACCELERATION else speed
+        threshold_text = f"{format_number(row.threshold / size)} {unit}"
+        cells.append([gettext(row.criterion), _formula(row), threshold_text, format_ratio(row), _verdict(row, card)])
+    yield table(title, [gettext("criterion"), gettext("formula"), gettext("falls above"), gettext("ratio"), gettext("says")], cells)
+
+    frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
+    columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]
+    names = list(dict.fromkeys((row.criterion, _formula(row)) for row in card.rows if row.frequency is not None))
+    rows_by_key = {(row.criterion, row.frequency): row for row in card.rows}
+    body = []
+    for name, formula in names:
+        row_cells = [gettext(name), formula]
+        for key in frequencies:
+            match = rows_by_key.get((name, key))
+            row_cells.append("-" if match is None else f"{format_ratio(match)} {_verdict(match, card)}")
+        body.append(row_cells)
+    if body:
+        caption = gettext("ratio: demand over threshold. ! : not what the simulation says. Thresholds of the lower table: --csv, --json")
+        yield table("", [gettext("ratio at f ="), gettext("formula"), *columns], body, caption=caption)
+
+
+def format_ratio(row: CriterionResult) -> str:
+    """Return demand over threshold, to as many digits as tell it apart from 1, just below which a criterion says stands, and from 0.
+
+    Examples
+    --------
+    >>> demands = (0.00042, 0.0123, 0.31, 0.9996, 1.0, 1.004)
+    >>> [format_ratio(CriterionResult("West", "eq. (1)", "m/s^2", None, None, 1.0, demand, demand > 1.0)) for demand in demands]
+    ['0.0004', '0.01', '0.31', '0.9996', '1.00', '1.004']
+    """
+    value = row.demand / row.threshold
+    decimals = next((n for n in range(2, MAX_DECIMALS) if round(value, n) not in (0.0, 1.0) or value in (0.0, 1.0)), MAX_DECIMALS)
+    return f"{value:.{decimals}f}"
+
+
+def _formula(row: CriterionResult) -> str:
+    """Return where a criterion is printed, without the brackets of the citation."""
+    return row.where.replace("[", "").replace("]_", "")
+
+
+def _verdict(row: CriterionResult, card: CriteriaComparison) -> str:
+    """Return what a criterion says, marked where the simulation says otherwise."""
+    mark = " " if row.overturns == card.outcome.overturned else "!"
+    return (gettext("falls ") if row.overturns else gettext("stands")) + mark
+
+
+def write_csv(path: Path, cards: Sequence[CriteriaComparison]) -> None:
+    """Write all rows as CSV, SI; of several records the first column says which."""
+    header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
+    write_by_record(path, header, cards, lambda card: card.record, _csv_rows)
+
+
+def _csv_rows(card: CriteriaComparison) -> Iterator[list[Any]]:
+    """Yield what is written of each criterion."""
+    for row in card.rows:
+        yield [
+            card.component,
+            row.criterion,
+            row.where,
+            row.unit,
+            row.frequency or "",
+            "" if row.frequency_hz is None else row.frequency_hz,
+            row.threshold,
+            row.demand,
+            row.overturns,
+            card.outcome.overturned,
+        ]

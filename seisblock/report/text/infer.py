@@ -1,0 +1,184 @@
+"""How inferred shaking is told: a table of estimates and their contour as columns, or the factors on records."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from seisblock.core.i18n import N_, gettext
+from seisblock.records import Record
+from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
+from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit, velocity_unit
+from seisblock.studies.survey.assumptions import Assumptions
+from seisblock.studies.survey.estimate import Interval, ShakingEstimate, split_stone_label
+from seisblock.studies.survey.joint import JointEstimate
+
+if TYPE_CHECKING:
+    from seisblock.studies.survey.scale_search import ScaleFactors
+
+
+def estimate_tables(
+    name: str, estimates: Sequence[ShakingEstimate], joint: Sequence[JointEstimate], assumptions: Assumptions, *, gal: bool
+) -> Iterator[Any]:
+    """Yield what all cemeteries say together, one table per group of stones (PGA, PGV, threshold H/B, JMA intensity), and the notes."""
+    level = assumptions.level
+    for estimate in joint[:1]:
+        low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
+        yield styled_line(
+            gettext(
+                "{names} together: PGA {pga} {unit} ({low} to {high}).",
+                names=list(estimate.names),
+                pga=acceleration_cell(estimate.pga_m_s2, gal=gal),
+                unit=acceleration_unit(gal=gal).name,
+                low=low,
+                high=high,
+            )
+        )
+    if not joint:
+        yield from (styled_line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
+    speed, unit = velocity_unit(gal=gal)
+    header = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal).name})", "", f"PGV ({unit})", "", "H/B", gettext("JMA intensity"))
+    caption = gettext("median and {level:g%} interval; H/B: stones more slender than this fell", level=level)
+    for stones in dict.fromkeys(estimate.stones for estimate in estimates):
+        group = [estimate for estimate in estimates if estimate.stones == stones]
+        site, kind = split_stone_label(stones)
+        title = gettext(
+            "{cemetery}, stones {stones}: {fallen} of {all} fell",
+            cemetery=site or name,
+            stones=gettext(kind),
+            fallen=group[0].fallen,
+            all=group[0].fallen + group[0].standing,
+        )
+        rows = [
+            (
+                "0.5-3" if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g}",
+                acceleration_cell(estimate.pga_m_s2, gal=gal),
+                _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size),
+                DASH if estimate.pgv_m_s is None else format_number(estimate.pgv_m_s / speed, 3),
+                _format_interval(estimate.pgv_interval_m_s, speed),
+                DASH if estimate.threshold_ratio is None else f"{estimate.threshold_ratio:.2f}",
+                _intensity(estimate),
+            )
+            for estimate in group
+        ]
+        yield table(title, header, rows, caption=caption)
+    if assumptions.bias:
+        yield styled_line(
+            gettext(
+                "Records need {factor:.2f} times the PGA that the criterion, fitted to sines, says: measured with rigid blocks, and taken "
+                "into account here (--bias 0 leaves it out).",
+                factor=math.exp(assumptions.bias),
+            ),
+            "dim",
+        )
+
+
+def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, level: float) -> Iterator[str]:
+    """Yield the shaking that each group of stones speaks of: over all frequencies, or at the first that was asked for."""
+    first_estimates = {estimate.stones: estimate for estimate in reversed(estimates)}
+    for stones in dict.fromkeys(estimate.stones for estimate in estimates):
+        estimate = first_estimates[stones]
+        site, kind = split_stone_label(stones)
+        label = (
+            (site or name)
+            if len(first_estimates) == 1
+            else gettext("{cemetery}, stones {stones}", cemetery=site or name, stones=gettext(kind))
+        )
+        at = gettext("0.5 to 3 Hz") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g} Hz"
+        pga = (
+            acceleration_cell(estimate.pga_m_s2, gal=gal)
+            if estimate.bound is None
+            else _format_interval(estimate.pga_interval_m_s2, acceleration_unit(gal=gal).size)
+        )
+        values = {"who": label, "pga": f"{pga} {acceleration_unit(gal=gal).name}", "at": at, "intensity": _intensity(estimate)}
+        if estimate.bound is not None:
+            yield gettext("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
+            continue
+        low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
+        text = N_("{who}: PGA {pga} ({low} to {high}, {level:g%}) at {at}; JMA intensity {intensity}.")
+        yield gettext(text, low=low, high=high, level=level, **values)
+
+
+def _format_interval(interval: Interval, unit: float) -> str:
+    """Return an interval, or a bound."""
+    low, high = interval
+    if low is None:
+        return DASH if high is None else f"< {format_number(high / unit, 3)}"
+    return f"> {format_number(low / unit, 3)}" if high is None else f"{format_number(low / unit, 3)}-{format_number(high / unit, 3)}"
+
+
+def _intensity(estimate: ShakingEstimate) -> str:
+    """Return the classes of the JMA intensity's interval and its middle."""
+    low, high = estimate.jma_classes
+    if low is None or high is None:
+        return gettext("at most {name}", name=gettext(high)) if high else gettext("at least {name}", name=gettext(low or ""))
+    classes = gettext(low) if low == high else gettext("{low} to {high}", low=gettext(low), high=gettext(high))
+    return f"{classes} ({estimate.jma_intensity:.1f})"
+
+
+def estimate_csv(line: Sequence[ShakingEstimate]) -> tuple[list[str], list[list[Any]]]:
+    """Return the header and the rows of ``--csv``: the contour, SI."""
+    header = ["frequency_hz", "pga_low_m_s2", "pga_m_s2", "pga_high_m_s2", "pgv_low_m_s", "pgv_m_s", "pgv_high_m_s"]
+    rows = [
+        [e.frequency_hz, *_interval_cells(e.pga_m_s2, e.pga_interval_m_s2), *_interval_cells(e.pgv_m_s, e.pgv_interval_m_s)] for e in line
+    ]
+    return header, rows
+
+
+def _interval_cells(middle: float | None, interval: Interval) -> tuple[float | None, float | None, float | None]:
+    """Return lower end, middle and upper end."""
+    return interval[0], middle, interval[1]
+
+
+def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, displacement_kind: str) -> Iterator[Any]:
+    """Yield what each component needs in a sentence, and its factors as a table; `displacement_kind` says what was observed."""
+    for heading, part in group_answers(
+        results, lambda result: result[0], lambda result: [styled_line(_factor_sentence(result[1], displacement_kind, gal=gal))]
+    ):
+        yield from heading
+        for _, result in part:
+            unit = length_unit((f.displacement_m for f in result.scale_factors), gal=gal)
+            rows = [
+                (
+                    f"{f.scale:.4f}",
+                    acceleration_cell(f.pga_m_s2, gal=gal),
+                    length_cell(f.displacement_m, unit),
+                    gettext("leaps across") if f.leaps else "",
+                )
+                for f in result.scale_factors
+            ]
+            if rows:
+                headings = (gettext("factor"), f"PGA ({acceleration_unit(gal=gal).name})", gettext("moved ({unit})", unit=unit.name), "")
+                yield table(result.component if len(part) > 1 else "", headings, rows)
+
+
+def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool) -> str:
+    """Return what the observed displacement needs, in words; `displacement_kind` is a word for it."""
+    factor_texts = [f"{factor.scale:.3g} ({format_acceleration(factor.pga_m_s2, gal=gal)})" for factor in result.scale_factors]
+    size, as_recorded, largest = (
+        format_length(length, gal=gal) for length in (result.observed_m, result.displacement_at_1_m, result.largest_displacement_m)
+    )
+    values = {"name": result.component, "size": size, "moved": gettext(displacement_kind), "alone": as_recorded}
+    if not factor_texts:
+        text = N_(
+            "{name}: {size} of {moved}: no factor up to {limit:g} moves it so far (at most {most}, at {at:g}); as recorded it is {alone}."
+        )
+        return gettext(text, **values, limit=result.limit, most=largest, at=result.largest_at_scale)
+    if len(factor_texts) == 1:
+        text = N_("{name}: {size} of {moved} needs {factor:.3g} times this record ({pga}); as recorded it is {alone}.")
+        pga = format_acceleration(result.scale_factors[0].pga_m_s2, gal=gal)
+        return gettext(text, **values, factor=result.scale_factors[0].scale, pga=pga)
+    text = N_("{name}: {size} of {moved} needs this record times one of {factors}; as recorded it is {alone}.")
+    return gettext(text, **values, factors=factor_texts)
+
+
+def factor_csv(results: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str], list[list[Any]]]:
+    """Return the header and the rows of ``--csv``: displacement against the factor, per record and component."""
+    header = ["record", "component", "scale", "pga_m_s2", "displacement_m"]
+    rows = [
+        [record.station or record.source, result.component, scale, scale * result.pga_m_s2, value]
+        for record, result in results
+        for scale, value in zip(*result.curve, strict=True)
+    ]
+    return header, rows

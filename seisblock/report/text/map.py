@@ -1,0 +1,232 @@
+"""How an earthquake's stations are told: the worst first, and what has no answer or no place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from seisblock.core.i18n import N_, format_share, gettext
+from seisblock.report.text.record_info import describe_earthquake
+from seisblock.report.text.tables import format_fixed, format_number, styled_line, table
+from seisblock.report.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
+from seisblock.studies.map.station_response import StationBody, StationModel
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
+
+COLUMNS = {
+    "respond": ("overturned", "probability", "max_slip_m"),
+    "rock": ("overturned", "probability"),
+    "slide": ("happened", "max_slip_m"),
+    "jump": ("happened", "overturned", "max_slip_m"),
+    "uplift": ("happened", "max_uplift_m"),
+}
+"""What the table tells of a body, by the solver that follows it."""
+
+EVENT_WORDS = {
+    "respond": N_("falls"),
+    "rock": N_("falls"),
+    "slide": N_("slides"),
+    "jump": N_("jumps"),
+    "uplift": N_("lifts"),
+}
+"""What a solver is asked about, as a heading."""
+
+_VERDICTS = {
+    "respond": N_("{subject} falls at {some} of {stations}, worst at {station}"),
+    "rock": N_("{subject} falls at {some} of {stations}, worst at {station}"),
+    "slide": N_("{subject} slides at {some} of {stations}, worst at {station}"),
+    "jump": N_("{subject} jumps at {some} of {stations}, worst at {station}"),
+    "uplift": N_("{subject} lifts at {some} of {stations}, worst at {station}"),
+}
+
+MAX_ROWS = 40
+"""Stations that the table tells of; the files tell of all."""
+
+
+def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iterator[Any]:
+    """Yield what is printed: the verdict over all stations, the earthquake, the table of the worst, and what is missing.
+
+    Parameters
+    ----------
+    stations : Stations
+    model : StandingBody, StandingStones or None
+    gal : bool
+        Whether accelerations are shown in gal.
+    """
+    answers = [answer for answer in stations.answers if answer.pga_m_s2 is not None]
+    yield styled_line(verdict(stations, model), "bold")
+    if stations.earthquake is not None:
+        yield styled_line(describe_earthquake(stations.earthquake, stations.origin_told))
+    listed_answers = answers[:MAX_ROWS]
+    if listed_answers:
+        header, rows = station_rows(listed_answers, model, gal=gal)
+        omitted = _omitted_text(len(answers) - MAX_ROWS)
+        caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
+        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # names need the room
+    missing = [answer for answer in stations.answers if answer.failure]
+    if missing:
+        yield styled_line(gettext("without an answer: {count}", count=len(missing)), "yellow")
+    unmapped = [answer for answer in answers if not answer.is_mapped]
+    if unmapped:
+        yield styled_line(
+            gettext("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow"
+        )
+
+
+def column_note(answers: Sequence[StationReport], model: StationModel | None) -> str:
+    """Return of what the verdict and the share beside it are told, empty where there is no share.
+
+    Parameters
+    ----------
+    answers : sequence of StationAnswer
+    model : StandingBody, StandingStones or None
+    """
+    if not isinstance(model, StationBody) or all(answer.effect.probability is None for answer in answers):
+        return ""
+    return gettext("falls: as given, in the worst direction; share: of {runs} plausible versions there", runs=model.runs)
+
+
+def survey_tables(surveys: Sequence[SurveyComparison]) -> Iterator[Any]:
+    """Yield what surveyed cemeteries say beside the stations around them, and the pairs that contradict each other.
+
+    Parameters
+    ----------
+    surveys : sequence of SurveyAnswer
+    """
+    header, rows = survey_rows(surveys)
+    caption = gettext("stations: the nearest three, weighted by the inverse of the distance; residual: by the stones less that")
+    yield table(gettext("Surveyed cemeteries"), header, rows, caption=caption)
+    for pair in contradictions(surveys):
+        yield styled_line(gettext(pair), "yellow")
+
+
+def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[list[str]]]:
+    """Return the headings of a table of surveyed cemeteries, and a row for each.
+
+    Parameters
+    ----------
+    surveys : sequence of SurveyAnswer
+    """
+    header = [
+        gettext("surveyed place"),
+        gettext("fell"),
+        gettext("JMA by stones"),
+        gettext("by stations"),
+        gettext("residual"),
+        gettext("nearest"),
+    ]
+    rows = []
+    for answer in surveys:
+        low, high = answer.estimate.jma_intensity_interval
+        intensities = [
+            format_number(None) if value is None else format_fixed(value, 1) for value in (answer.estimate.jma_intensity, low, high)
+        ]
+        nearest = answer.neighbours[0] if answer.neighbours else None
+        rows.append([
+            answer.surveyed.place,
+            f"{answer.surveyed.fallen}/{answer.surveyed.stones}",
+            f"{intensities[0]} ({intensities[1]} – {intensities[2]})",
+            format_number(None) if answer.expected_intensity is None else format_fixed(answer.expected_intensity, 1),
+            format_number(None) if answer.residual is None else f"{round(answer.residual, 1) + 0.0:+.1f}",  # no -0.0
+            "" if nearest is None else gettext("{station}, {distance:.1f} km", station=nearest.station, distance=nearest.distance_km),
+        ])  # fmt: skip
+    return header, rows
+
+
+def station_rows(answers: Sequence[StationReport], model: StationModel | None, *, gal: bool) -> tuple[list[str], list[list[str]]]:
+    """Return the headings of a table of stations, and a row for each.
+
+    Parameters
+    ----------
+    answers : sequence of StationAnswer
+    model : StandingBody, StandingStones or None
+    gal : bool
+        Whether accelerations are shown in gal.
+    """
+    a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
+    way = length_unit((answer.effect.max_slip_m or answer.effect.max_uplift_m or 0.0 for answer in answers), gal=gal)
+    header = [gettext("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", gettext("JMA"), *_effect_header(model, way)]
+    return header, [[*_measure_cells(answer, a, v), *_effect_cells(answer, model, way)] for answer in answers]
+
+
+def verdict(survey_map: Stations, model: StationModel | None) -> str:
+    """Return what happened over all stations, in a sentence.
+
+    Parameters
+    ----------
+    survey_map : Stations
+    model : StandingBody, StandingStones or None
+    """
+    answers = [answer for answer in survey_map.answers if answer.pga_m_s2 is not None]
+    count = len(answers)
+    if not answers:
+        return gettext("no station has an answer")
+    worst = answers[0]
+    station_text = gettext("1 station") if count == 1 else gettext("{count} stations", count=count)
+    if model is None:
+        return gettext("{stations}, the largest shaking at {station}", stations=station_text, station=worst.label)
+    if isinstance(model, StationBody):
+        event_count = sum(bool(answer.effect.happened) for answer in answers)
+        return gettext(_VERDICTS[model.solver], subject=gettext(model.name), some=event_count, stations=station_text, station=worst.label)
+    rates = [answer.effect.rate or 0.0 for answer in answers]
+    return gettext(
+        "{subject}: stones fall at {falls} of {stations}, most at {station}, {rate}",
+        subject=gettext(model.name),
+        falls=sum(rate > 0.0 for rate in rates),
+        stations=station_text,
+        station=worst.label,
+        rate=format_share(max(rates)),
+    )
+
+
+def _omitted_text(count: int) -> str:
+    """Return how many stations the table leaves out, empty where it has all."""
+    if count <= 0:
+        return ""
+    return gettext("and 1 more station, in the files") if count == 1 else gettext("and {count} more stations, in the files", count=count)
+
+
+def _measure_cells(answer: StationReport, a: Unit, v: Unit) -> list[str]:
+    """Return the cells of what was measured."""
+    intensity = answer.jma_intensity
+    return [
+        answer.label,
+        format_number(answer.epicentral_distance_km, 3),
+        format_number(None if answer.pga_m_s2 is None else answer.pga_m_s2 / a.size),
+        format_number(None if answer.pgv_m_s is None else answer.pgv_m_s / v.size, 3),
+        format_number(None) if intensity is None else format_fixed(intensity, 1),
+    ]
+
+
+def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
+    """Return the headings of what it did."""
+    if model is None:
+        return []
+    if not isinstance(model, StationBody):
+        return [gettext("rate"), gettext("worst to")]
+    header = {
+        "happened": gettext(EVENT_WORDS[model.solver]),
+        "overturned": gettext("falls"),
+        "probability": gettext("share"),
+        "max_slip_m": gettext("moves ({unit})", unit=way.name),
+        "max_uplift_m": gettext("rises ({unit})", unit=way.name),
+    }
+    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst to")]
+
+
+def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:
+    """Return the cells of what it did."""
+    if model is None:
+        return []
+    effect = answer.effect
+    towards = format_number(None) if effect.azimuth_deg is None else f"{effect.azimuth_deg:g}°"
+    if not isinstance(model, StationBody):
+        return [format_number(None) if effect.rate is None else format_share(effect.rate), towards]
+    return [*(_cell(name, getattr(effect, name), way) for name in COLUMNS[model.solver]), towards]
+
+
+def _cell(name: str, value: Any, way: Unit) -> str:
+    """Return one number, or one verdict, of what it did."""
+    if value is None or isinstance(value, bool):
+        return format_number(value)
+    return format_share(value) if name == "probability" else length_cell(value, way)

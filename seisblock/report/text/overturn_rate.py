@@ -1,0 +1,210 @@
+"""How an overturning rate is told: a table per record, a sentence on dowels, and the curve as columns of frequencies; and as CSV."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.core.i18n import N_, format_percent, gettext
+from seisblock.records import Record
+from seisblock.report.io.history_csv import concat_tables
+from seisblock.report.text.agreement import rates_line
+from seisblock.report.text.measure import filter_range_text
+from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
+from seisblock.report.units_display import acceleration_unit
+from seisblock.studies.survey.assessment import CemeteryRate
+from seisblock.studies.survey.overturning_rate import CurvePoint
+
+CAPTION = N_(
+    "least H/B: of a stone that falls; %: what so few stones leave open of the rate (Clopper-Pearson), not what shaking and criterion do"
+)
+
+MAX_VERDICTS = 4
+"""Shakings each of which has a sentence of its own."""
+
+REFERENCE_HZ = 1.0
+"""Frequency of the shaking that a curve is told at, about that of strong motion."""
+
+RATE_COLUMNS = (
+    "component",
+    "of",
+    "pga_m_s2",
+    "equivalent_frequency_hz",
+    "threshold_ratio",
+    "least_overturned_ratio",
+    "fallen",
+    "stones",
+    "rate",
+)
+"""What ``--csv`` says of one shaking, before the limits of the interval."""
+
+PGA_STEP = 1.0
+"""Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
+
+
+def tables(
+    cemetery: Cemetery,
+    groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
+    curve: Sequence[CurvePoint],
+    *,
+    gal: bool,
+    confidence: float,
+) -> Iterator[Any]:
+    """Yield what is printed: the results of each record or of bare numbers, else the curve.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    groups : sequence of (Record or None, results)
+    curve : sequence of CurvePoint
+        Shown where there are no results.
+    gal : bool
+    confidence : float
+        Level of the intervals.
+    """
+    dowelled = int(cemetery.reinforced.sum())
+    title = gettext("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    title += gettext(", {stones} reinforced", stones=dowelled) if dowelled else ""
+    for heading, ((_, results),) in group_answers(
+        groups, lambda group: group[0], lambda group: map(styled_line, verdicts(cemetery.name, group[1], gal=gal))
+    ):
+        yield from heading
+        yield _rate_table(title, results, gal=gal, confidence=confidence)
+        yield from (
+            styled_line(sentence) for sentence in (*_filter_lines(results, gal=gal), *_model_lines(results), *_dowel_lines(results))
+        )
+    if not groups:
+        yield styled_line(median_pga_text(cemetery.name, curve, gal=gal))
+        yield _curve_table(title, curve, gal=gal)
+
+
+def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
+    """Yield how many stones fall, a sentence per shaking, or one for many."""
+    main_results = [result for result in results if not result.of]
+    if len(main_results) > MAX_VERDICTS:
+        low, high = (f(result.fallen for result in main_results) for f in (min, max))
+        text = N_("{cemetery}: {low} to {high} of {stones} stones fall, by the shaking.")
+        yield gettext(text, cemetery=cemetery, low=low, high=high, stones=main_results[0].stones)
+        return
+    for result in main_results:
+        shaking = f"{format_acceleration(result.pga_m_s2, gal=gal)}, {format_number(result.equivalent_frequency_hz, 3)} Hz"
+        text = N_("{name}: {fallen} of {stones} stones fall ({share:.0%}).")
+        yield gettext(text, name=result.component or shaking, fallen=result.fallen, stones=result.stones, share=result.rate)
+
+
+def median_pga_text(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
+    """Return at which PGA half of the stones fall, at the frequency nearest to 1 Hz."""
+    frequency = min((point.frequency_hz for point in curve), key=lambda f: abs(math.log(f / REFERENCE_HZ)))
+    points = sorted((point for point in curve if point.frequency_hz == frequency), key=lambda point: point.pga_m_s2)
+    median_pga = next((point.pga_m_s2 for point in points if point.rate >= 0.5), None)
+    pga = format_acceleration(points[-1].pga_m_s2 if median_pga is None else median_pga, gal=gal)
+    values = {"cemetery": cemetery, "pga": pga, "f": frequency}
+    if median_pga is None:
+        return gettext("{cemetery}: less than half of the stones fall up to {pga} of {f:g} Hz.", **values)
+    return gettext("{cemetery}: half of the stones fall at {pga} of {f:g} Hz.", **values)
+
+
+def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
+    """Return the table of rates, one row per shaking."""
+    unit = acceleration_unit(gal=gal).name
+    header = ("", f"PGA ({unit})", "f (Hz)", gettext("least H/B"), gettext("fallen"), gettext("rate"), format_percent(confidence, "g"))
+    rows = [
+        (
+            _row_label(result),
+            acceleration_cell(result.pga_m_s2, gal=gal),
+            format_number(result.equivalent_frequency_hz, 3),
+            _format_ratio(result),
+            gettext("{fallen} of {stones}", fallen=result.fallen, stones=result.stones),
+            f"{result.rate:.2f}",
+            "{:.2f}-{:.2f}".format(*result.rate_interval),
+        )
+        for result in results
+    ]
+    return table(title, header, rows, caption=gettext(CAPTION))
+
+
+def _row_label(result: CemeteryRate) -> str:
+    """Return what a row is called."""
+    return f"{gettext(result.component or '')} ({result.of})" if result.of else result.component or ""
+
+
+def _format_ratio(result: CemeteryRate) -> str:
+    """Return the least H/B that falls: that of the criterion, else that of the stoutest stone that fell."""
+    value = result.least_overturned_ratio if result.threshold_ratio is None else result.threshold_ratio
+    return DASH if value is None else f"{value:.2f}"
+
+
+def _filter_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
+    """Yield how far frequency and rate move with the usual filters, a sentence per component."""
+    for result in results:
+        if result.usual_highpass is not None and result.rate_range is not None and not result.of:
+            low, high = result.rate_range
+            rate = gettext("rate {low:.2f}", low=low) if low == high else gettext("rate {low:.2f} to {high:.2f}", low=low, high=high)
+            yield gettext(
+                "{name}: {what}; {rate}", name=result.component, what=filter_range_text(result.usual_highpass, gal=gal), rate=rate
+            )
+
+
+def _model_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
+    """Yield how far the models of the stones are apart, a sentence per shaking."""
+    for result in results:
+        if not result.of and (text := rates_line(result.component or "", result.models)):
+            yield text
+
+
+def _dowel_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
+    """Yield what dowels would save, a sentence per shaking."""
+    for result in results:
+        dowelled = result.reinforced
+        if dowelled is None or result.of:
+            continue
+        label = result.component or f"{format_number(result.equivalent_frequency_hz, 3)} Hz"
+        low, high = dowelled.rate_interval
+        yield gettext(
+            "{where}: with {reinforced} stones reinforced {fallen} of {stones} fall, {saved} fewer; rate {rate:.2f} ({low:.2f}-{high:.2f})",
+            where=label,
+            reinforced=dowelled.reinforced_stones,
+            fallen=dowelled.fallen,
+            stones=result.stones,
+            saved=dowelled.stones_saved,
+            rate=dowelled.rate,
+            low=low,
+            high=high,
+        )
+
+
+def _curve_table(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
+    """Return the rate against PGA, a column per frequency."""
+    frequencies = list(dict.fromkeys(point.frequency_hz for point in curve))
+    rate = {(point.pga_m_s2, point.frequency_hz): point.rate for point in curve}
+    levels = [pga for pga in dict.fromkeys(point.pga_m_s2 for point in curve) if abs(pga / PGA_STEP - round(pga / PGA_STEP)) < 1e-9]
+    rows = [(acceleration_cell(pga, gal=gal), *(f"{rate[pga, f]:.2f}" for f in frequencies)) for pga in levels]
+    return table(
+        title, (f"PGA ({acceleration_unit(gal=gal).name})", *(f"{f:g} Hz" for f in frequencies)), rows, caption=gettext("overturning rate")
+    )
+
+
+def curve_csv(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | None) -> tuple[list[str], list[list[float]]]:
+    """Return the header and the rows of ``--csv`` without shaking: PGA (m/s^2), frequency (Hz), rates without and with more dowels."""
+    header = ["pga_m_s2", "frequency_hz", "rate"] + (["rate_reinforced"] if reinforced else [])
+    rows = [[p.pga_m_s2, p.frequency_hz, p.rate] for p in curve]
+    if reinforced:
+        rows = [[*row, point.rate] for row, point in zip(rows, reinforced, strict=True)]
+    return header, rows
+
+
+def rate_csv(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> tuple[list[str], Iterator[list[Any]]]:
+    """Return the header and the rows of ``--csv`` where shakings were named: one each, SI, with what more dowels change."""
+    header = [*RATE_COLUMNS, "rate_low", "rate_high"]
+    has_reinforced = any(result.reinforced is not None for _, results in groups for result in results)
+    header += [f"{name}_reinforced" for name in ("fallen", "rate", "rate_low", "rate_high")] if has_reinforced else []
+    return concat_tables(header, [map(_csv_row, results) for _, results in groups])
+
+
+def _csv_row(result: CemeteryRate) -> list[Any]:
+    """Return the row of one shaking."""
+    dowelled = result.reinforced
+    row = [getattr(result, name) for name in RATE_COLUMNS] + [*result.rate_interval]
+    return row if dowelled is None else [*row, dowelled.fallen, dowelled.rate, *dowelled.rate_interval]

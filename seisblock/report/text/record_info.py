@@ -1,0 +1,76 @@
+"""Where a record was made, and of what earthquake, in a line each."""
+
+from __future__ import annotations
+
+from seisblock.core.i18n import gettext, join_list
+from seisblock.records import Record
+from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
+
+
+def record_info(record: Record) -> list[str]:
+    """Return what is known of station and earthquake, a line each: where it stands; magnitude, name, depth, epicentre, distance, time."""
+    return [text for text in (_station(record), _earthquake(record)) if text]
+
+
+def format_position(latitude_deg: float, longitude_deg: float) -> str:
+    """Return a place in degrees, with the letters of its hemispheres.
+
+    Examples
+    --------
+    >>> format_position(35.68, 139.77), format_position(-42.52, 172.83), format_position(37.7, -122.4)
+    ('35.68 N 139.77 E', '42.52 S 172.83 E', '37.7 N 122.4 W')
+    """
+    north, east = abs(latitude_deg), abs(longitude_deg)
+    if latitude_deg >= 0.0:
+        return gettext("{north:g} N {east:g} E", north=north, east=east) if longitude_deg >= 0.0 else gettext(
+            "{north:g} N {west:g} W", north=north, west=east)  # fmt: skip
+    return gettext("{south:g} S {east:g} E", south=north, east=east) if longitude_deg >= 0.0 else gettext(
+        "{south:g} S {west:g} W", south=north, west=east)  # fmt: skip
+
+
+def _station(record: Record) -> str:
+    """Return where the station is; empty where the file does not say."""
+    site = get_site(record)
+    if site.latitude_deg is None or site.longitude_deg is None:
+        return ""
+    return gettext("station at {place}", place=format_position(site.latitude_deg, site.longitude_deg))
+
+
+def _earthquake(record: Record) -> str:
+    """Return what shook, as far as it is known."""
+    earthquake = get_earthquake(record)
+    return (
+        ""
+        if earthquake is None
+        else describe_earthquake(earthquake, format_local_time(record, earthquake.origin_time), epicentral_distance_km(record))
+    )
+
+
+def describe_earthquake(earthquake: Earthquake, origin: str, distance_km: float | None = None) -> str:
+    """Return an earthquake in a line.
+
+    Parameters
+    ----------
+    earthquake : Earthquake
+    origin : str
+        Its time as a clock tells it, empty where it is unknown.
+    distance_km : float or None
+        From its epicentre to a station.
+
+    Examples
+    --------
+    >>> describe_earthquake(Earthquake(None, 36.25, -120.28, 9.0, 6.5), "", 36.0)
+    'earthquake of magnitude 6.5, 9 km deep, 36.25 N 120.28 W, 36 km away'
+    """
+    parts = []
+    if earthquake.magnitude is not None:
+        parts.append(gettext("earthquake of magnitude {magnitude:g}", magnitude=earthquake.magnitude))
+    parts += [earthquake.name] if earthquake.name else []
+    if earthquake.depth_km is not None:
+        parts.append(gettext("{depth:g} km deep", depth=earthquake.depth_km))
+    if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
+        parts.append(format_position(earthquake.latitude_deg, earthquake.longitude_deg))
+    if distance_km is not None:
+        parts.append(gettext("{distance:.3g} km away", distance=distance_km))
+    parts += [origin] if origin else []
+    return join_list(parts)

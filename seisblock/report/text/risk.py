@@ -1,0 +1,128 @@
+"""How the risk at a site is told: how often, how probably in some years, and which shaking and which branch it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from seisblock.core.i18n import N_, format_share, gettext, join_list
+from seisblock.report.text.fragility import limit_label
+from seisblock.report.text.tables import DASH, format_number, styled_line, table
+from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
+from seisblock.studies.fragility.io import FragilityCurve
+from seisblock.studies.hazard.curve import Hazard
+from seisblock.studies.hazard.risk import Risk, RiskShare
+
+Risks = Sequence[tuple[FragilityCurve, Risk]]
+
+MIN_SHARE = 0.005
+"""Shares below are left out of the table, %% that would read 0."""
+
+
+def tables(risks: Risks, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
+    """Yield what is printed: how often, the table of all, the levels it comes from, and what its standing says.
+
+    Parameters
+    ----------
+    risks : sequence of (GivenFragility, Risk)
+    hazard : Hazard
+    gal : bool
+        Whether intensities are told in gal, kine and cm, else in SI.
+    """
+    for fragility, risk in risks:
+        yield styled_line(verdict(fragility, risk, gal=gal), "bold")
+    yield _rate_table(risks, hazard, gal=gal)
+    for fragility, risk in risks:
+        name = risk_label(fragility, gal=gal)
+        yield _disaggregation_table(name if len(risks) > 1 else "", risk, hazard, gal=gal)
+        if len(hazard.branches) > 1 or risk.stood_years is not None:
+            yield _branch_table(name if len(risks) > 1 else "", risk)
+
+
+def risk_label(fragility: FragilityCurve, *, gal: bool = True) -> str:
+    """Return what happens, and to what; empty where nobody said."""
+    return join_list(part for part in (gettext(fragility.body), limit_label(fragility.limit, gal=gal) if fragility.limit else "") if part)
+
+
+def verdict(fragility: FragilityCurve, risk: Risk, *, gal: bool = True) -> str:
+    """Return how often it happens, in a sentence."""
+    name = risk_label(fragility, gal=gal)
+    prefix = f"{name}: " if name else ""
+    probability, years = format_share(risk.probability.value), risk.probability.years
+    if risk.return_period_years is None:
+        return prefix + gettext("it never happens as far as the hazard tells.")
+    text = N_("once in {period} years on average; {chance} in {years:g} years.")
+    return prefix + gettext(text, period=format_number(risk.return_period_years, 3), chance=probability, years=years)
+
+
+def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
+    """Return the table of all."""
+    measure = intensity_measure(hazard.im)
+    size, _ = measure.display_unit(gal=gal)
+    header = [
+        gettext("what"),
+        _measure_heading(measure, gettext("median"), gal=gal),
+        "beta",
+        gettext("rate (1/year)"),
+        gettext("once in (years)"),
+    ]
+    rows = [
+        [
+            risk_label(fragility, gal=gal) or DASH,
+            format_number(fragility.curve.median / size, 3),
+            f"{fragility.curve.beta:.2f}",
+            f"{risk.annual_rate:.3g}",
+            DASH if risk.return_period_years is None else format_number(risk.return_period_years, 3),
+        ]
+        for fragility, risk in risks
+    ]
+    return table("", header, rows)
+
+
+def _measure_heading(measure: IntensityMeasure, name: str, *, gal: bool) -> str:
+    """Return a heading with the measure and its unit."""
+    unit = measure.display_unit(gal=gal)[1]
+    return f"{name} {measure.label} ({unit})" if unit else f"{name} {measure.label}"
+
+
+def _disaggregation_table(name: str, risk: Risk, hazard: Hazard, *, gal: bool) -> Any:
+    """Return which shaking it comes from."""
+    measure = intensity_measure(hazard.im)
+    size, unit = measure.display_unit(gal=gal)
+    label = f"{measure.label} ({unit})" if unit else measure.label
+    shares = [item for item in risk.disaggregation if item.share >= MIN_SHARE]
+    rows = [[interval_text(item, size), f"{item.annual_rate:.3g}", f"{100.0 * item.share:.0f}"] for item in shares]
+    return table(name, [label, gettext("rate (1/year)"), "%"], rows, caption=gettext("which shaking it comes from"))
+
+
+def interval_text(share: RiskShare, size: float) -> str:
+    """Return two levels in the unit shown."""
+    low, high = (None if end is None else format_number(end / size, 3) for end in (share.im_from, share.im_to))
+    if low is None:
+        return gettext("below {level}", level=high)
+    return gettext("from {level}", level=low) if high is None else f"{low} - {high}"
+
+
+def _branch_table(name: str, risk: Risk) -> Any:
+    """Return what each branch says, and how likely it made what stood."""
+    header = [gettext("branch"), gettext("weight"), gettext("rate (1/year)")]
+    rows = [[branch.branch or DASH, f"{branch.weight:.3g}", f"{branch.annual_rate:.3g}"] for branch in risk.branches]
+    caption = ""
+    if risk.stood_years is not None:
+        header += [gettext("P(stands)"), gettext("weight after")]
+        for row, branch in zip(rows, risk.branches, strict=True):
+            row += [f"{branch.standing:.3g}", f"{branch.weight_after:.3g}"]
+        text = N_("P(stands): that it did not happen in {years:g} years; with the weights after, {rate:.3g} a year")
+        caption = gettext(text, years=risk.stood_years, rate=risk.annual_rate_after)
+    return table(name, header, rows, caption=caption)
+
+
+def csv_columns(risks: Risks, hazard: Hazard) -> tuple[list[str], list[Sequence[Any]]]:
+    """Return the header and the rows of ``--csv``: what each stretch of intensities contributes."""
+    header = ["body", "limit", "im", "unit", "im_from", "im_to", "annual_rate", "share"]
+    rows: list[Sequence[Any]] = [
+        [fragility.body, fragility.limit, hazard.im, hazard.unit, share.im_from, share.im_to, share.annual_rate, share.share]
+        for fragility, risk in risks
+        for share in risk.disaggregation
+    ]
+    return header, rows

@@ -1,0 +1,234 @@
+"""How rocking is told: a table with one column per component, and a sentence each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from seisblock.core.i18n import N_, format_share, gettext, join_sentences
+from seisblock.core.results import Response
+from seisblock.models.rock.outcome import RockOutcome, friction_suffices
+from seisblock.report.describe_wear import describe_edges
+from seisblock.report.directions import direction_label
+from seisblock.report.text.agreement import agreement_line, perturbation_lines
+from seisblock.report.text.respond import direction_sentence, fall_azimuth
+from seisblock.report.text.tables import (
+    acceleration_cell,
+    format_acceleration,
+    format_number,
+    format_seconds,
+    group_answers,
+    side_by_side,
+    styled_line,
+    table,
+)
+from seisblock.report.text.threshold import ROCKS, threshold_text
+from seisblock.report.units_display import acceleration_unit
+from seisblock.studies.rocking.azimuths import RockAzimuth
+from seisblock.studies.rocking.margin import Margin
+
+RockResponses = Sequence[Response[RockOutcome]]
+
+
+def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal: bool, mu: float | None = None) -> Iterator[Any]:
+    """Yield, per record, its line, what becomes of the block in words, a table with a column per component, and how sure that is.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+    extras : sequence of mapping
+        What was found beside each: ``agreement``, ``margin``, ``perturbation``.
+    gal : bool
+    mu : float or None
+        The friction there is, where it was said.
+    """
+    pairs = zip(responses, extras, strict=True)
+    for heading, part in group_answers(
+        pairs, lambda pair: pair[0].motion.record, lambda pair: [styled_line(first_line(pair[0], mu, gal=gal))]
+    ):
+        yield from heading
+        yield _outcome_table([r for r, _ in part], gal=gal)
+        for response, extra in part:
+            for sentence in sentences(response, extra):
+                yield styled_line(sentence)
+        yield styled_line()
+        for _, extra in part:
+            if "directions" in extra:
+                yield _direction_table(extra["directions"])
+
+
+def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
+    """Return the table of the outcomes."""
+    outcomes = [response.outcome for response in responses]
+    first, body = outcomes[0], responses[0].body
+    varies = any(response.body != body for response in responses)
+    title = gettext(body.name)
+    if not varies:
+        title = gettext(
+            "{body}: alpha {alpha:.4f} rad, p {p:.3f} rad/s\nrestitution {restitution:.4f}, rocks above {threshold}",
+            body=gettext(body.name),
+            alpha=first.slenderness_rad,
+            p=first.frequency_parameter_rad_s,
+            restitution=first.restitution,
+            threshold=format_acceleration(first.threshold_m_s2, gal=gal),
+        ) + (f"\n{gettext(wear_text)}" if (wear_text := describe_edges(body, gal=gal)) else "")
+    rows: list[tuple[str, list[Any]]] = _block_rows(outcomes, gal=gal) if varies else []
+    rows += [
+        (
+            f"PGA ({acceleration_unit(gal=gal).name})",
+            [acceleration_cell(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses],
+        ),
+        (gettext("rocking starts (s)"), [format_seconds(o.rocking_start_s) for o in outcomes]),
+        (gettext("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
+        (gettext("  over alpha"), [format_number(o.max_rotation_ratio) for o in outcomes]),
+        (gettext("  at (s)"), [format_seconds(o.max_rotation_s) for o in outcomes]),
+        (gettext("impacts"), [o.impacts for o in outcomes]),
+        (gettext("overturned"), [_overturned_cell(response) for response in responses]),
+        (gettext("  alpha passed (s)"), [format_seconds(o.alpha_passed_s) for o in outcomes]),
+        (gettext("  lies down (s)"), [format_seconds(o.overturning_time_s) for o in outcomes]),
+        (gettext("friction needed"), [format_number(o.max_friction_demand) for o in outcomes]),
+        (gettext("  at (s)"), [format_seconds(o.max_friction_demand_s) for o in outcomes]),
+        (gettext("contact lost (s)"), [format_seconds(o.contact_lost_s) for o in outcomes]),
+    ]
+    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+
+
+def _block_rows(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:
+    """Return the rows of a body that is another block in each direction."""
+    unit = acceleration_unit(gal=gal).name
+    return [
+        (gettext("alpha (rad)"), [f"{o.slenderness_rad:.4f}" for o in outcomes]),
+        (gettext("p (rad/s)"), [f"{o.frequency_parameter_rad_s:.3f}" for o in outcomes]),
+        (gettext("restitution"), [f"{o.restitution:.4f}" for o in outcomes]),
+        (gettext("rocks above ({unit})", unit=unit), [acceleration_cell(o.threshold_m_s2, gal=gal) for o in outcomes]),
+    ]
+
+
+def _direction_table(results: Sequence[RockAzimuth]) -> Any:
+    """Return the table of all directions, in their order; the slenderness where it is not the same in all."""
+    slenderness_varies = len({result.slenderness_rad for result in results}) > 1
+    rows = [
+        [
+            f"{result.azimuth_deg:g}",
+            *([f"{math.degrees(result.slenderness_rad):.2f}"] if slenderness_varies else []),
+            format_number(result.max_rotation_ratio),
+            *_fall_cells(result),
+        ]
+        for result in sorted(results, key=lambda result: result.azimuth_deg)
+    ]
+    headings = (
+        N_("azimuth (deg)"),
+        *((N_("alpha (deg)"),) if slenderness_varies else ()),
+        N_("lean over alpha"),
+        N_("falls to (deg)"),
+        N_("lies down (s)"),
+    )
+    return table(gettext("All azimuths"), [gettext(heading) for heading in headings], rows)
+
+
+def _fall_cells(result: RockAzimuth) -> tuple[str, str]:
+    """Return where to it falls in one direction, and when."""
+    return fall_azimuth(result.azimuth_deg, result.overturned_towards), format_seconds(result.overturning_time_s)
+
+
+def _onset_text(response: Response[RockOutcome], *, gal: bool) -> str:
+    """Return from where on a block that stands still rocks."""
+    options, arms = response.options, response.body.arms
+    weakest = response.outcome.threshold_m_s2 / options["gravity_m_s2"] / min(arms)
+    towards = (arms[0] * weakest, arms[1] * weakest)
+    return threshold_text(ROCKS, towards, response.motion, gravity=options["gravity_m_s2"], vertical=options["vertical"], gal=gal)
+
+
+def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
+    """Return the verdict, from where on what stands still rocks, and that it takes more friction than there is where that is so."""
+    outcome, name = response.outcome, response.motion.name or "x"
+    verdict_text = verdict(outcome, response.motion.name)
+    if not outcome.rocks:
+        verdict_text = gettext("{verdict}; {onset}", verdict=verdict_text, onset=_onset_text(response, gal=gal))
+    sentence = gettext("{name}: {verdict}.", name=name, verdict=verdict_text)
+    if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
+        return sentence
+    ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
+    if mu < ratio:
+        text = N_("With a friction of {mu:g}, less than b/h, {ratio:.3f}, it would slide and not rock: this is not what happens.")
+        return join_sentences([sentence, gettext(text, mu=mu, ratio=ratio)])
+    if outcome.max_friction_demand is None:
+        return join_sentences([sentence, gettext("It leaves the ground, so that no friction suffices: this is not what happens.")])
+    text = N_("That needs a friction of {needed:.2f} at {time:.3f} s, and there is {mu:g}: it would slip while it rocks.")
+    return join_sentences([sentence, gettext(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
+
+
+def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
+    """Yield how far the models disagree, the margins and the share of perturbed runs."""
+    name = response.motion.name or "x"
+    if "agreement" in extra:
+        yield agreement_line(name, extra["agreement"])
+    if "directions" in extra:
+        yield direction_sentence(extra["directions"])
+    if "margin" in extra:
+        yield from (gettext("{name}: {text}", name=name, text=text) for text in _margin_lines(extra["margin"]))
+    if "perturbation" in extra:
+        yield from (gettext("{name}: {text}", name=name, text=text) for text in perturbation_lines(extra["perturbation"], response.body))
+
+
+def _overturned_cell(response: Response[RockOutcome]) -> str:
+    """Return whether a block overturned, and where to."""
+    outcome = response.outcome
+    return (
+        gettext("to {side}", side=direction_label(response.motion.name, outcome.overturned_towards))
+        if outcome.overturned
+        else gettext("no")
+    )
+
+
+def verdict(outcome: RockOutcome, direction: str) -> str:
+    """Return what became of a block under a motion in a direction, and whether a small change would change it."""
+    direction_text = direction_label(direction, outcome.overturned_towards)
+    if not outcome.rocks:
+        text = gettext("stands still")
+    elif not outcome.overturned:
+        text = gettext("rocks and stands: {way}", way=lean_text(outcome.max_rotation_ratio))
+    elif outcome.overturning_time_s is None:
+        text = gettext("overturns to {side}", side=direction_text)
+    else:
+        late = outcome.decided_after_record
+        template = N_("overturns to {side} at {time:.2f} s, after the record") if late else N_("overturns to {side} at {time:.2f} s")
+        text = gettext(template, side=direction_text, time=outcome.overturning_time_s)
+    return text + flip_text(outcome)
+
+
+def flip_text(outcome: RockOutcome) -> str:
+    """Return at which factor near 1 the verdict is the other, empty where none was found or nobody looked."""
+    if outcome.flips_at_factor is None:
+        return ""
+    would = N_("; it would stand at {factor:.3f} times this record"), N_("; it would fall at {factor:.3f} times this record")
+    text = would[0] if outcome.overturned else would[1]
+    return gettext(text, factor=outcome.flips_at_factor)
+
+
+def lean_text(ratio: float) -> str:
+    """Return how far a block leaned, in words."""
+    return gettext("{share} of the way to alpha", share=format_share(ratio))
+
+
+def _margin_lines(margin: Margin) -> Iterator[str]:
+    """Yield the first fall found, how often it falls above, and the windows in which it does."""
+    if margin.first_fall is None or margin.falls_above_first is None:
+        yield gettext("stands at every factor looked at, up to {limit:g} (every {step:g}).", limit=margin.limit, step=margin.step)
+        return
+    yield gettext(
+        "falls from {first:.3g} times this record on (first found, looked at every {step:g} up to {limit:g}); above that at {share:.0%} of "
+        "the factors.",
+        first=margin.first_fall,
+        step=margin.step,
+        limit=margin.limit,
+        share=margin.falls_above_first,
+    )
+    unsafe = [window for window in margin.windows if window.overturned]
+    intervals = [gettext("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:8]] + ["..."] * (len(unsafe) > 8)
+    yield gettext("falls were found at factors {factors}.", factors=intervals)
+    if margin.nearest_flip is not None:
+        yield gettext("the verdict changes next at a factor of {factor:.4f}, of those found.", factor=margin.nearest_flip)

@@ -1,0 +1,118 @@
+"""How a slide is told: a table per record, and a sentence per component."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from seisblock.core.i18n import N_, gettext, join_list
+from seisblock.core.results import Response
+from seisblock.models.slide.solve import SlideOutcome
+from seisblock.report.directions import with_direction
+from seisblock.report.text.tables import format_seconds, group_answers, styled_line, table
+from seisblock.report.text.threshold import SLIDES, threshold_text
+from seisblock.report.units_display import Unit, format_length, format_size, length_cell, length_unit
+from seisblock.studies.sliding import SlidePoint
+
+SlideResponses = Sequence[Response[SlideOutcome]]
+
+
+COLUMN_HEADINGS = tuple(map(N_, ("slips", "from (s)", "to (s)", "max ({unit})", "residual ({unit})", "final ({unit})")))
+
+RESIDUAL = N_("residual: at the record's last sample, final: once at rest on still ground")
+"""What two of the columns are."""
+
+
+def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: bool = True) -> Iterator[Any]:
+    """Yield, for each record, its line and one row per direction; then the sweep of directions when there was one."""
+    for preamble, group in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
+        yield from preamble
+        unit = length_unit((length for response in group for length in _lengths(response)), gal=gal)
+        yield table(
+            gettext("Sliding, {setting}", setting=describe_base(group[0])),
+            ["", *(gettext(heading, unit=unit.name) for heading in COLUMN_HEADINGS)],
+            [_row(response, unit) for response in group],
+            caption=gettext("{first}; {second}", first=_sign_text(group[0]), second=gettext(RESIDUAL)),
+        )
+    if sweep:
+        yield styled_line()
+        unit = length_unit((point.max_slip_m for point in sweep), gal=gal)
+        rows = [[point.component, length_cell(point.max_slip_m, unit), length_cell(point.residual_slip_m, unit)] for point in sweep]
+        headings = N_("azimuth (deg)"), N_("max ({unit})"), N_("residual ({unit})")
+        yield table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows)
+
+
+def describe_base(response: Response[SlideOutcome]) -> str:
+    """Say which base an object slid on."""
+    base, options = response.body, response.options
+    parts = [gettext("mu {mu:g}, kinetic {kinetic:g}", mu=base.mu, kinetic=base.kinetic)]
+    if base.slope_deg and base.slope_length:
+        parts.append(gettext("slope {slope:g} deg for {length:g} m, then level", slope=base.slope_deg, length=base.slope_length))
+    elif base.slope_deg:
+        parts.append(gettext("slope {slope:g} deg", slope=base.slope_deg))
+    if base.one_way:
+        parts.append(gettext("one way"))
+    if options["vertical"]:
+        parts.append(gettext("vertical motion x {factor:g}", factor=options["vertical"]))
+    return join_list(parts)
+
+
+def _lengths(response: Response[SlideOutcome]) -> tuple[float | None, ...]:
+    """Return the displacements of one direction that the table shows, m."""
+    outcome = response.outcome
+    return outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m
+
+
+def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
+    """Say what happened."""
+    outcome, name = response.outcome, response.motion.name
+    if not outcome.slips:
+        base, options = response.body, response.options
+        if base.slope_deg:
+            return gettext("{name}: stays where it is, static friction holds throughout.", name=name)
+        gravity, vertical = options["gravity_m_s2"], options["vertical"]
+        onset_text = threshold_text(
+            SLIDES, (base.mu, math.inf if base.one_way else base.mu), response.motion, gravity=gravity, vertical=vertical, gal=gal
+        )
+        return gettext("{name}: stays where it is; {onset}.", name=name, onset=onset_text)
+    unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
+    words = {"name": name, "most": format_size(outcome.max_slip_m, unit), "path": format_size(outcome.path_m, unit)}
+    if format_size(outcome.path_m, gal=gal) != format_length(outcome.path_m, gal=gal):
+        text = gettext("{name}: slides {path} in all", name=name, path=format_size(outcome.path_m, gal=gal))
+    elif outcome.final_slip_m is None:
+        text = gettext("{name}: slides up to {most}, over a path of {path}, and does not come to rest", **words)
+    elif outcome.final_slip_m != outcome.residual_slip_m:
+        final = with_direction(format_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
+        text = gettext(
+            "{name}: slides up to {most}, over a path of {path}, while the record lasts, and comes to rest {final} from where it stood",
+            final=final,
+            **words,
+        )
+    else:
+        final = with_direction(format_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
+        text = gettext("{name}: slides up to {most}, and ends {final} from where it stood, after a path of {path}", final=final, **words)
+    if outcome.fell_off_slope:
+        text += gettext(", past the foot of the slope")
+    if outcome.lifted_off:
+        text += gettext("; it loses contact with the base on the way")
+    return gettext("{sentence}.", sentence=text)
+
+
+def _sign_text(response: Response[SlideOutcome]) -> str:
+    """Return what the sign of a displacement means."""
+    if response.body.slope_deg > 0.0:
+        return gettext("relative to the base, + in the component's positive direction, downhill")
+    return gettext("relative to the base, + in the component's positive direction")
+
+
+def _row(response: Response[SlideOutcome], unit: Unit) -> list[Any]:
+    """Return the row of one direction."""
+    outcome = response.outcome
+    return [
+        response.motion.name,
+        outcome.slip_count,
+        format_seconds(outcome.slip_start_s),
+        format_seconds(outcome.slip_end_s),
+        *(length_cell(length, unit) for length in _lengths(response)),
+    ]

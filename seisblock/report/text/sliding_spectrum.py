@@ -1,0 +1,66 @@
+"""How a sliding spectrum is told: largest slip against friction, as a table and CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seisblock.core.i18n import N_, gettext
+from seisblock.records import Motion
+from seisblock.report.io.history_csv import write_by_record
+from seisblock.report.text.tables import group_answers, styled_line, table
+from seisblock.report.units_display import format_length, length_cell, length_unit
+from seisblock.studies.sliding import SlidePoint
+
+Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]
+
+
+MAX_ROWS = 25
+
+
+def tables(curves: Curves) -> Iterator[Any]:
+    """Yield, per component, a table of at most 25 frictions."""
+    for heading, part in group_answers(
+        curves, lambda pair: pair[0].record, lambda pair: [styled_line(verdict(pair[0].name or "x", pair[1]))]
+    ):
+        yield from heading
+        yield from (block for pair in part for block in _slip_table(*pair))
+
+
+def _slip_table(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
+    """Yield the table of one component."""
+    indices = np.unique(np.linspace(0, len(points) - 1, min(len(points), MAX_ROWS)).round().astype(int))
+    unit = length_unit((point.max_slip_m for point in points), gal=True)
+    rows = [[f"{points[i].mu:.4g}", length_cell(points[i].max_slip_m, unit), length_cell(points[i].residual_slip_m, unit)] for i in indices]
+    title = gettext("{name}: sliding against friction", name=motion.name)
+    yield table(title, ["μ", gettext("largest slip ({unit})", unit=unit.name), gettext("residual slip ({unit})", unit=unit.name)], rows)
+    yield styled_line()
+
+
+def verdict(name: str, points: Sequence[SlidePoint]) -> str:
+    """Return from which friction on the object holds, and how far it slides below."""
+    by_friction = sorted(points, key=lambda point: point.mu)
+    largest = max(by_friction, key=lambda point: point.max_slip_m or 0.0)
+    slides = [point.mu for point in by_friction if point.slips]
+    if not slides:
+        return gettext("{name}: holds at every friction from {mu:.4g} on.", name=name, mu=by_friction[0].mu)
+    holds = next((point.mu for point in by_friction if point.mu > slides[-1]), None)
+    values = {"name": name, "most": format_length(largest.max_slip_m or 0.0), "at": largest.mu}
+    if holds is None:
+        return gettext("{name}: slides at every friction up to {mu:.4g}, at most {most} (at {at:.4g}).", mu=slides[-1], **values)
+    return gettext(N_("{name}: holds from a friction of {mu:.4g} on; below it slides, at most {most} (at {at:.4g})."), mu=holds, **values)
+
+
+def write_csv(path: Path, curves: Curves) -> None:
+    """Write every point as a row of CSV, SI; of several records with their index."""
+    header = ["component", "mu", "max_slip_m", "residual_slip_m"]
+    write_by_record(
+        path,
+        header,
+        curves,
+        lambda pair: pair[0].record,
+        lambda pair: ([pair[0].name, p.mu, p.max_slip_m, p.residual_slip_m] for p in pair[1]),
+    )

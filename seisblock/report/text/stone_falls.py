@@ -1,0 +1,116 @@
+"""How the falls of a pile's stones are told: one by itself, some together, or one after the other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import GROUND
+from seisblock.core.i18n import N_, gettext, join_list
+from seisblock.core.results import Response
+from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
+from seisblock.records import Motion
+from seisblock.report.directions import direction_with_compass
+
+SIMULTANEOUS_S = 0.5
+"""Stones of which the last falls so soon after the first fall together, s: so long a stone takes from 1.2 m to the ground."""
+
+SAME_SIDE_DEG = 45.0
+"""To about one side fall those that fall within so many degrees of their mean direction."""
+
+MAX_NAMES = 6
+"""How many stones a sentence names."""
+
+
+def fallen_stones(response: Response[StackOutcome]) -> list[StoneOutcome]:
+    """Return the stones that fell, in the order of time."""
+    return sorted((stone for stone in response.outcome.stones if stone.fell_at_s is not None), key=_fall_time)
+
+
+def describe_falls(response: Response[StackOutcome]) -> str:
+    """Return in a sentence what fell, when and to which side; nothing where all stand."""
+    falls, motion = fallen_stones(response), response.motion
+    if len(falls) < 2:
+        return "".join(_describe_fall(stone, motion) for stone in falls)
+    if fell_together(falls):
+        values = {"time": _fall_time(falls[0]), "side": direction_with_compass(_mean_direction(falls), motion)}
+        return gettext("{stones} fell together at {time:.2f} s, to about {side}.", stones=_group_name(falls, response.body), **values)
+    first, last = falls[0], falls[-1]
+    first_values = {
+        "stone": gettext(first.name),
+        "time": _fall_time(first),
+        "side": direction_with_compass(_fall_direction(first), motion),
+        "end": _fall_time(last),
+    }
+    if len(falls) == 2:
+        text = N_("{stone} fell first, at {time:.2f} s to {side}; then {other}, at {end:.2f} s to {there}.")
+        return gettext(text, **first_values, other=gettext(last.name), there=direction_with_compass(_fall_direction(last), motion))
+    text = N_("{stone} fell first, at {time:.2f} s to {side}; then {others}, the last at {end:.2f} s.")
+    return gettext(text, **first_values, others=_names(falls[1:]))
+
+
+def fell_together(falls: Sequence[StoneOutcome]) -> bool:
+    """Return whether several stones, in the order of time, fell within a short time to about one side."""
+    if len(falls) < 2 or _fall_time(falls[-1]) - _fall_time(falls[0]) > SIMULTANEOUS_S:
+        return False
+    mean = _mean_direction(falls)
+    return all(_angle_between(_fall_direction(stone), mean) <= SAME_SIDE_DEG for stone in falls)
+
+
+def _describe_fall(stone: StoneOutcome, motion: Motion) -> str:
+    """Return when a stone fell, to which side, and where it came to lie."""
+    values = {"stone": gettext(stone.name), "side": direction_with_compass(_fall_direction(stone), motion), "time": _fall_time(stone)}
+    if stone.fell_onto is None:
+        return gettext("{stone} fell at {time:.2f} s to {side}, and is still in the air.", **values)
+    if stone.fell_onto == GROUND:
+        return gettext("{stone} fell at {time:.2f} s to {side}, onto the ground.", **values)
+    return gettext("{stone} fell at {time:.2f} s to {side}, onto {other}.", **values, other=gettext(stone.fell_onto))
+
+
+def _group_name(falls: Sequence[StoneOutcome], pile: Pile) -> str:
+    """Return what stones are together: the whole pile, all that stood on one stone, or their names."""
+    names = {stone.name for stone in falls}
+    if len(names) == len(pile.stones):
+        return gettext("All {count} stones", count=len(names))
+    foot, *further_bases = {stone.on for stone in pile.stones if stone.name in names and stone.on not in names}
+    if not further_bases and foot != GROUND and _stones_above(foot, pile) == names:
+        return gettext("All above {stone}", stone=gettext(foot))
+    return _names(falls)
+
+
+def _stones_above(foot: str, pile: Pile) -> set[str]:
+    """Return the stones that stand on a stone, and on those."""
+    stones = {foot}
+    for stone in pile.stones:  # from below upwards
+        if stone.on in stones:
+            stones.add(stone.name)
+    return stones - {foot}
+
+
+def _names(stones: Sequence[StoneOutcome]) -> str:
+    """Return the names of stones, or how many they are."""
+    if len(stones) > MAX_NAMES:
+        return gettext("{count} stones", count=len(stones))
+    return join_list(gettext(stone.name) for stone in stones)
+
+
+def _fall_time(stone: StoneOutcome) -> float:
+    """Return when a stone fell, s."""
+    return stone.fell_at_s or 0.0
+
+
+def _fall_direction(stone: StoneOutcome) -> float:
+    """Return to where it fell, degrees from +x."""
+    return stone.fell_towards_deg or 0.0
+
+
+def _mean_direction(falls: Sequence[StoneOutcome]) -> float:
+    """Return the mean direction of falls, degrees from +x."""
+    angles = [math.radians(_fall_direction(stone)) for stone in falls]
+    return math.degrees(math.atan2(sum(map(math.sin, angles)), sum(map(math.cos, angles))))
+
+
+def _angle_between(a: float, b: float) -> float:
+    """Return the angle between two directions, degrees."""
+    return abs(math.remainder(a - b, 360.0))

@@ -1,0 +1,100 @@
+"""How uplift under a record is told: a table per component and a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from seisblock.core.i18n import N_, gettext, join_sentences
+from seisblock.core.results import Response
+from seisblock.models.uplift.batch_results import MAX_LEAN_RATIO
+from seisblock.models.uplift.outcome import UpliftOutcome
+from seisblock.report.text.tables import format_seconds, group_answers, styled_line, table
+from seisblock.report.text.threshold import format_factor
+from seisblock.report.units_display import format_length, length_cell, length_unit
+
+UpliftResponses = Sequence[Response[UpliftOutcome]]
+
+BEYOND_MODEL = N_(
+    "how far it lifts cannot be told: the block leans beyond {small:g} of its slenderness, where this model, without P-delta, fails."
+)
+"""What stands in the place of numbers that are none."""
+
+MIN_SHARE = 5e-4
+"""A smaller share of the time would be written as 0.0 %."""
+
+CORNER_LABELS = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
+"""Names of the corners."""
+
+
+def tables(responses: UpliftResponses, *, gal: bool) -> Iterator[Any]:
+    """Yield the record, and for each component a table of the corners and what happened in words."""
+    for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
+        yield from heading
+        yield from (block for response in part for block in _details(response, gal=gal))
+
+
+def _details(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[Any]:
+    """Yield the table of one component, and how its springs move."""
+    outcome = response.outcome
+    yield table(f"+x = {response.motion.name}", [gettext("corner"), *CORNER_LABELS], _rows(response, gal=gal))
+    yield styled_line(
+        gettext(
+            "Natural frequencies {frequencies} Hz; at rest it sinks by {settlement}.",
+            frequencies=[f"{f:.3g}" for f in outcome.natural_frequencies_hz],
+            settlement=format_length(outcome.static_settlement_m, gal=gal),
+        )
+    )
+    yield styled_line()
+
+
+def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]]:
+    """Yield what each corner did, a column per corner; where the model does not hold, the first uplift alone."""
+    corners = response.outcome.corners
+    static = response.body.static_corner_force(response.options["gravity_m_s2"])
+    yield [gettext("first uplift (s)"), *(format_seconds(c.first_uplift_s) for c in corners)]
+    if not response.outcome.within_model:
+        return
+    yield [gettext("in the air (s)"), *(format_seconds(c.uplift_duration_s) for c in corners)]
+    yield [gettext("longest in the air (s)"), *(format_seconds(c.longest_uplift_s) for c in corners)]
+    unit = length_unit((c.max_uplift_m for c in corners), gal=gal)
+    yield [gettext("highest position ({unit})", unit=unit.name), *(length_cell(c.max_uplift_m, unit) for c in corners)]
+    yield [gettext("... at (s)"), *(format_seconds(c.max_uplift_time_s) for c in corners)]
+    yield [gettext("largest force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
+    yield [gettext("... over static"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
+
+
+def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
+    """Return what happened in words."""
+    outcome, name = response.outcome, response.motion.name
+    if not outcome.uplifts:
+        if outcome.uplift_scale is None:
+            return gettext("{name}: no corner lifts.", name=name)
+        factor = format_factor(outcome.uplift_scale)
+        return gettext("{name}: no corner lifts; the motion would have to be {factor} times as strong.", name=name, factor=factor)
+    corners = outcome.first_corners
+    if len(corners) > 1:
+        numbers = gettext(" and ").join(map(str, corners))
+        first_text = gettext(
+            "{name}: corners {corners} lift first, at {time:.3f} s", name=name, corners=numbers, time=outcome.first_uplift_s
+        )
+    else:
+        first_text = gettext(
+            "{name}: corner {corner} lifts first, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s
+        )
+    if not outcome.within_model:
+        caveat = gettext(BEYOND_MODEL, small=MAX_LEAN_RATIO)
+        factor_text = gettext("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
+        return join_sentences([gettext("{first}; {second}", first=first_text, second=caveat), factor_text])
+    shares = [
+        gettext("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share >= MIN_SHARE
+    ]
+    return first_text + gettext(
+        "; the highest uplift is {most}. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "
+        "{factor:.3g} times this motion just lifts one.",
+        most=format_length(outcome.max_uplift_m, gal=gal),
+        air=outcome.uplift_duration_s,
+        changes=outcome.contact_changes,
+        shares=shares,
+        factor=outcome.uplift_scale,
+    )

@@ -1,0 +1,99 @@
+"""How harmonic uplift is told: modes, minima and the curve, as tables, document and file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from seisblock.core.i18n import N_, gettext
+from seisblock.report.io.atomic import write_table
+from seisblock.report.json.uplift import RATIO_KEYS
+from seisblock.report.text.tables import styled_line, table
+from seisblock.studies.uplift_regions import UpliftRegion
+
+SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}
+UNITS = {"phi": "°", "rho": "°"}
+RANGE_END = N_("end of the range")
+MAX_ROWS = 24
+"""Rows of a curve that a terminal shows unless the frequencies were asked for."""
+
+
+def region_title(region: UpliftRegion, names: Sequence[str] = tuple(SYMBOLS)) -> str:
+    """Return the parameters of a region in the paper's letters."""
+    return ", ".join(f"{SYMBOLS[name]} = {region.ratios[name]:.4g}{UNITS.get(name, '')}" for name in names)
+
+
+def varied_names(regions: Sequence[UpliftRegion]) -> list[str]:
+    """Return the names of the parameters that differ among regions."""
+    return [name for name in SYMBOLS if len({region.ratios[name] for region in regions}) > 1]
+
+
+def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
+    """Yield the modes, the minima and the curve of each region."""
+    for region in regions:
+        yield styled_line(verdict(region), "bold")
+        wv, w1 = region.body.omega[2], region.modes.omega_1
+        yield table(
+            gettext("natural modes"),
+            [gettext("mode"), "f (Hz)", "ω/ω_V", "ω/ω_1"],
+            [
+                [gettext(name), w / (2 * math.pi), w / wv, w / w1]
+                for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)
+            ],
+        )
+        yield table(
+            gettext("least A/g that lifts a corner"),
+            [gettext("near the mode"), "θ/ω_1", "A/g", gettext("corner")],
+            [[gettext(m.mode or RANGE_END), m.frequency_ratio, m.acceleration_ratio, _corner_text(m.corners)] for m in region.minima]
+            or [
+                [
+                    gettext(RANGE_END),
+                    region.minimum.frequency_ratio,
+                    region.minimum.acceleration_ratio,
+                    _corner_text(region.minimum.corners),
+                ]
+            ],
+        )
+        n = region.frequency_ratio.size
+        step = 1 if all_rows or n <= MAX_ROWS else n // MAX_ROWS
+        indices = range(step - 1, n, step)
+        yield table(
+            gettext("uplift curve"),
+            ["θ/ω_1", "A/g"],
+            [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in indices],
+            caption="" if step == 1 else gettext("one of {step} of {all} rows; all with --csv or --json", step=step, all=n),
+        )
+
+
+def verdict(region: UpliftRegion) -> str:
+    """Return how hard the shaking must be that lifts a corner, and where it is easiest."""
+    minimum = region.minimum
+    if not math.isfinite(minimum.acceleration_ratio):
+        return gettext("{block}: no shaking lifts a corner.", block=region_title(region))
+    text = N_("{block}: a corner lifts from {least:.3g} g on, at {ratio:.3g} times the first rocking frequency.")
+    return gettext(text, block=region_title(region), least=minimum.acceleration_ratio, ratio=minimum.frequency_ratio)
+
+
+def _finite_or_none(value: float) -> Any:
+    """Return a number, or nothing when no amplitude lifts."""
+    return value if math.isfinite(value) else None
+
+
+def _corner_text(corners: Sequence[int]) -> str:
+    """Return corners as text."""
+    return gettext("any") if len(corners) == 4 else " ".join(str(corner) for corner in corners)
+
+
+def write_csv(path: Path, regions: Sequence[UpliftRegion]) -> None:
+    """Write the curves as CSV, one below the other."""
+    write_table(
+        path,
+        [*RATIO_KEYS.values(), "frequency_ratio", "acceleration_ratio"],
+        (
+            [*region.ratios.values(), float(r), float(a)]
+            for region in regions
+            for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
+        ),
+    )

@@ -1,0 +1,188 @@
+"""How the evidence is told: what differs from a paper and why, first; then everything that holds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from rich.constrain import Constrain
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from seisblock.core.i18n import N_, gettext, join_sentences, lazy_gettext
+from seisblock.report.text.tables import styled_line, table
+from seisblock.validation.case import (
+    EVIDENCE_KINDS,
+    VERDICTS,
+    Case,
+    CaseResult,
+    EvidenceKind,
+    Verdict,
+    count_verdicts,
+    count_verdicts_by_kind,
+)
+
+WIDTH = 110
+"""Widest line, characters."""
+
+_HEADINGS: dict[Verdict, str] = {
+    "fails": N_("What does not read as claimed"),
+    "differs": N_("What differs from the papers, and why"),
+    "holds": N_("What holds"),
+}
+_STYLES: dict[Verdict, str] = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
+
+KINDS: dict[EvidenceKind, str] = {
+    "computed": N_("computed"),
+    "rebuilt": N_("input rebuilt"),
+    "derived": N_("derived here"),
+    "print": N_("print itself"),
+}
+"""Short names of what a case is worth."""
+
+
+def tables(results: Sequence[CaseResult], *, all_cases: bool = True) -> Iterator[Any]:
+    """Yield what is printed: how many hold; what fails, what differs and why, paper by paper; what holds, if all is asked for; counts.
+
+    Parameters
+    ----------
+    results : sequence of CaseResult
+    all_cases : bool
+        Whether the cases that hold are listed, too.
+    """
+    yield _count_line(results, all_cases=all_cases)
+    for verdict in VERDICTS:
+        selection = [result for result in results if result.verdict == verdict]
+        if selection and (all_cases or verdict != "holds"):
+            yield styled_line(gettext(_HEADINGS[verdict]), _STYLES[verdict])
+            yield _case_table(heading=True)
+            for paper in dict.fromkeys(result.case.paper for result in selection):
+                yield styled_line(paper, "italic")
+                part = [result for result in selection if result.case.paper == paper]
+                yield from [_case_table(part)] if verdict == "holds" else _explained_cases(part)
+            yield styled_line()
+    yield _kind_table(results)
+
+
+def _explained_cases(results: Sequence[CaseResult]) -> Iterator[Any]:
+    """Yield the cases of each explanation, with the explanation below them."""
+    for note in dict.fromkeys(map(explanation, results)):
+        yield _case_table([result for result in results if explanation(result) == note])
+        if note:
+            yield Constrain(Padding(styled_line(gettext("why: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
+
+
+def explanation(result: CaseResult) -> str:
+    """Return why a case differs; or, of one that fails, what was claimed of it."""
+    case = result.case
+    if result.verdict != "fails":
+        return gettext(case.note)
+    if math.isnan(result.computed):
+        return gettext("it could not be computed")
+    if case.status == "holds":
+        return gettext("should agree and does not")
+    if case.today is None or abs(result.error) <= case.tolerance:
+        return gettext("is said to differ, and agrees")
+    return gettext("differs by another amount than was explained: {value:.6g} then", value=case.today[0])
+
+
+def _case_table(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
+    """Return expected, computed, difference and tolerance, one row per case; columns align from one grid to the next."""
+    grid = Table(box=None, show_header=heading, pad_edge=False, width=None, expand=True)
+    grid.add_column("  " + gettext("where"), width=13)
+    grid.add_column(gettext("quantity"), ratio=1)
+    for name, width in ((gettext("expected"), 10), (gettext("computed"), 10), (gettext("error"), 8), (gettext("tolerance"), 9)):
+        grid.add_column(name, width=width, justify="right", overflow="fold")
+    for r in results:
+        numbers = (format_short(r.expected), format_short(r.computed), format_short(r.error, 2), format_short(r.case.tolerance, 2))
+        grid.add_row(Padding(styled_line(r.case.place), (0, 0, 0, 2)), styled_line(quantity_with_kind(r)), *numbers)
+    return Constrain(grid, WIDTH)
+
+
+def quantity_label(result: CaseResult) -> str:
+    """Return what is compared, with its unit."""
+    unit_text = unit_label(result.case)
+    return gettext(result.case.quantity) + (f" ({unit_text})" if unit_text else "")
+
+
+def unit_label(case: Case) -> str:
+    """Return the unit of a case as it is printed, nothing where it has none."""
+    return "" if case.unit == "1" else case.unit.replace("^2", "²")
+
+
+def quantity_with_kind(result: CaseResult) -> str:
+    """Return what is compared, and what the case is worth where the program is not compared with the paper itself."""
+    kind = result.case.kind
+    return quantity_label(result) if kind == "computed" else f"{quantity_label(result)} [{gettext(KINDS[kind])}]"
+
+
+MAX_CHARACTERS = 10
+"""Most characters of a number in a column."""
+
+INTEGER_LIMIT, INTEGER_DIGITS = 1e5, 5
+"""Below this a number is told without a power of ten."""
+
+
+def format_short(value: float, digits: int = 5) -> str:
+    """Return a number with so many significant digits, in as few characters as that takes.
+
+    Examples
+    --------
+    >>> format_short(909.6, 2), format_short(0.0123456), format_short(1e-12), format_short(12345678.0)
+    ('910', '0.012346', '1e-12', '1.2346e7')
+    """
+    if not math.isfinite(value):
+        return "-" if math.isnan(value) else str(value)
+    if 10.0**digits <= abs(value) < INTEGER_LIMIT:
+        value, digits = float(f"{value:.{digits}g}"), INTEGER_DIGITS
+    text = f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e")
+    return text if len(text) <= MAX_CHARACTERS or digits <= 2 else format_short(value, digits - 1)
+
+
+def _kind_table(results: Sequence[CaseResult]) -> Any:
+    """Return how many cases of each kind got each verdict."""
+    rows = [
+        [
+            gettext(EVIDENCE_KINDS[kind]),
+            sum(verdict_counts.values()),
+            verdict_counts["holds"],
+            verdict_counts["differs"],
+            verdict_counts["fails"],
+        ]
+        for kind, verdict_counts in count_verdicts_by_kind(results).items()
+    ]
+    header = [gettext("what a case is worth"), gettext("cases"), gettext("hold"), gettext("differ"), gettext("fail")]
+    return table(gettext("The evidence"), header, rows)
+
+
+def _count_line(results: Sequence[CaseResult], *, all_cases: bool) -> Text:
+    """Return the first line."""
+    verdict_counts = count_verdicts(results)
+    singular, plural = N_("1 case: {verdicts}."), N_("{all} cases: {verdicts}.")
+    text = styled_line(
+        gettext(singular if len(results) == 1 else plural, all=len(results), verdicts=verdict_counts_text(verdict_counts)),
+        "bold red" * bool(verdict_counts["fails"]),
+    )
+    return text if all_cases else text.append(join_sentences(["", gettext("--all lists those that hold.")]), style="dim")
+
+
+def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:
+    """Return how many cases got each verdict, in words.
+
+    Examples
+    --------
+    >>> verdict_counts_text({"fails": 0, "differs": 1, "holds": 2})
+    '2 hold, 1 differs as explained, 0 fail'
+    """
+    words = {
+        "holds": (N_("1 holds"), N_("{count} hold")),
+        "differs": (N_("1 differs as explained"), N_("{count} differ as explained")),
+        "fails": (N_("1 fails"), N_("{count} fail")),
+    }
+    parts = [
+        lazy_gettext(words[verdict][0 if verdict_counts[verdict] == 1 else 1], count=verdict_counts[verdict])
+        for verdict in reversed(VERDICTS)
+    ]
+    return gettext("{parts}", parts=parts)

@@ -1,0 +1,70 @@
+"""Where a line may end: between words, and between the wide letters of Japanese, which take two columns of a terminal."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+_WIDE = r"\u1100-\u115f\u2e80-\u303e\u3041-\u3247\u3250-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe6f\uff00-\uff60\uffe0-\uffe6"
+"""Letters that take two columns."""
+
+_CLOSING_PUNCTUATION = "、。，．）」』］：；！？ー・々ぁぃぅぇぉゃゅょっァィゥェォャュョッ"
+"""Marks that may not begin a line."""
+
+_UNITS = rf"(?:%|mm|cm|km|m|s|Hz|gal|kine|g|kg|N|J|rad|deg)(?![\w/])(?:[^\s{_WIDE}]*)"
+"""What belongs to the number before it, with the marks behind it."""
+
+_NUMBER = rf"[(+-]*\d[\d.,]*\ {_UNITS}"
+
+_ATOM = re.compile(rf"\s*[（「『［]*(?:{_NUMBER}|[^\s{_WIDE}]+|[{_WIDE}])[{_CLOSING_PUNCTUATION}]*|\s+")
+"""What is not broken: a word, a number with its unit, or a wide letter, with the marks that belong to it."""
+
+_WIDE_LETTER = re.compile(rf"[{_WIDE}]")
+
+
+def is_wide(text: str) -> bool:
+    """Whether a text holds letters that take two columns."""
+    return _WIDE_LETTER.search(text) is not None
+
+
+def has_quantity(text: str) -> bool:
+    """Whether a text holds a number with a unit, which should stay together."""
+    return re.search(_NUMBER, text) is not None
+
+
+def fits(text: str, width: int) -> bool:
+    """Whether no word of a text takes more columns than `width`."""
+    return max((display_width(atom[0].strip()) for atom in _ATOM.finditer(text)), default=0) <= width
+
+
+def display_width(text: str) -> int:
+    """Return how many columns of a terminal a text takes."""
+    return len(text) + len(_WIDE_LETTER.findall(text))
+
+
+def break_positions(text: str, width: int) -> list[int]:
+    """Return where a text is broken, as positions in it, so that no line takes more columns than `width`.
+
+    Parameters
+    ----------
+    text : str
+        Without line ends.
+    width : int
+        Columns; a word that is longer stays whole.
+    """
+    positions: list[int] = []
+    start = end = 0
+    for atom in _ATOM.finditer(text):
+        so_far = text[start : atom.end()].rstrip()
+        # a line that goes on loses the blank before it
+        if end > start and display_width(so_far.lstrip() if positions else so_far) > width:
+            start = end
+            positions.append(start)
+        end = atom.end()
+    return positions
+
+
+def wrap_text(text: str, width: int) -> list[str]:
+    """Return a text in lines of at most so many columns."""
+    ends = [0, *break_positions(text, width), len(text)]
+    return [text[first:last].strip() for first, last in pairwise(ends)]

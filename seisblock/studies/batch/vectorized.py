@@ -1,0 +1,77 @@
+"""Bodies of a batch side by side through one motion, where a solver follows rows that tell all that its answers do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from seisblock.core.errors import SeisblockError
+from seisblock.models.jump.batch import jump_many
+from seisblock.models.jump.describe import chain_warnings
+from seisblock.models.uplift.batch import uplift_many
+from seisblock.models.uplift.outcome import warnings as uplift_warnings
+from seisblock.records import Motion
+from seisblock.records._validation import vertical_gain
+
+if TYPE_CHECKING:
+    from seisblock.studies.batch.models import SolverBody
+
+RowResult: TypeAlias = "tuple[Mapping[str, Any], Sequence[str]]"
+"""The scalars of an outcome, and what is to be known before believing them."""
+
+
+def solve_vectorized(solver: str, bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
+    """Return the answers of those bodies that a solver can follow side by side, by their names; the others are followed alone.
+
+    Parameters
+    ----------
+    solver : str
+    bodies : sequence of Placed
+    motion : Motion
+    """
+    if solver not in VECTORIZED_SOLVERS:
+        return {}
+    solve, row_options = VECTORIZED_SOLVERS[solver]
+    groups: dict[str, list[SolverBody]] = {}
+    for body in bodies:
+        groups.setdefault(repr({key: value for key, value in body.options.items() if key not in row_options}), []).append(body)
+    results: dict[str, RowResult] = {}
+    for group in groups.values():
+        shared_options = {key: value for key, value in group[0].options.items() if key not in row_options}
+        try:
+            results |= solve(group, motion, **shared_options)
+        except (SeisblockError, TypeError):
+            continue  # one after another they say which of them it is, and why
+    return results
+
+
+def _solve_uplifts(bodies: Sequence[SolverBody], motion: Motion, **shared: Any) -> dict[str, RowResult]:
+    """Follow blocks on springs; a run that was given up is followed alone, which tells why."""
+    gains = [(1.0, 1.0, vertical_gain(motion, body.options.get("vertical"))) for body in bodies]
+    result = uplift_many([body.body for body in bodies], motion, gains=gains, **shared)
+    return {
+        body.name: (result.row_dict(row, motion.start_s), uplift_warnings(motion, result, row))
+        for row, body in enumerate(bodies)
+        if not result.gave_up[row]
+    }
+
+
+def _solve_jumps(bodies: Sequence[SolverBody], motion: Motion, **shared: Any) -> dict[str, RowResult]:
+    """Follow two-layer blocks; where a foot jams, or a run was given up, there is no answer."""
+    contacts, drop = [body.options["contact"] for body in bodies], [body.options.get("drop", 0.0) for body in bodies]
+    result = jump_many([body.body for body in bodies], motion, contacts=contacts, drop=drop, **shared)
+    return {
+        body.name: (
+            {**result.row_dict(row), "landing": shared.get("landing", "paper")},
+            chain_warnings(motion, result.row_chains(row, motion.start_s), contact.mu),
+        )
+        for row, (body, contact) in enumerate(zip(bodies, contacts, strict=True))
+        if not (result.jammed[row] or result.gave_up[row])
+    }
+
+
+VECTORIZED_SOLVERS: dict[str, tuple[Callable[..., dict[str, RowResult]], tuple[str, ...]]] = {
+    "uplift": (_solve_uplifts, ("vertical",)),
+    "jump": (_solve_jumps, ("contact", "drop")),
+}
+"""What follows them, and which options may differ from row to row."""

@@ -1,0 +1,102 @@
+"""``all-azimuths`` in a batch: each body in every direction of each record, and the answer for the worst, as single commands have it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.core.errors import ParameterError
+from seisblock.records import Record, motion_of
+from seisblock.records._validation import vertical_gain
+from seisblock.records.motion import ALL_AZIMUTHS
+from seisblock.studies.azimuths import sweep_azimuths
+from seisblock.studies.batch.models import SolverBody
+from seisblock.studies.batch.table import DIRECTIONS, FALLEN_DIRECTIONS
+from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directions, respond_directions
+from seisblock.studies.rocking.azimuths import RockAzimuth, rock_directions
+from seisblock.studies.sliding import slide_study, worst_directions
+
+
+def is_all_azimuths(components: Sequence[str]) -> bool:
+    """Return whether every direction is asked for."""
+    return any(name.lower() == ALL_AZIMUTHS for name in components)
+
+
+def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[str, Any]) -> None:
+    """Refuse what does not go with every direction.
+
+    Raises
+    ------
+    ParameterError
+        If components are named beside it, the solver looks in none, or has options that act in one direction only.
+    """
+    if not is_all_azimuths(components):
+        return
+    if len(components) > 1:
+        raise ParameterError("{name} stands for every direction: name no component beside it", name=ALL_AZIMUTHS)
+    if solver not in DIRECTIONAL_SOLVERS:
+        raise ParameterError("{solver} does not look in every direction; {known} do", solver=solver, known=list(DIRECTIONAL_SOLVERS))
+    allowed = DIRECTIONAL_SOLVERS[solver][1]
+    unknown = [f"`{name}`" for name in options if name not in allowed]
+    if unknown:
+        raise ParameterError("{solver} in every direction has no option {names}: leave it out", solver=solver, names=unknown)
+
+
+Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
+"""A direction, in how many it was looked for, and what is to be known of them."""
+
+
+def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst:
+    """Return the direction in which a record is worst for a body, and in how many it was looked for.
+
+    Parameters
+    ----------
+    solver : str
+    solver_body : Placed
+    record : Record
+        With two horizontal components of known azimuths.
+    """
+    return DIRECTIONAL_SOLVERS[solver][0](solver_body, record)
+
+
+def _worst_rock(solver_body: SolverBody, record: Record) -> Worst:
+    """Look at a block that rocks."""
+    return _counted(rock_directions(solver_body.body, record, **solver_body.options))
+
+
+def _worst_respond(solver_body: SolverBody, record: Record) -> Worst:
+    """Look at a free-standing body."""
+    return _counted(respond_directions(solver_body.body, record, **solver_body.options))
+
+
+def _counted(found: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
+    """Count the directions that have an answer, the worst of which comes first, and those in which the body falls."""
+    fallen, answered = sum(each.overturned for each in found), sum(not each.gave_up for each in found)
+    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: answered, FALLEN_DIRECTIONS: fallen}, left_out_directions(found)
+
+
+def _worst_slide(solver_body: SolverBody, record: Record) -> Worst:
+    """Look at an object that slides."""
+    base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
+    motions = [motion_of(record, f"{azimuth:g}") for azimuth in sweep_azimuths(base)]
+    points = slide_study(
+        base.mu,
+        motions=motions,
+        mu_kinetic=base.kinetic,
+        slope_deg=base.slope_deg,
+        slope_length=base.slope_length,
+        one_way=base.one_way,
+        vertical=vertical_gain(motions[0], solver_body.options.get("vertical", False)),
+        **{key: value for key, value in solver_body.options.items() if key != "vertical"},
+        workers=1,
+    )
+    return worst_directions(points)[0].component, {DIRECTIONS: len(points)}, []
+
+
+DIRECTIONAL_SOLVERS: dict[str, tuple[Callable[[SolverBody, Record], Worst], tuple[str, ...]]] = {
+    "respond": (_worst_respond, ("mu", "mu_kinetic", "restitution", "rocking_restitution", "gravity", "tenon", "settle_s", "vertical")),
+    "rock": (_worst_rock, ("restitution", "linear", "vertical", "gravity")),
+    "slide": (_worst_slide, ("mu", "mu_kinetic", "vertical", "gravity")),
+}
+"""What looks in every direction, and the options that act in each."""

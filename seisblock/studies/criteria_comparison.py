@@ -1,0 +1,86 @@
+"""Every criterion of overturning beside the simulated outcome, for one direction of a record."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from seisblock.bodies.block import Block
+from seisblock.criteria.compare import CriterionResult, overturning_card
+from seisblock.measures import Conventions
+from seisblock.measures.summary import ComponentPeaks, component_peaks
+from seisblock.models.rock.outcome import RockOutcome
+from seisblock.models.rock.solve import solve_rock
+from seisblock.records import Component, Motion, Record
+from seisblock.studies.model_comparison import ModelComparison, compare_models
+from seisblock.studies.respond.best_estimate import BestEstimate, best_estimate
+from seisblock.studies.rocking.margin import flag_near_flip
+
+
+@dataclass(frozen=True)
+class CriteriaComparison:
+    """The criteria of one component beside its simulated outcome.
+
+    Parameters
+    ----------
+    record : Record
+    component : str
+    block : Block
+    measures : ComponentPeaks
+        What the criteria were given.
+    rows : tuple of Row
+    outcome : RockOutcome
+    velocity_highpass_hz : float or None
+        Filter behind the PGV.
+    warnings : tuple of str
+    agreement : Agreement or None
+        What a few of them, each counted once, and rocking blocks say, and how far apart they are; None where nobody asked.
+    governing : Governing or None
+        What the body does with all of its motions together; None where nobody asked.
+    """
+
+    record: Record
+    component: str
+    block: Block
+    measures: ComponentPeaks
+    rows: tuple[CriterionResult, ...]
+    outcome: RockOutcome
+    velocity_highpass_hz: float | None
+    warnings: tuple[str, ...] = ()
+    agreement: ModelComparison | None = None
+    governing: BestEstimate | None = None
+
+
+def compare_criteria(
+    record: Record,
+    motion: Motion,
+    block: Block,
+    *,
+    gravity: float,
+    mu: float | None = None,
+    mu_kinetic: float | None = None,
+    **options: Any,
+) -> CriteriaComparison:
+    """Return the criteria and the simulated outcome of one component.
+
+    Parameters
+    ----------
+    record : Record
+    motion : Motion
+        Of that record, towards a component or an azimuth.
+    block : Block
+    gravity : float, m/s^2
+    mu, mu_kinetic : float or None, 1
+        Friction; None where nothing is known of it: feet that hold.
+    options
+        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    """
+    conventions = Conventions(gravity_m_s2=gravity)
+    peaks = component_peaks(Component(motion.name, motion.horizontal), motion.dt, conventions, motion.start_s)
+    response = flag_near_flip(solve_rock(block, motion, gravity=gravity, **options))
+    rows = overturning_card(block, peaks.pga_m_s2, peaks.pgv_m_s, asdict(peaks.equivalent_frequency_hz), gravity)
+    comparison = compare_models(block, motion, gravity=gravity, **options)
+    estimate = best_estimate(block, motion, mu=mu, mu_kinetic=mu_kinetic, gravity=gravity)
+    return CriteriaComparison(
+        record, motion.name, block, peaks, rows, response.outcome, conventions.velocity_highpass_hz, response.warnings, comparison, estimate
+    )

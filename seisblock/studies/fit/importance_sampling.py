@@ -1,0 +1,214 @@
+"""Which blocks explain what was seen, and how well each: blocks with their weights, found where they are and not on a grid.
+
+Blocks are points of a unit cube, in which everything is equally likely before (:mod:`seisblock.studies.fit.priors`). Points are drawn from
+clouds, each around those that explained most before it; the weight of a point is its likelihood over the density of all clouds together at
+that point ([Cornuet2012]_ section 3), so that it does not matter how good a cloud was. While the points are few, likelihoods are taken
+to a power below one, as large as leaves enough points with a weight.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from seisblock.core.typing import FloatArray, IntArray, Progress
+from seisblock.studies.fit.block_family import BlockFamily, quasi_random_points
+from seisblock.studies.fit.dataset import Experiment
+from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
+from seisblock.studies.fit.proposal import Proposal, make_proposal
+from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
+
+INITIAL_BLOCKS = 64
+"""Blocks that are looked at first, all over the cube, times two for each of its directions."""
+
+SEARCH_BLOCKS, PROPOSAL_BLOCKS = 128, 256
+"""Blocks of each later search, and of each look."""
+
+SEARCH_RUNS = 4
+"""Versions of each while blocks are only looked for."""
+
+MIN_EFFECTIVE, TARGET_EFFECTIVE, MIN_EFFECTIVE_WITHOUT = 50.0, 200.0, 30.0
+"""Blocks that weights must amount to: to draw others around them, to be what is answered, and where outcomes are left out."""
+
+PROPOSAL_POWER = 0.8
+"""Power of the likelihood for which blocks are drawn that are looked at: wide enough for what fewer outcomes would leave open, too."""
+
+MAX_SEARCHES, MAX_PROPOSALS = 12, 12
+"""Looks for the blocks, and at them."""
+
+
+@dataclass(frozen=True, eq=False)
+class ImportanceSample:
+    """Blocks, how often their versions fell, and how densely they lie.
+
+    Parameters
+    ----------
+    unit_points : (n, d) array, 1
+        Points of the unit cube.
+    shares : (shakings, n) array of int
+        Of 64 versions, those that fell.
+    log_density : (n,) array
+        Logarithm of the density from which they were drawn.
+    """
+
+    unit_points: FloatArray
+    shares: IntArray
+    log_density: FloatArray
+
+    def log_weights(self, log_likelihoods: FloatArray) -> FloatArray:
+        """Return logarithms of the weights of each lambda and each block, (l, n), their largest zero."""
+        logs = log_likelihoods - self.log_density
+        shifted: FloatArray = logs - logs.max()
+        return shifted
+
+
+def effective_sample_size(weights: FloatArray) -> float:
+    """Return how many equal ones some weights are worth."""
+    return float(weights.sum() ** 2 / (weights**2).sum())
+
+
+def min_effective_without(sample: ImportanceSample, experiment: Experiment, parts: IntArray, lapse: LapseRate) -> float:
+    """Return how many blocks the weights amount to, at the fewest, when one of the parts of the outcomes is left out."""
+    if not parts.any():
+        return np.inf
+    held_out_logs = log_likelihoods_held_out(sample.shares, experiment, parts, lapse)
+    return min(effective_sample_size(np.exp(sample.log_weights(logs)).sum(axis=0)) for _, logs in held_out_logs)
+
+
+def sample_posterior(
+    experiment: Experiment,
+    family: BlockFamily,
+    lapse: LapseRate,
+    parts: IntArray,
+    *,
+    runs: int,
+    seed: int,
+    progress: Progress | None = None,
+) -> tuple[ImportanceSample, float]:
+    """Return blocks that explain an experiment, and how many equally good ones they amount to.
+
+    Parameters
+    ----------
+    experiment, family, lapse
+    parts : (outcomes,) array of int
+        Which outcomes are left out together: enough blocks are looked at for what the others say alone, too.
+    runs : int
+        Versions of each block under each shaking, a power of two.
+    seed : int
+    progress : callable
+        Told the number of shakings followed and the number in all, as far as that can be known.
+    """
+    search = _Sampler(experiment, family, lapse, seed, progress)
+    sample = search.first()
+    for _ in range(MAX_SEARCHES):
+        power, weights = search.temper(sample, PROPOSAL_POWER)
+        proposal = make_proposal(sample.unit_points, weights, PROPOSAL_BLOCKS if power == PROPOSAL_POWER else SEARCH_BLOCKS, search.rng)
+        if power == PROPOSAL_POWER:
+            break
+        sample = search.add_proposal(sample, proposal, np.full(len(experiment.shakings), SEARCH_RUNS))
+    posterior, proposals = None, []
+    for iteration in range(MAX_PROPOSALS):
+        proposals.append(proposal)
+        run_counts = search.runs_per_shaking(sample if posterior is None else posterior, runs)
+        posterior = search.extend_sample(posterior, proposals, run_counts)
+        weights = np.exp(posterior.log_weights(search.log_likelihoods(posterior))).sum(axis=0)
+        if (
+            iteration
+            and effective_sample_size(weights) >= TARGET_EFFECTIVE
+            and min_effective_without(posterior, experiment, parts, lapse) >= MIN_EFFECTIVE_WITHOUT
+        ):
+            break
+        proposal = make_proposal(posterior.unit_points, search.temper(posterior, PROPOSAL_POWER)[1], PROPOSAL_BLOCKS, search.rng)
+    assert posterior is not None
+    return posterior, effective_sample_size(weights)
+
+
+@dataclass(eq=False)
+class _Sampler:
+    """What all looks have in common, and how far they are."""
+
+    experiment: Experiment
+    family: BlockFamily
+    lapse: LapseRate
+    seed: int
+    progress: Progress | None
+    run_count: int = 0
+
+    def __post_init__(self) -> None:
+        self.rng = np.random.default_rng([self.seed, 1])
+        self.proposals: list[Proposal] = []
+        self.initial_count = INITIAL_BLOCKS * 2 ** len(self.family.axes)
+
+    def log_likelihoods(self, sample: ImportanceSample) -> FloatArray:
+        """Return ln L of each lambda and each block."""
+        return log_likelihood(sample.shares, *self.experiment.outcome_counts(), self.lapse)
+
+    def first(self) -> ImportanceSample:
+        """Return blocks all over the cube."""
+        d = len(self.family.axes)
+        unit_points = (self.rng.random(d) + quasi_random_points(self.initial_count, d)) % 1.0
+        shares = self._simulate_shares(unit_points, np.full(len(self.experiment.shakings), SEARCH_RUNS))
+        return ImportanceSample(unit_points, shares, np.zeros(self.initial_count))
+
+    def add_proposal(self, sample: ImportanceSample, proposal: Proposal, runs: IntArray) -> ImportanceSample:
+        """Return blocks with those of another cloud."""
+        self.proposals.append(proposal)
+        unit_points = np.concatenate([sample.unit_points, proposal.points])
+        shares = np.concatenate([sample.shares, self._simulate_shares(proposal.points, runs)], axis=1)
+        return ImportanceSample(unit_points, shares, _log_mixture(unit_points, self.proposals, self.initial_count))
+
+    def extend_sample(self, sample: ImportanceSample | None, proposals: list[Proposal], runs: IntArray) -> ImportanceSample:
+        """Return blocks of some clouds, the last of which are new."""
+        unit_points, shares = proposals[-1].points, self._simulate_shares(proposals[-1].points, runs)
+        if sample is not None:
+            unit_points, shares = np.concatenate([sample.unit_points, unit_points]), np.concatenate([sample.shares, shares], axis=1)
+        return ImportanceSample(unit_points, shares, _log_mixture(unit_points, proposals, 0))
+
+    def temper(self, sample: ImportanceSample, max_power: float = 1.0) -> tuple[float, FloatArray]:
+        """Return the largest power of the likelihood, up to `most`, that leaves enough blocks with a weight, and the weights."""
+        likelihoods = self.log_likelihoods(sample)
+
+        def weights(power: float) -> FloatArray:
+            logs = ImportanceSample.log_weights(replace(sample), power * likelihoods)
+            return np.exp(logs).sum(axis=0)
+
+        if effective_sample_size(weights(max_power)) >= MIN_EFFECTIVE:
+            return max_power, weights(max_power)
+        low, high = 0.0, max_power
+        for _ in range(30):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if effective_sample_size(weights(middle)) >= MIN_EFFECTIVE else (low, middle)
+        return low, weights(low)
+
+    def runs_per_shaking(self, sample: ImportanceSample, runs: int) -> IntArray:
+        """Return how many versions of each block a shaking is worth: few where all blocks that count agree, more where it is repeated."""
+        weights = self.temper(sample)[1]
+        shares = sample.shares[:, weights > 1e-4 * weights.max()]
+        is_unanimous = (shares == 0).all(axis=1) | (shares == SHARE_DENOMINATOR).all(axis=1)
+        repetitions = np.maximum(sum(self.experiment.outcome_counts()), 1.0)
+        run_counts = np.where(is_unanimous, SEARCH_RUNS, runs) * 2 ** np.ceil(np.log2(repetitions)).astype(np.int64)
+        return np.minimum(run_counts, SHARE_DENOMINATOR)
+
+    def _simulate_shares(self, unit_points: FloatArray, runs: IntArray) -> IntArray:
+        """Return how often the versions of some blocks fall under each shaking."""
+        shaking_count, run_index = len(self.experiment.shakings), self.run_count
+        self.run_count += 1
+        # nobody knows how many looks are to come: half of what there may be, at least one
+        total = shaking_count * (self.run_count + max((MAX_SEARCHES + MAX_PROPOSALS) // 2 - self.run_count, 1))
+
+        def report(count: int, _: int) -> None:
+            if self.progress is not None:
+                self.progress(shaking_count * run_index + count, total)
+
+        return outcome_shares(self.experiment, self.family, unit_points, runs, (self.seed, run_index), progress=report)
+
+
+def _log_mixture(unit_points: FloatArray, proposals: list[Proposal], initial_count: int) -> FloatArray:
+    """Return the logarithm of the density of all clouds together, as many points as each has, and of points all over the cube."""
+    counts = np.array([len(proposal.points) for proposal in proposals], dtype=np.float64)
+    logs = [np.log(n) + proposal.log_density(unit_points) for n, proposal in zip(counts, proposals, strict=True)]
+    if initial_count:
+        logs.append(np.full(len(unit_points), np.log(initial_count)))
+    log_density: FloatArray = np.logaddexp.reduce(logs, axis=0) - np.log(counts.sum() + initial_count)
+    return log_density

@@ -1,0 +1,252 @@
+"""A table of outcomes: which record shook, and whether the block fell, as somebody keeps it in a spreadsheet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from seisblock.core import checks
+from seisblock.core.errors import BodyError, InputError, ParameterError, SeisblockError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.io.csv_table import (
+    FALSE_WORDS,
+    TRUE_WORDS,
+    data_lines,
+    find_separator,
+    more_bad_rows,
+    parse_heading,
+    parse_number_cell,
+    read_text,
+    row_dict,
+    split_cells,
+)
+from seisblock.core.typing import Progress
+from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.source import Location
+from seisblock.records import Preparation, Record
+from seisblock.samples import resolve_file_or_sample, sample_names
+from seisblock.studies.fit.dataset import FELL, MOVED, Observation
+from seisblock.studies.fit.record_cache import RecordCache
+
+_NAMES = {
+    "record": ("record", "file", "motion", "記録", "波形", "ファイル", "記録名"),
+    FELL: ("fell", "fallen", "fall", "overturned", "toppled", "転倒", "転倒の有無"),
+    MOVED: ("moved", "rocked", "ロッキング", "動いた", "ロッキングの有無"),
+    "weight": ("weight", "重み"),
+    "component": ("component", "成分"),
+    "scale": ("scale", "factor", "倍率"),
+}
+"""Columns, by their headings without case, blanks and underscores."""
+
+_COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
+_HAPPENED_WORDS = TRUE_WORDS | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
+_NOT_HAPPENED_WORDS = FALSE_WORDS | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
+
+MAX_REASONS = 3
+"""Rows left out of which the reason is told."""
+
+NO_PROCESSING = Preparation()
+"""Nothing is done to a record but what its format needs."""
+
+
+@dataclass(frozen=True, eq=False)
+class OutcomeTable:
+    """The rows of a table of outcomes whose records could be read.
+
+    Parameters
+    ----------
+    observed : tuple of Observed
+    lines : tuple of int
+        The line of each.
+    kind : str
+        ``fell`` or ``moved``.
+    notes : tuple of str
+        What is to be known of the table, and of the rows that are left out.
+    records : tuple of Record
+        Each once, as they were prepared.
+    """
+
+    observed: tuple[Observation, ...]
+    lines: tuple[int, ...]
+    kind: str
+    notes: tuple[str, ...]
+    records: tuple[Record, ...]
+
+    def __len__(self) -> int:
+        return len(self.observed)
+
+    def __iter__(self) -> Iterator[Observation]:
+        return iter(self.observed)
+
+
+@dataclass(frozen=True)
+class _Row:
+    """What one row says."""
+
+    line: int
+    record: str
+    happened: bool | None
+    weight: float = 1.0
+    component: str = ""
+    scale: float = 1.0
+
+
+def read_outcomes(
+    name: Location,
+    *,
+    kind: str | None = None,
+    component: str | None = None,
+    preparation: Preparation = NO_PROCESSING,
+    read_options: ReadOptions | None = None,
+    strict: bool = False,
+    progress: Progress | None = None,
+) -> OutcomeTable:
+    """Return the outcomes of a table, with their records.
+
+    The header names the columns: ``record``, a file beside the table, or as it is found otherwise, or a bundled sample; ``fell`` or
+    ``moved`` (1, yes, true, 転倒; 0, no, false, 残存; an empty cell: nobody knows); and where needed ``weight``, ``component`` and
+    ``scale``, a factor on the record. Japanese names (記録, 転倒, 重み, 成分, 倍率) do as well; other columns are passed over.
+
+    Parameters
+    ----------
+    name : path
+        A CSV file, or the name of a bundled one.
+    kind : "fell", "moved" or None
+        Which column counts, where there are both; None: the one there is, else ``fell``.
+    component : str or None
+        Component or azimuth of rows that name none; None: the only horizontal there is.
+    preparation : Preparation
+        What is done to each record before.
+    read_options : Options
+        What is said of files that do not say it themselves.
+    strict : bool
+        Whether a row whose record cannot be read, or is doubtful, refuses the table, instead of being left out.
+    progress : callable
+        Told the number of rows read and the number in all.
+
+    Raises
+    ------
+    ParameterError
+        If the table cannot be read, a column is missing, a cell is wrong (rows are named by their lines), or no record can be read.
+
+    Examples
+    --------
+    >>> outcomes = read_outcomes("shaken_block.csv")
+    >>> len(outcomes), outcomes.kind, outcomes.observed[0].happened
+    (60, 'fell', False)
+    """
+    path, source = _path(name), str(name)
+    try:
+        outcome_kind, rows, notes = _rows(read_text(path, source), source, kind)
+    except BodyError as error:  # what all tables share is said of bodies
+        raise ParameterError(error.message) from error
+    files = RecordCache(path.parent, preparation, read_options or ReadOptions(), strict)
+    observed, lines, skipped = [], [], []
+    for count, row in enumerate(rows, start=1):
+        try:
+            motion = files.motion(row.record, row.component or component or "")
+            observed.append(Observation(motion, bool(row.happened), row.weight, row.scale, row.record))
+            lines.append(row.line)
+        except SeisblockError as error:
+            if strict:
+                raise ParameterError("{source}, line {line}: {why}", source=source, line=row.line, why=error.message) from error
+            skipped.append((row.line, error.message))
+        if progress is not None:
+            progress(count, len(rows))
+    if not observed:
+        line, reason = skipped[0]
+        text = "{source}: no record of it can be read; line {line}: {why}"
+        raise ParameterError(text, source=source, line=line, why=reason)
+    return OutcomeTable(
+        tuple(observed), tuple(lines), outcome_kind, (*notes, *_skipped_row_notes(skipped, len(rows)), *files.doubts()), files.records
+    )
+
+
+def _path(name: Location) -> Path:
+    """Return the file that a name means: a path, else a bundled table of outcomes."""
+    path = Path(checks.path(name))
+    if path.is_dir():
+        raise ParameterError("{name} is a directory: give the CSV file of outcomes", name=str(name))
+    file = resolve_file_or_sample(path, "outcomes")
+    if file is None:
+        text = "no file of outcomes {name}, and no bundled one of that name; bundled are {known}"
+        raise ParameterError(text, name=str(name), known=sample_names("outcomes"))
+    return file
+
+
+def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], list[str]]:
+    """Return which column counts, the rows of which the outcome is known, and what is to be known of the table."""
+    lines = data_lines(text)
+    if len(lines) < 2:
+        raise ParameterError("{source}: there is no outcome in it: expected a header, and one outcome on each line below it", source=source)
+    (header_line, header), body = lines[0], lines[1:]
+    separator = find_separator(header)
+    cells = split_cells(header, separator)
+    columns = [parse_heading(cell, _COLUMNS)[0] for cell in cells]
+    outcome_kind = _outcome_column(columns, cells, source, header_line, kind)
+    rows, row_errors = [], []
+    for number, line in body:
+        try:
+            rows.append(_row(row_dict(columns, split_cells(line, separator)), outcome_kind, number))
+        except InputError as error:
+            row_errors.append((number, error.message))
+    if row_errors:
+        (line_number, message), other_lines = row_errors[0], more_bad_rows([number for number, _ in row_errors[1:]])
+        raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=line_number, what=message, others=other_lines)
+    known_rows = [row for row in rows if row.happened is not None]
+    if not known_rows:
+        raise ParameterError(
+            "{source}: no outcome is known: every cell of the column {column} is empty", source=source, column=outcome_kind
+        )
+    notes: list[str] = []
+    if len(known_rows) < len(rows):
+        notes.append(lazy_gettext("{count} rows without an outcome are passed over", count=len(rows) - len(known_rows)))
+    if kind is None and {FELL, MOVED} <= set(columns):
+        notes.append(lazy_gettext("the column {column} counts; the other one is passed over", column=outcome_kind))
+    return outcome_kind, known_rows, notes
+
+
+def _outcome_column(columns: Sequence[str], cells: Sequence[str], source: str, line: int, kind: str | None) -> str:
+    """Return the column that counts, or refuse a header."""
+    for name in _NAMES:
+        if columns.count(name) > 1:
+            raise ParameterError(
+                "{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name
+            )
+    available = [name for name in (FELL, MOVED) if name in columns]
+    column = kind or (available[0] if available else FELL)
+    missing = [name for name in ("record", column) if name not in columns]
+    if missing:
+        expected = lazy_gettext("fell or moved") if not available and kind is None else column
+        raise ParameterError(
+            "{source}, line {line}: expected the columns record and {wanted}; found {found}",
+            source=source,
+            line=line,
+            wanted=expected,
+            found=list(cells),
+        )
+    return column
+
+
+def _row(row: Mapping[str, str], kind: str, line: int) -> _Row:
+    """Return what one row says."""
+    if not row.get("record"):
+        raise ParameterError("an outcome without a record: fill the cell")
+    text = row.get(kind, "")
+    if text and text.casefold() not in _HAPPENED_WORDS | _NOT_HAPPENED_WORDS:
+        raise ParameterError("{key} must be 0, 1, yes, no, true, false, 転倒 or 残存, found {text!r}", key=kind, text=text[:100])
+    result = _Row(line, row["record"], text.casefold() in _HAPPENED_WORDS if text else None, component=row.get("component", ""))
+    if row.get("weight"):
+        result = replace(result, weight=checks.non_negative("weight", parse_number_cell(row["weight"], "weight")))
+    if row.get("scale"):
+        result = replace(result, scale=checks.finite("scale", parse_number_cell(row["scale"], "scale")))
+    return result
+
+
+def _skipped_row_notes(skipped: Sequence[tuple[int, str]], rows: int) -> list[str]:
+    """Return why rows are left out: the first reasons, and how many there are."""
+    if not skipped:
+        return []
+    summary = lazy_gettext("{count} of {rows} rows are left out, because their records cannot be used", count=len(skipped), rows=rows)
+    return [summary, *(lazy_gettext("line {line}: {why}", line=line, why=reason) for line, reason in skipped[:MAX_REASONS])]

@@ -1,0 +1,73 @@
+"""The runs behind a fit: for each shaking and each block which share of the block's versions falls, or moves."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from contextlib import closing
+
+import numpy as np
+
+from seisblock.core.typing import FloatArray, IntArray, Progress
+from seisblock.models.rock.verdicts import rock_verdicts
+from seisblock.studies.fit.block_family import PERTURBATION_COUNT, BlockFamily, quasi_random_points
+from seisblock.studies.fit.dataset import FELL, Experiment
+from seisblock.studies.parallel import map_threads
+
+SHARE_DENOMINATOR = 64
+"""Shares are kept in so many parts: no block has more versions under one shaking, and the number of them divides it."""
+
+CHUNK_SIZE = 2**21
+"""Samples times runs that are followed at a time."""
+
+
+def outcome_shares(
+    experiment: Experiment,
+    family: BlockFamily,
+    unit_points: FloatArray,
+    runs: IntArray,
+    seed: tuple[int, ...],
+    *,
+    progress: Progress | None = None,
+) -> IntArray:
+    """Return how often the versions of each block fall, or move, under each shaking, in 64ths, (shakings, blocks).
+
+    The versions of a block fill the range of changes evenly, from another begin for each shaking and each block: what is by chance in one
+    share is not in another.
+
+    Parameters
+    ----------
+    experiment : Experiment
+    family : Family
+    unit_points : (n, d) array, 1
+        The blocks, as points of the unit cube.
+    runs : (shakings,) array of int
+        Versions of each block under each shaking: 1, 2, 4 ... 64.
+    seed : tuple of int
+    progress : callable
+        Told the number of shakings done and the number in all.
+    """
+
+    def work(k: int) -> IntArray:
+        shaking, run_count = experiment.shakings[k], int(runs[k])
+        offsets = np.random.default_rng((*seed, k)).random((len(unit_points), 1, PERTURBATION_COUNT))
+        shifts = 2.0 * ((offsets + quasi_random_points(run_count, PERTURBATION_COUNT)) % 1.0) - 1.0
+        happened = np.zeros(len(unit_points), dtype=np.int64)
+        size = max(1, CHUNK_SIZE // (shaking.motion.samples * run_count))
+        for first in range(0, len(unit_points), size):
+            part = slice(first, first + size)
+            params, gains = family.versions(
+                np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
+            )
+            verdicts = rock_verdicts(params, shaking.motion, gains).answered()
+            hits = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
+            happened[part] = hits.reshape(-1, run_count).sum(axis=1)
+        return happened * (SHARE_DENOMINATOR // run_count)
+
+    results: Generator[IntArray, None, None] = map_threads(work, range(len(experiment.shakings)))
+    rows = []
+    with closing(results):
+        for count, row in enumerate(results, start=1):
+            rows.append(row.astype(np.uint8))
+            if progress is not None:
+                progress(count, len(experiment.shakings))
+    return np.array(rows)

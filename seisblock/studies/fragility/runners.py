@@ -1,0 +1,135 @@
+"""Many factors on one motion, and what becomes of one body at each: the runs behind a fragility, without Python between them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.typing import BoolArray, FloatArray
+from seisblock.dynamics import integrate_many
+from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.params import rigid_body
+from seisblock.models.respond.solve import respond_params
+from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
+from seisblock.models.slide.final_slip import slip_at_rest
+from seisblock.models.slide.model import SLIDE, STICK, UNDEFINED, parameters
+from seisblock.models.slide.solve import motion_gains, raise_lift_off
+from seisblock.models.stack.solve import solve_stack
+from seisblock.records import Motion
+from seisblock.records._validation import vertical_gain
+from seisblock.studies.batch.models import SolverBody
+from seisblock.studies.fragility.damage_states import EndStates
+from seisblock.studies.parallel import map_batches, map_threads
+from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params
+from seisblock.studies.rocking.perturb import Spread, draw_samples, perturbed_rock_params
+from seisblock.studies.rocking.verdicts import parallel_verdicts
+
+Draws = FloatArray | None
+"""Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the body as it is."""
+
+Runner = Callable[[SolverBody, Motion, FloatArray, Draws], EndStates]
+"""``follow(placed, motion, factors, draws)``: the ends of all versions at the first factor, then at the next."""
+
+SPREAD = Spread(amplitude=0.0, azimuth_deg=0.0)
+"""How far versions of a rocking block differ: as `perturb` does, but for the shaking, whose intensity the curve is drawn over."""
+
+VERSIONS = ParameterVariation(amplitude=0.0, azimuth_deg=0.0)
+"""The same for `respond`."""
+
+BATCH_SIZE = 64
+"""Runs of sliding that one thread takes at a time."""
+
+
+def _rock(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+    """Return the ends of a rocking block."""
+    options = solver_body.options
+    bodies: RockBatchParams | list[RockParams]
+    if draws is None:
+        bodies = [rock_params(solver_body.body, motion, **options)]
+    else:
+        params = perturbed_rock_params(solver_body.body, motion, SPREAD, draws, **options)
+        rows = np.tile(np.arange(len(draws)), factors.size)
+        bodies = params[rows]
+    unit = np.array(bodies.gains() if isinstance(bodies, RockBatchParams) else bodies[0].gains())
+    gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
+    verdicts = parallel_verdicts(bodies, motion, gains)
+    return EndStates(overturned=verdicts.overturned, tilt_ratio=verdicts.max_rotation_ratio, gave_up=verdicts.gave_up)
+
+
+def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+    """Return the ends of a free-standing body; one that fell was moved without end."""
+    options = dict(solver_body.options)
+    unit = np.array([1.0, 0.0, vertical_gain(motion, options.pop("vertical", None))])
+    settle = options.pop("settle_s", 60.0)
+    alphas: float | FloatArray = min(rigid_body(solver_body.body).slendernesses)
+    if draws is None:
+        settings: Any = [respond_params(solver_body.body, **options)] * factors.size
+    else:
+        if not isinstance(solver_body.body, Block):
+            raise ParameterError("{name}: versions are made of blocks alone; leave `perturb` out", name=solver_body.name)
+        run_draws = np.tile(draws, (factors.size, 1))
+        settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, **options)
+        alphas = settings.blocks.slendernesses.min(axis=1)
+    gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
+    fates = respond_many(settings, motion, gains=gains, settle_s=settle)
+    slip = np.where(fates.overturned, np.inf, np.abs(fates.final_displacement_m))
+    return EndStates(fates.overturned, fates.max_rotation_rad / alphas, slip, fates.gave_up)
+
+
+def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+    """Return the ends of a sliding object: its largest slip, also after the motion, on ground at rest."""
+    base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
+    options: Mapping[str, Any] = solver_body.options
+    gravity = options.get("gravity", 9.80665)
+    unit = np.array(motion_gains(motion, options.get("vertical", False), gravity))
+    p = parameters(base, gravity)
+
+    def solve_batch(part: slice) -> tuple[FloatArray, BoolArray]:
+        """Return the largest slips of some runs, and which were given up."""
+        gains = factors[part][:, None] * unit
+        runs = integrate_many(SLIDE, motion, [p] * len(gains), np.zeros(4), STICK, gains=gains, allow_failures=True)
+        for row in np.flatnonzero(runs.final_mode == UNDEFINED)[:1]:
+            raise_lift_off(motion, float(runs.end_time[row]))
+        ends: list[float] = [
+            math.nan if failed else abs(slip_at_rest(state, mode, p))
+            for state, mode, failed in zip(runs.final.tolist(), runs.final_mode.tolist(), runs.failed.tolist(), strict=True)
+        ]
+        return np.maximum(np.maximum(runs.extrema[:, 0, 0], -runs.extrema[:, 0, 2]), ends), runs.failed
+
+    slips, failed = zip(*map_batches(solve_batch, factors.size, size=BATCH_SIZE), strict=True)
+    return EndStates(slip_m=np.concatenate(slips), gave_up=np.concatenate(failed))
+
+
+def _stack(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+    """Return the ends of a pile: whether a stone fell, and how far the one that slid most lies from its place."""
+
+    def run_one(factor: float) -> tuple[bool, float]:
+        """Return the end of one run; its slip is NaN where it was given up."""
+        scaled_motion = Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s, motion.record)
+        try:
+            outcome = solve_stack(solver_body.body, scaled_motion, **solver_body.options).outcome
+        except SolverError:
+            return False, math.nan
+        return outcome.overturned_any, math.inf if outcome.overturned_any else max(outcome.residual_slip_m.values())
+
+    ends = list(map_threads(run_one, factors.tolist()))
+    slips = np.array([slip for _, slip in ends])
+    return EndStates(overturned=np.array([fell for fell, _ in ends]), slip_m=slips, gave_up=np.isnan(slips))
+
+
+RUNNERS: dict[str, Runner] = {"respond": _respond, "rock": _rock, "slide": _slide, "stack": _stack}
+"""By the names of the solvers."""
+
+SOLVERS_WITH_VERSIONS = ("respond", "rock")
+"""Those whose bodies have versions."""
+
+
+def version_draws(runs: int, seed: int) -> Draws:
+    """Return what tells so many versions of a body apart, the same for every motion and level; None for none."""
+    return draw_samples(runs, seed) if runs else None

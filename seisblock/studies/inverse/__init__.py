@@ -1,1 +1,0 @@
-"""Shaking read back from what it did."""

@@ -1,0 +1,285 @@
+"""What one record did to what might have stood at its station, in the worst of all directions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.bodies.factory import block_for_motion
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.measures.baseline import ground_history
+from seisblock.measures.frequency import pga_pgv_frequency
+from seisblock.models.jump.chain import OVERTURNED_LANDED, OVERTURNED_ROCKING
+from seisblock.records import Component, Record, motion_of
+from seisblock.records._validation import Gain
+from seisblock.records.motion import ALL_AZIMUTHS
+from seisblock.records.process import component_at_azimuth
+from seisblock.references import COMMAND_PAPERS, papers
+from seisblock.studies.azimuths import STEP_DEG
+from seisblock.studies.batch.models import BatchModel, SolverBody, batch_model
+from seisblock.studies.batch.table import REASON, Row
+from seisblock.studies.batch.task import Plan, component_rows
+from seisblock.studies.batch.worst_azimuth import DIRECTIONAL_SOLVERS
+from seisblock.studies.parallel import left_out_versions
+from seisblock.studies.respond.azimuths import left_out_directions, respond_directions
+from seisblock.studies.respond.probability import MOVED_M, respond_probability
+from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
+from seisblock.studies.survey.overturning_rate import rate_from_stones
+from seisblock.studies.survey.shaking import Shaking
+
+
+@dataclass(frozen=True)
+class StationResult:
+    """What happened at a station; a body has no rate, a cemetery only that.
+
+    Parameters
+    ----------
+    azimuth_deg : float or None
+        The worst direction, clockwise from north.
+    rate : float or None
+        Share of the stones that fall.
+    happened : bool or None
+        Whether what the solver is asked about happened: the body overturns (``respond``, ``rock``), slips, jumps, lifts.
+    overturned : bool or None
+        None of a solver in which nothing falls.
+    probability : float or None
+        Share of the plausible versions of body and shaking that fall; None where it was not asked for.
+    max_slip_m : float or None
+        Furthest displacement of the body from where it stood; of a jump that of all its chains together.
+    max_uplift_m : float or None
+        How far a corner of a body on springs rose.
+    remarks : tuple of str
+        Directions and versions of the body that have no answer.
+    """
+
+    azimuth_deg: float | None = None
+    rate: float | None = None
+    happened: bool | None = None
+    overturned: bool | None = None
+    probability: float | None = None
+    max_slip_m: float | None = None
+    max_uplift_m: float | None = None
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def overturns_nominally(self) -> bool:
+        """Whether a body falls as it was given, where its share tells of its versions, of which none may fall."""
+        return self.probability is not None and bool(self.overturned)
+
+    @property
+    def severity(self) -> tuple[float, ...]:
+        """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement or the rise."""
+        share = self.rate if self.probability is None else self.probability
+        verdict = float(self.overturned or False), float(self.happened or False)
+        return (-1.0 if share is None else share, *verdict, self.max_slip_m or self.max_uplift_m or 0.0)
+
+
+class StationModel(Protocol):
+    """What is asked of each station: its effect, its name, and the papers behind it."""
+
+    @property
+    def name(self) -> str:
+        """What stands there."""
+
+    @property
+    def citations(self) -> tuple[str, ...]:
+        """Keys of the papers relied on."""
+
+    def evaluate(self, record: Record) -> StationResult:
+        """Return what a record does to it."""
+
+
+@dataclass(frozen=True)
+class StationBody:
+    """A body, followed in every direction where its solver looks in each, else along the horizontal components; the worst counts.
+
+    Parameters
+    ----------
+    body : Block, ScannedBody, SlidingBase, TwoLayerBlock or SpringBlock
+        Of the kind that the solver takes.
+    options : mapping
+        Of the solver: of ``respond`` its ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``,
+        ``settle_s``.
+    vertical : bool, float or None, 1
+        Whether the vertical motion acts; None: as the solver has it by itself.
+    runs, seed : int
+        Versions behind the probability (``respond``, ``rock``), 0 for none, and their seed.
+    step_deg : float
+        Degrees between the directions of ``respond``; other solvers have their own.
+    solver : str
+        ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
+    label : str
+        What it is called, where the body has no name.
+
+    Raises
+    ------
+    ParameterError
+        If the solver is none of these, or has no versions to tell a probability of.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> effect = StationBody(0.1, {}, solver="slide", label="vase").evaluate(read("hanmer_springs_2016"))
+    >>> effect.happened, effect.overturned, round(1000 * effect.max_slip_m)
+    (True, None, 55)
+    """
+
+    body: Any
+    options: Mapping[str, Any]
+    vertical: Gain | None = None
+    runs: int = 0
+    seed: int = 0
+    step_deg: float = STEP_DEG
+    solver: str = "respond"
+    label: str = ""
+
+    def __post_init__(self) -> None:
+        if self.solver not in DISPLACEMENT_COLUMNS:
+            raise ParameterError(
+                "{solver!r} follows no body at a station; {known} do", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
+            )
+        if self.runs and batch_model(self.solver).chance is None:
+            raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=self.solver)
+
+    @property
+    def name(self) -> str:
+        """What stands there."""
+        return self.label or getattr(self.body, "name", "") or lazy_gettext("object")
+
+    @property
+    def citations(self) -> tuple[str, ...]:
+        """Keys of the papers relied on."""
+        return papers("all modes") if self.solver == "respond" else COMMAND_PAPERS[self.solver]
+
+    @property
+    def is_directional(self) -> bool:
+        """Whether every direction is looked in."""
+        return self.solver in DIRECTIONAL_SOLVERS
+
+    def check_options(self) -> None:
+        """Refuse options that the solver refuses at every station: it is asked once, on ground that is still for 4 samples.
+
+        Raises
+        ------
+        InputError
+            The solver's own.
+        """
+        zeros = np.zeros(4)
+        rows = (Component("NS", zeros, 0.0), Component("EW", zeros, 90.0), Component("UD", zeros))
+        self.evaluate(Record(rows, 0.01))
+
+    def evaluate(self, record: Record) -> StationResult:
+        """Return what a record does to the body where that is worst."""
+        if self.solver == "respond":
+            return self._respond_result(record)
+        options = {**self.options, **({} if self.vertical is None else {"vertical": self.vertical})}
+        components = (ALL_AZIMUTHS,) if self.is_directional else ()
+        plan = Plan(self.solver, (SolverBody(self.name, self.body, options),), components, runs=self.runs, seed=self.seed)
+        rows = component_rows(record, plan)
+        results = [_result_from_row(row, plan.model, record) for row in rows if not row.get(REASON)]
+        if not results:
+            raise ParameterError("{why}", why=rows[0][REASON])
+        return max(results, key=lambda effect: effect.severity)
+
+    def _respond_result(self, record: Record) -> StationResult:
+        """Return what became of a free-standing body in the worst direction; the share is that of its versions there."""
+        found = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
+        worst, share, remarks = found[0], None, left_out_directions(found)
+        if self.runs:
+            motion = motion_of(record, f"{worst.azimuth_deg:g}")
+            block = block_for_motion(self.body, motion)
+            assert isinstance(block, Block)
+            chance = respond_probability(
+                block, motion, vertical=self.vertical, runs=self.runs, seed=self.seed, moved_m=MOVED_M, **self.options
+            )
+            share, warning = chance.overturned, left_out_versions(chance.no_answer, chance.runs)
+            remarks += [] if warning is None else [warning]
+        return StationResult(
+            worst.azimuth_deg,
+            happened=worst.overturned,
+            overturned=worst.overturned,
+            probability=share,
+            max_slip_m=worst.max_displacement_m,
+            remarks=tuple(remarks),
+        )
+
+
+DISPLACEMENT_COLUMNS: Mapping[str, str | None] = {
+    "respond": "max_displacement_m",
+    "rock": None,
+    "slide": "max_slip_m",
+    "jump": "total_displacement_m",
+    "uplift": "max_uplift_m",
+}
+"""The solvers that follow a body at a station, and the column of a batch that tells how far it moved or rose."""
+
+
+def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResult:
+    """Return a row of a batch as the effect at a station."""
+    name, column = str(row["component"]), DISPLACEMENT_COLUMNS[model.name]
+    distance = None if column is None or row[column] is None else abs(row[column])
+    azimuths = {component.code: component.azimuth_deg for component in record.components}
+    overturned = row.get("overturned")
+    if model.name == "jump":
+        overturned = row["outcome"] in (OVERTURNED_ROCKING, OVERTURNED_LANDED)
+    return StationResult(
+        azimuths[name] if name in azimuths else float(name),
+        happened=model.happened(row),
+        overturned=overturned,
+        probability=row.get("probability_overturned"),
+        max_slip_m=None if column == "max_uplift_m" else distance,
+        max_uplift_m=distance if column == "max_uplift_m" else None,
+    )
+
+
+@dataclass(frozen=True)
+class StationCemetery:
+    """A cemetery, judged by PGA and equivalent frequency in every direction.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    method : Method
+        How a stone is judged; by a criterion that needs no motion.
+    step_deg : float
+        Degrees between directions.
+    """
+
+    cemetery: Cemetery
+    method: AssessmentMethod = field(default_factory=AssessmentMethod)
+    step_deg: float = STEP_DEG
+
+    def __post_init__(self) -> None:
+        if self.method.criterion == "simulate":
+            raise ParameterError("stations are judged by a criterion, furukawa or rigid: leave the simulation out")
+
+    @property
+    def name(self) -> str:
+        """What stands there."""
+        return self.cemetery.name
+
+    @property
+    def citations(self) -> tuple[str, ...]:
+        """Keys of the papers relied on."""
+        return self.method.citations
+
+    def evaluate(self, record: Record) -> StationResult:
+        """Return which share falls in the direction in which most do; of equal shares, that of the larger PGA."""
+        rows = [component_at_azimuth(record, azimuth).acceleration for azimuth in (0.0, 90.0)]
+        north, east = (ground_history(row, record.dt) for row in rows)
+        worst = (-1.0, 0.0, 0.0)
+        for azimuth in np.arange(0.0, 180.0, self.step_deg).tolist():
+            cosine, sine = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
+            pga = float(np.abs(cosine * rows[0] + sine * rows[1]).max())
+            pgv = float(np.abs(cosine * north.velocity + sine * east.velocity).max())
+            frequency = pga_pgv_frequency(pga, pgv)
+            if frequency is not None and pga > 0.0:
+                falls = assess_stones(self.cemetery, Shaking(pga, frequency), self.method)
+                worst = max(worst, (rate_from_stones(falls).rate, pga, azimuth))
+        return StationResult(worst[2] if worst[0] >= 0.0 else None, max(worst[0], 0.0))

@@ -1,0 +1,307 @@
+"""Station by station: what was measured, what it did, and where that is; the worst first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from datetime import datetime
+from functools import partial
+from itertools import groupby
+from os import PathLike
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from seisblock.core import checks
+from seisblock.core.errors import ComponentError, KindError, ParameterError, SeisblockError
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.measures.baseline import ground_history
+from seisblock.measures.intensity import jma_intensity
+from seisblock.measures.peaks import peak_acceleration, peak_velocity
+from seisblock.readers.discover import RecordSource, iter_records
+from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.source import Location
+from seisblock.records import Preparation, Record
+from seisblock.records.qc_report import qc_summary, require_clean
+from seisblock.records.site import (
+    Earthquake,
+    epicentral_distance_km,
+    format_local_time,
+    get_earthquake,
+    get_site,
+    matches_station,
+    valid_coordinates,
+)
+from seisblock.studies.map.earthquakes import are_different_earthquakes, describe_earthquake
+from seisblock.studies.map.station_response import StationBody, StationModel, StationResult
+from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
+
+NO_PROCESSING = Preparation()
+"""Nothing is done to a record but what its format needs."""
+
+OUTLINE_POINTS = 160
+"""Of an outline."""
+
+
+@dataclass(frozen=True)
+class StationReport:
+    """One station.
+
+    Parameters
+    ----------
+    record : str
+        File name.
+    station, name : str
+        Empty where the file has none.
+    latitude, longitude : float or None
+        Degrees north and east; None where the file does not say: the station is listed, and on no map.
+    epicentral_distance_km : float or None
+    local_start : str
+        Time of the first sample on the network's own clock.
+    pga_m_s2, pgv_m_s : float or None
+        The larger of the horizontal components.
+    jma_intensity : float or None, 1
+        None where it needs components, or samples, that are not there.
+    effect : StationEffect
+    failure : str or None
+        Why there is no answer, or no effect.
+    doubts : tuple of str
+        What a careful reader notices about the record, and which directions or versions of the body have no answer.
+    history : tuple of str
+        What was done to it, the storey on which a body stands among it.
+    earthquake : Earthquake or None
+    origin_told : str
+        When that was on the network's own clock.
+    outline : tuple of pairs of float, m/s^2
+        Least and largest acceleration of the horizontal of the larger peak, in equal stretches of the record.
+    duration_s : float
+        That of the record.
+    start : datetime or None
+        Of the record, UTC.
+    """
+
+    record: str
+    station: str = ""
+    name: str = ""
+    latitude: float | None = None
+    longitude: float | None = None
+    epicentral_distance_km: float | None = None
+    local_start: str = ""
+    pga_m_s2: float | None = None
+    pgv_m_s: float | None = None
+    jma_intensity: float | None = None
+    effect: StationResult = field(default_factory=StationResult)
+    failure: str | None = None
+    doubts: tuple[str, ...] = ()
+    history: tuple[str, ...] = ()
+    earthquake: Earthquake | None = None
+    origin_told: str = ""
+    outline: tuple[tuple[float, float], ...] = ()
+    duration_s: float = 0.0
+    start: datetime | None = None
+
+    @property
+    def is_mapped(self) -> bool:
+        """Whether it is known where the station is, and what was measured there."""
+        return valid_coordinates(self.latitude, self.longitude) is not None and self.pga_m_s2 is not None
+
+    @property
+    def label(self) -> str:
+        """Code and name of the station, else the file's name."""
+        return " ".join(part for part in (self.station, self.name) if part) or self.record
+
+
+@dataclass(frozen=True)
+class Stations:
+    """The stations of one earthquake, the worst first, those without an answer last.
+
+    Parameters
+    ----------
+    answers : tuple of StationAnswer
+    earthquake : Earthquake or None
+    origin_told : str
+        When that was on the clock of the network that tells it.
+    """
+
+    answers: tuple[StationReport, ...]
+    earthquake: Earthquake | None
+    origin_told: str = ""
+
+    @property
+    def mapped(self) -> tuple[StationReport, ...]:
+        """Those of which it is known where they are."""
+        return tuple(answer for answer in self.answers if answer.is_mapped)
+
+
+Station: TypeAlias = "Location | RecordSource | Record"
+"""What a station may be given as: names, a recording that is yet to be read, or a record."""
+
+
+def survey_stations(
+    records: Station | Iterable[Station],
+    subject: StationModel | None = None,
+    *,
+    preparation: Preparation = NO_PROCESSING,
+    read_options: ReadOptions | None = None,
+    strict: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Stations:
+    """Return what each station of an earthquake measured, and what that did to a body or a cemetery.
+
+    A record that cannot be read, and one with which a subject can do nothing, is an answer with its reason; the others are answered.
+
+    Parameters
+    ----------
+    records : path, RecordSource or Record, or several
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; taken as they are needed.
+    subject : StandingBody, StandingStones or None
+        What stands at each station; None for what was measured alone.
+    preparation : Preparation
+        What is done to each record before.
+    read_options : Options
+        What the caller says of files that do not say it themselves.
+    strict : bool
+        Whether a record about which there is any doubt has no answer.
+    workers : int
+        Threads; as many as there are cores when left out.
+    progress : callable
+        Told the number of stations done, and the number known of.
+
+    Raises
+    ------
+    ParameterError
+        If the records are of two earthquakes, or there is none, or a solver refuses an option of the body whatever the station.
+
+    Examples
+    --------
+    >>> found = survey_stations("hanmer_springs_2016")
+    >>> found.answers[0].station, found.answers[0].latitude, round(found.answers[0].jma_intensity, 1)
+    ('HSES', -42.52333, 5.4)
+    """
+    checks.instance(preparation, Preparation)
+    read_options = read_options or ReadOptions()
+    if isinstance(subject, StationBody):
+        subject.check_options()
+    work = partial(_assess_station, subject=subject, preparation=preparation, reading=read_options, strict=strict)
+    reports: list[StationReport] = []
+    reference: StationReport | None = None
+    for report in _with_progress(
+        map_threads(work, _recordings(records, read_options), workers=workers, max_pending=MAX_PENDING_RECORDS), progress
+    ):
+        if report is None:
+            continue
+        reference = _check_same_earthquake(reference, report)
+        reports.append(report)
+    if not reports and read_options.station is not None:
+        raise ParameterError("no station {station!r} among these records", station=read_options.station)
+    if not reports:
+        raise ParameterError("there is no record: name files, folders or bundles of one earthquake")
+    reports.sort(key=lambda item: (item.pga_m_s2 is not None, *item.effect.severity, item.pga_m_s2 or 0.0), reverse=True)
+    return Stations(tuple(reports), reference.earthquake if reference else None, reference.origin_told if reference else "")
+
+
+def _recordings(records: Station | Iterable[Station], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
+    """Yield what is read already or about to be, and what names stand for."""
+    single = isinstance(records, (str, PathLike, RecordSource, Record))
+    if not single and not isinstance(records, Iterable):
+        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(records))
+    sources: Iterable[Any] = [records] if single else records  # type: ignore[assignment]
+    for is_name, group in groupby(sources, key=lambda source: isinstance(source, (str, PathLike))):
+        if is_name:
+            yield from iter_records([str(source) for source in group], read_options)
+        else:
+            yield from group
+
+
+def _with_progress(reports: Iterable[StationReport | None], progress: Progress | None) -> Iterator[StationReport | None]:
+    """Yield answers, and tell how many there are so far."""
+    for count, report in enumerate(reports, start=1):
+        if progress is not None:
+            progress(count, count)
+        yield report
+
+
+def _assess_station(
+    recording: RecordSource | Record, *, subject: StationModel | None, preparation: Preparation, reading: ReadOptions, strict: bool
+) -> StationReport | None:
+    """Return the answer of one station, None for one that was not asked for."""
+    if not isinstance(recording, (RecordSource, Record)):
+        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(recording))
+    name = recording.name if isinstance(recording, RecordSource) else recording.source.rsplit("/", 1)[-1]
+    try:
+        record = recording.read(reading) if isinstance(recording, RecordSource) else recording
+        if reading.station is not None and not matches_station(record, reading.station):
+            return None
+        if strict:
+            require_clean(record)
+        prepared = preparation.apply(record)
+    except SeisblockError as error:
+        is_other_station = reading.station is not None and isinstance(error, ComponentError)  # a file without that station
+        return None if is_other_station else StationReport(name, failure=error.message)
+    site, earthquake = get_site(prepared), get_earthquake(prepared)
+    site_fields: dict[str, object] = {
+        "station": site.code,
+        "name": site.name,
+        "latitude": site.latitude_deg,
+        "longitude": site.longitude_deg,
+        "epicentral_distance_km": epicentral_distance_km(prepared),
+        "start": prepared.start,
+        "local_start": format_local_time(prepared, prepared.start),
+        "doubts": tuple(qc_summary([prepared])),
+        "history": prepared.history,
+        "earthquake": earthquake,
+        "origin_told": "" if earthquake is None else format_local_time(prepared, earthquake.origin_time),
+    }
+    try:
+        measured_fields = _measure_record(prepared)
+    except SeisblockError as error:
+        return StationReport(name, **site_fields, failure=error.message)  # type: ignore[arg-type]
+    try:
+        effect, failure = subject.evaluate(prepared) if subject is not None else StationResult(), None
+    except SeisblockError as error:
+        effect, failure = StationResult(), error.message
+    site_fields["doubts"] = (*qc_summary([prepared]), *effect.remarks)
+    return StationReport(name, **site_fields, **measured_fields, effect=effect, failure=failure)  # type: ignore[arg-type]
+
+
+def _measure_record(record: Record) -> dict[str, Any]:
+    """Return peaks, intensity and outline of a record."""
+    rows = [component.acceleration for component in record.horizontals]
+    if not rows:
+        raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+    peaks = [peak_acceleration(row)[0] for row in rows]
+    return {
+        "pga_m_s2": max(peaks),
+        "outline": _outline(rows[peaks.index(max(peaks))]),
+        "duration_s": record.duration_s,
+        "pgv_m_s": max(peak_velocity(ground_history(row, record.dt), record.dt) for row in rows),
+        "jma_intensity": jma_intensity(record),
+    }
+
+
+def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
+    """Return least and largest value of a row in equal stretches."""
+    starts = np.unique(np.linspace(0, row.size, min(OUTLINE_POINTS, row.size), endpoint=False).astype(int))
+    return tuple(zip(np.minimum.reduceat(row, starts).tolist(), np.maximum.reduceat(row, starts).tolist(), strict=True))
+
+
+def _check_same_earthquake(reference: StationReport | None, report: StationReport) -> StationReport | None:
+    """Return the station that tells most of the earthquake of all so far, and refuse another earthquake."""
+    if report.earthquake is None or reference is None or reference.earthquake is None:
+        return reference if report.earthquake is None else report
+    if are_different_earthquakes(reference.earthquake, report.earthquake):
+        raise ParameterError(
+            "these records are of two earthquakes: {one} ({first}) and {other} ({second}): give those of one",
+            one=describe_earthquake(reference.earthquake),
+            first=reference.label,
+            other=describe_earthquake(report.earthquake),
+            second=report.label,
+        )
+    return max(reference, report, key=_earthquake_detail)
+
+
+def _earthquake_detail(report: StationReport) -> int:
+    """Return how much of what tells two earthquakes apart a station tells: the time, the place."""
+    earthquake = report.earthquake
+    return 0 if earthquake is None else (earthquake.origin_time is not None) + (earthquake.place is not None)

@@ -1,0 +1,247 @@
+"""What fallen gravestones say of the shaking between stations: each surveyed place beside the stations around it."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from os import PathLike
+from pathlib import Path
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.io.files import read_bytes
+from seisblock.records.site import great_circle_km, valid_coordinates
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.survey.assumptions import Assumptions
+from seisblock.studies.survey.estimate import ShakingEstimate, estimate_shaking
+from seisblock.studies.survey.likelihood import counted_survey
+
+COLUMNS = {
+    "place": ("place", "場所", "地点"),
+    "latitude": ("latitude", "緯度"),
+    "longitude": ("longitude", "経度"),
+    "stones": ("stones", "墓石", "墓石数"),
+    "fallen": ("fallen", "転倒", "転倒数"),
+}
+"""Headings of a list of surveys."""
+
+STATION_CONTRADICTION = N_(
+    "{place} and station {station}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} by the stones, "
+    "{intensity:.1f} measured"
+)
+PLACE_CONTRADICTION = N_(
+    "{one} and {other}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} and {lower:.1f} to {higher:.1f} by their "
+    "stones"
+)
+
+MAX_NEIGHBOURS = 3
+"""Stations that tell what the shaking at a place may have been, weighted by the inverse of the distance."""
+
+MAX_NEIGHBOUR_KM = 100.0
+"""Stations further from a place tell nothing of the shaking there."""
+
+MAX_COMPARISON_KM = 10.0
+"""Places further apart need not have felt the same."""
+
+INTENSITY_TOLERANCE = 0.5
+"""How far the intensity of a station so near may lie outside of what the stones tell: half a step of JMA's scale."""
+
+
+@dataclass(frozen=True)
+class SurveyedPlace:
+    """A cemetery as it was found.
+
+    Parameters
+    ----------
+    place : str
+    latitude, longitude : float, degrees
+        North and east.
+    stones, fallen : int
+    """
+
+    place: str
+    latitude: float
+    longitude: float
+    stones: int
+    fallen: int
+
+
+@dataclass(frozen=True)
+class Neighbour:
+    """A station near a surveyed place.
+
+    Parameters
+    ----------
+    station : str
+    distance_km : float
+    jma_intensity : float, 1
+    """
+
+    station: str
+    distance_km: float
+    jma_intensity: float
+
+
+@dataclass(frozen=True)
+class SurveyComparison:
+    """What a surveyed place says, beside what the stations around it measured.
+
+    Parameters
+    ----------
+    surveyed : SurveyedPlace
+    estimate : ShakingEstimate
+        Of the fallen stones alone.
+    neighbours : tuple of Neighbour
+        The nearest stations with an intensity, the nearest first, none further than ``REACH_KM``.
+    expected_intensity : float or None, 1
+        Theirs, weighted by the inverse of the distance.
+    residual : float or None, 1
+        The estimate's intensity less that; None where the stones tell only a bound.
+    """
+
+    surveyed: SurveyedPlace
+    estimate: ShakingEstimate
+    neighbours: tuple[Neighbour, ...]
+    expected_intensity: float | None
+    residual: float | None
+
+
+def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
+    """Return the surveyed places of a CSV: ``place``, ``latitude``, ``longitude``, ``stones``, ``fallen`` (場所, 緯度, 経度, 墓石, 転倒).
+
+    Raises
+    ------
+    BodyError
+        If the file cannot be read, a column is missing, or a row holds what cannot be; the message names the line.
+    """
+    path = Path(name)
+    data = read_bytes(path, str(path), BodyError)
+    rows = list(csv.reader(io.StringIO(_text(path, data))))
+    header = [cell.strip().lower() for cell in rows[0]] if rows else []
+    column_indices = {key: next((header.index(word) for word in words if word in header), None) for key, words in COLUMNS.items()}
+    missing = [key for key, index in column_indices.items() if index is None]
+    if missing:
+        raise BodyError(
+            "{name}: a list of surveys needs the columns {columns}; it lacks {missing}", name=path, columns=list(COLUMNS), missing=missing
+        )
+    result = [
+        _place(
+            path,
+            number,
+            {key: row[index].strip() if index is not None and index < len(row) else "" for key, index in column_indices.items()},
+        )
+        for number, row in enumerate(rows[1:], start=2)
+        if any(cell.strip() for cell in row)
+    ]
+    if not result:
+        raise BodyError("{name}: the list of surveys names no place", name=path)
+    return tuple(result)
+
+
+def _text(path: Path, data: bytes) -> str:
+    """Return the text of a file in UTF-8 or Shift-JIS."""
+    for encoding in ("utf-8-sig", "cp932"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    raise BodyError("{name} is not text (neither UTF-8 nor Shift-JIS)", name=path)
+
+
+def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
+    """Return one surveyed place."""
+    try:
+        latitude, longitude = float(cells["latitude"]), float(cells["longitude"])
+        stones, fallen = int(cells["stones"]), int(cells["fallen"])
+    except ValueError:
+        raise BodyError("{name}, line {line}: expected degrees and whole numbers of stones, found {found}", name=path, line=line,
+                        found=list(cells.values())) from None  # fmt: skip
+    if valid_coordinates(latitude, longitude) is None:
+        raise BodyError("{name}, line {line}: {place} lies at {latitude}, {longitude}, which is not on the Earth", name=path, line=line,
+                        place=cells["place"], latitude=latitude, longitude=longitude)  # fmt: skip
+    if not 0 <= fallen <= stones or stones == 0:
+        raise BodyError(
+            "{name}, line {line}: {fallen} of {stones} stones cannot have fallen", name=path, line=line, fallen=fallen, stones=stones
+        )
+    return SurveyedPlace(cells["place"] or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
+
+
+def compare_surveys(
+    surveyed: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
+) -> tuple[SurveyComparison, ...]:
+    """Return what each surveyed place says, beside the stations around it, in the order given.
+
+    Parameters
+    ----------
+    surveyed : iterable of SurveyedPlace
+    station_survey : Stations
+    cemetery : Cemetery
+        The population of stones of which each survey counted some.
+    assumptions : Assumptions
+        Behind the estimates.
+    """
+    stations = [answer for answer in station_survey.mapped if answer.jma_intensity is not None]
+    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in surveyed)
+
+
+def _compare_place(
+    place: SurveyedPlace, stations: Sequence[StationReport], cemetery: Cemetery, assumptions: Assumptions | None
+) -> SurveyComparison:
+    """Return what one surveyed place says."""
+    estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None, assumptions)
+    neighbours = (
+        Neighbour(station.station or station.record, _distance_km(place, station), station.jma_intensity)
+        for station in stations
+        if station.jma_intensity is not None
+    )
+    nearest = sorted(
+        (station for station in neighbours if station.distance_km <= MAX_NEIGHBOUR_KM), key=lambda station: station.distance_km
+    )[:MAX_NEIGHBOURS]
+    if not nearest:
+        return SurveyComparison(place, estimate, (), None, None)
+    weights = [1.0 / max(station.distance_km, 0.1) for station in nearest]
+    expected = sum(weight * station.jma_intensity for weight, station in zip(weights, nearest, strict=True)) / sum(weights)
+    residual = None if estimate.jma_intensity is None else estimate.jma_intensity - expected
+    return SurveyComparison(place, estimate, tuple(nearest), expected, residual)
+
+
+def _distance_km(place: SurveyedPlace, station: StationReport) -> float:
+    """Return how far a place is from a station, km."""
+    return great_circle_km((place.latitude, place.longitude), (station.latitude or 0.0, station.longitude or 0.0))
+
+
+def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
+    """Return the pairs that cannot both be right, a sentence each: places near each other, or a place and a station.
+
+    Two surveyed places contradict each other where their intervals of intensity have nothing in common, a place and a station where the
+    station's intensity lies more than ``ALIKE`` outside the place's interval; pairs further apart than ``NEAR_KM`` are not compared.
+
+    Parameters
+    ----------
+    answers : sequence of SurveyAnswer
+    """
+    messages: list[str] = []
+    for answer in answers:
+        low, high = _interval(answer)
+        for item in answer.neighbours:
+            if item.distance_km <= MAX_COMPARISON_KM and not low - INTENSITY_TOLERANCE <= item.jma_intensity <= high + INTENSITY_TOLERANCE:
+                values = {"low": low, "high": high, "distance": item.distance_km, "intensity": item.jma_intensity}
+                messages.append(lazy_gettext(STATION_CONTRADICTION, place=answer.surveyed.place, station=item.station, **values))
+    for first, second in combinations(answers, 2):
+        (low, high), (lower, higher) = _interval(first), _interval(second)
+        coordinates = [(item.surveyed.latitude, item.surveyed.longitude) for item in (first, second)]
+        distance = great_circle_km(coordinates[0], coordinates[1])
+        if distance <= MAX_COMPARISON_KM and (low > higher or lower > high):
+            values = {"low": low, "high": high, "lower": lower, "higher": higher, "distance": distance}
+            messages.append(lazy_gettext(PLACE_CONTRADICTION, one=first.surveyed.place, other=second.surveyed.place, **values))
+    return messages
+
+
+def _interval(answer: SurveyComparison) -> tuple[float, float]:
+    """Return the interval of intensity of a survey, open where the stones tell only a bound: 0 and 7.5 end JMA's scale."""
+    low, high = answer.estimate.jma_intensity_interval
+    return 0.0 if low is None else low, 7.5 if high is None else high

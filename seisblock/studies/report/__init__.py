@@ -1,0 +1,1 @@
+"""Body models shown in a report."""

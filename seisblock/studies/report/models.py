@@ -1,0 +1,134 @@
+"""What a report is about: one body as every model that can follow it sees it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.factory import block_from_table, table_friction, table_restitution
+from seisblock.bodies.kinds import of_kind
+from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
+from seisblock.bodies.spring_factory import PAPER_BETA, PAPER_DAMPING
+from seisblock.bodies.toml import read_body_toml
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_table, two_layer_from_table
+from seisblock.core.errors import BodyError
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.units import parse_length
+
+_SIZE_PATTERN = re.compile(r"^\s*([\d.]+\s*[^\W\d]*?)\s*[x×X]\s*([\d.]+\s*[^\W\d]*)\s*$")
+
+
+@dataclass(frozen=True)
+class BodyModels:
+    """One body.
+
+    Parameters
+    ----------
+    name : str
+    block : Block
+        As one rigid block, for rocking.
+    restitution : float or None
+        Its own; None for that of its angular momentum.
+    layers, contact : TwoLayerBlock, Contact, or None
+        As a two-layer block, for the jump.
+    springs : SpringBlock or None
+        On corner springs, for uplift.
+    mu, mu_kinetic : float or None
+        Friction under it, for sliding; None when nothing is known of it.
+    """
+
+    name: str
+    block: Block
+    restitution: float | None = None
+    layers: TwoLayerBlock | None = None
+    contact: Contact | None = None
+    springs: SpringBlock | None = None
+    mu: float | None = None
+    mu_kinetic: float | None = None
+
+
+def is_sizes(text: str) -> bool:
+    """Return whether a text names a body by its width and height."""
+    return _SIZE_PATTERN.match(text) is not None
+
+
+def body_models(
+    text: str,
+    *,
+    side: str = "short",
+    kind: str = "block",
+    mu: float | None = None,
+    mu_kinetic: float | None = None,
+    frequency_vertical: float | None = None,
+) -> BodyModels:
+    """Return the body a text names.
+
+    Parameters
+    ----------
+    text : str
+        A bundled body, a TOML file, or a width and a height such as ``24cmx72cm``.
+    side : "short" or "long"
+        Side of a two-layer body along the motion.
+    kind : str
+        Kind of a body given by its sizes, see :data:`~seisblock.bodies.kinds.KINDS`.
+    mu, mu_kinetic : float
+        Friction under the body; a body's own where left out.
+    frequency_vertical : float, Hz
+        Vertical frequency on corner springs, for uplift, with the horizontal stiffness and damping of [Okumura1987]_'s figures.
+
+    Raises
+    ------
+    BodyError
+        If there is no such body, or its sizes are not possible.
+
+    Examples
+    --------
+    >>> body_models("24cm x 72cm").block.height
+    0.72
+    """
+    sizes = _SIZE_PATTERN.match(text)
+    layers = own_contact = None
+    own_friction: tuple[float | None, float | None] = (None, None)
+    name: str
+    if sizes:
+        width, height = (parse_length(part, quantity=lazy_gettext("body {text}", text=text)) for part in sizes.groups())
+        block, own_restitution = of_kind(Block(width, height), kind), None
+        name = lazy_gettext("block {width:g} x {height:g} m", width=width, height=height)
+    else:
+        table = read_body_toml(text)
+        if table.get("kind") not in ("block", "two-layer"):
+            raise BodyError(
+                "{text} is no body of one piece: expected kind block or two-layer, found {found!r}", text=text, found=table.get("kind")
+            )
+        block, own_restitution = block_from_table(table, side=side), table_restitution(table, text)
+        name = block.name
+        if table["kind"] == "two-layer":
+            layers, contact_values = two_layer_from_table(table, side), contact_from_table(table)
+            own_contact = Contact(**contact_values) if "mu" in contact_values else None
+        own_friction = table_friction(table, text)
+    if mu is not None:
+        block = block.without_ranges("mu")
+    static = own_friction[0] if mu is None else mu
+    kinetic = mu_kinetic if mu_kinetic is not None else (static if mu is not None or own_friction[1] is None else own_friction[1])
+    return BodyModels(
+        name,
+        block,
+        own_restitution,
+        layers if own_contact else None,
+        own_contact,
+        _make_spring_block(block, frequency_vertical),
+        static,
+        kinetic,
+    )
+
+
+def _make_spring_block(block: Block, frequency: float | None) -> SpringBlock | None:
+    """Return the block on corner springs of a vertical frequency, Hz."""
+    if frequency is None:
+        return None
+    depth = block.width if block.depth is None else block.depth
+    mass = block.mass or REFERENCE_MASS
+    return SpringBlock.from_frequency(
+        block.width, depth, block.height, frequency_vertical=frequency, beta=PAPER_BETA, mass=mass, damping=PAPER_DAMPING
+    )

@@ -1,0 +1,223 @@
+"""Rocking and overturning spectra: one record, and rectangular blocks of all sizes and slendernesses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Unpack
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.block_array import BlockArray, rectangular_blocks
+from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
+from seisblock.core import checks
+from seisblock.core._display import PlotMixin
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.rock.params import RockOptions, rock_batch_params
+from seisblock.records import Motion, Record
+from seisblock.studies.azimuths import make_azimuth_sweep
+from seisblock.studies.rocking.verdicts import parallel_verdicts
+
+STEP_DEG = 10.0
+"""Between the directions of a spectrum, unless told otherwise: there are as many spectra to compute."""
+
+AFTER_RECORD_S = 1e9
+"""Time of a fall that energy decides after the record, s."""
+
+
+@dataclass(frozen=True, eq=False)
+class RockingSpectrum(PlotMixin):
+    """The largest lean over a grid of rectangular blocks.
+
+    Parameters
+    ----------
+    size_m : (n,) array, m
+        2R, the diagonal of the block.
+    frequency_parameter_rad_s : (n,) array, rad/s
+        p = sqrt(3 g/(4 R)) of the same blocks.
+    slenderness_rad : (m,) array, rad
+        alpha = atan(B/H).
+    max_rotation_ratio : (n, m) array
+        Largest lean over alpha; pi/2 over alpha where the block overturns.
+    overturned : (n, m) array of bool
+    azimuths_deg : (k,) array, degrees, or None
+        The directions that were looked in, clockwise from north, where it is one of all of them: the largest lean is then that of the worst
+        direction, and a block has overturned that falls in any.
+    overturning_rate : (n, m) array or None
+        Share of those directions in which a block falls.
+    worst_azimuth_deg : (n, m) array, degrees, or None
+        That in which it falls first, or leans furthest.
+    """
+
+    size_m: FloatArray
+    frequency_parameter_rad_s: FloatArray
+    slenderness_rad: FloatArray
+    max_rotation_ratio: FloatArray
+    overturned: BoolArray
+    azimuths_deg: FloatArray | None = None
+    overturning_rate: FloatArray | None = None
+    worst_azimuth_deg: FloatArray | None = None
+
+
+def rocking_spectrum(
+    sizes: ArrayLike,
+    slendernesses: ArrayLike,
+    motion: Motion,
+    *,
+    inset: EdgeWear = SHARP_EDGES,
+    progress: Progress | None = None,
+    **options: Unpack[RockOptions],
+) -> RockingSpectrum:
+    """Return the rocking spectrum of a motion: peak lean over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
+
+    Parameters
+    ----------
+    sizes : (n,) array, m
+        2R, positive.
+    slendernesses : (m,) array, rad
+        alpha, between 0 and pi/2; of the block as drawn, as 2R is.
+    motion : Motion
+    inset : Inset
+        How far the edges are worn, per side; leans are then told over the alpha that is left.
+    progress : callable
+        Told the number of runs done and the number in all.
+    options
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+
+    Raises
+    ------
+    ParameterError
+        If a size, a slenderness or an option is out of range, or there is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> rocking_spectrum([1.0, 2.0], [0.3], pulse).max_rotation_ratio.round(2).tolist()
+    [[5.24], [0.43]]
+    """
+    diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
+    params = rock_batch_params(blocks, motion, **options)
+    verdicts = parallel_verdicts(params, motion, params.gains(), progress=progress)
+    shape = diagonal.size, alpha.size
+    p = np.sqrt(1.5 * params.gravity / diagonal)
+    return RockingSpectrum(diagonal, p, alpha, verdicts.max_rotation_ratio.reshape(shape), verdicts.overturned.reshape(shape))
+
+
+def rocking_spectrum_all_azimuths(
+    sizes: ArrayLike,
+    slendernesses: ArrayLike,
+    record: Record,
+    *,
+    step_deg: float = STEP_DEG,
+    inset: EdgeWear = SHARP_EDGES,
+    progress: Progress | None = None,
+    **options: Unpack[RockOptions],
+) -> RockingSpectrum:
+    """Return the rocking spectrum of a record in the worst of its directions, and in how many of them each block falls.
+
+    Parameters
+    ----------
+    sizes, slendernesses : (n,), (m,) arrays, m and rad
+        As of :func:`rocking_spectrum`.
+    record : Record
+        With two horizontal components of known azimuths.
+    step_deg : float
+        Degrees between directions, over half the circle: the blocks are the same to both sides.
+    inset, progress, options
+        As of :func:`rocking_spectrum`.
+
+    Raises
+    ------
+    ParameterError
+        If a size, a slenderness, the step or an option is out of range, or there is none.
+    ComponentError
+        If the record has no two horizontals of known azimuths.
+
+    Examples
+    --------
+    >>> from seisblock import read
+    >>> found = rocking_spectrum_all_azimuths([0.5, 4.0], [0.2], read("synthetic_jma.csv"), step_deg=30.0)
+    >>> found.overturned.tolist(), found.overturning_rate.round(2).tolist()
+    ([[True], [True]], [[1.0], [0.83]])
+    """
+    diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
+    azimuth_sweep = make_azimuth_sweep(Block(1.0, 1.0), record, step_deg=step_deg, vertical=options.get("vertical", False))
+    count, directions = len(blocks), azimuth_sweep.azimuths.size
+    check_limit(N_("cells"), count * directions, "SEISBLOCK_CELLS")
+    params = rock_batch_params(blocks, azimuth_sweep.motion, **options)
+    ratio, worst, falls = np.full(count, -1.0), np.zeros(count), np.zeros(count, dtype=np.int64)
+    first = np.full(count, np.inf)
+    for row, azimuth in enumerate(azimuth_sweep.azimuths.tolist()):
+        advance = None if progress is None else _offset_progress(progress, row * count, directions * count)
+        verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains[row], progress=advance)
+        # a fall after the record comes after every fall within it, and before the largest lean of what stands
+        time = np.where(verdicts.overturned, np.nan_to_num(verdicts.overturning_time_s, nan=AFTER_RECORD_S), np.inf)
+        worse = (time < first) | ((time == first) & (verdicts.max_rotation_ratio > ratio))
+        ratio, worst, first = (
+            np.where(worse, new, old) for new, old in ((verdicts.max_rotation_ratio, ratio), (azimuth, worst), (time, first))
+        )
+        falls += verdicts.overturned
+    shape = diagonal.size, alpha.size
+    return RockingSpectrum(
+        diagonal,
+        np.sqrt(1.5 * params.gravity / diagonal),
+        alpha,
+        ratio.reshape(shape),
+        (falls > 0).reshape(shape),
+        azimuth_sweep.azimuths,
+        (falls / directions).reshape(shape),
+        worst.reshape(shape),
+    )
+
+
+def _offset_progress(progress: Progress, offset: int, total: int) -> Progress:
+    """Return the progress of a part of a study, told as that of the whole."""
+    return lambda part, _: progress(offset + part, total)
+
+
+def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: EdgeWear) -> tuple[FloatArray, FloatArray, BlockArray]:
+    """Return diagonals, slendernesses and the blocks of their grid."""
+    diagonal = _check_grid(sizes, N_("size 2R"), "m", math.inf)
+    alpha = _check_grid(slendernesses, N_("slenderness"), "rad", math.pi / 2)
+    check_limit(N_("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
+    return diagonal, alpha, rectangular_blocks(np.outer(diagonal, np.sin(alpha)).ravel(), np.outer(diagonal, np.cos(alpha)).ravel(), inset)
+
+
+def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:
+    """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) (from [Furukawa2009]_ eq. (6))."""
+    return 1.5 * gravity / _check_grid(frequency_parameter, N_("frequency parameter"), "rad/s", math.inf) ** 2
+
+
+def slenderness_of(height_over_width: ArrayLike) -> FloatArray:
+    """Return alpha = atan(B/H), rad, of blocks with these H/B ([Furukawa2009]_ section 2)."""
+    return np.arctan(1.0 / _check_grid(height_over_width, N_("height over width"), "1", math.inf))
+
+
+def default_sizes(steps: int) -> FloatArray:
+    """Return 2R from 0.2 to 8 m, evenly in their logarithm: from a vase to a shrine's pavilion."""
+    return np.geomspace(0.2, 8.0, steps)
+
+
+def default_slendernesses(steps: int) -> FloatArray:
+    """Return alpha of H/B from 10 to 1.5, evenly in alpha, rad."""
+    return np.linspace(math.atan(1 / 10), math.atan(1 / 1.5), steps)
+
+
+def _check_grid(values: ArrayLike, label: str, unit: str, limit: float) -> FloatArray:
+    """Return a grid of positive numbers below a limit, or refuse it."""
+    array = np.atleast_1d(checks.float_array("sizes and slendernesses", values))
+    good = np.isfinite(array) & (array > 0.0) & (array < limit)
+    if array.size == 0 or not good.all():
+        value_text = lazy_gettext("none") if array.size == 0 else str(array[~good][0])
+        text = "each {what} must be positive, in {unit}; found {found}"
+        bounded = "each {what} must be positive and below {limit:.4g}, in {unit}; found {found}"
+        raise ParameterError(text if limit == math.inf else bounded, what=lazy_gettext(label), limit=limit, unit=unit, found=value_text)
+    for end in (array.min(), array.max()):
+        checks.positive(lazy_gettext(label), float(end), unit)
+    return array

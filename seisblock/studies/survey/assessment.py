@@ -1,0 +1,273 @@
+"""What a shaking does to a cemetery: rate, interval, curve, and what dowels would save, by the criterion that is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
+from seisblock.core import checks
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.typing import BoolArray, FloatArray, Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.criteria.gravestones import DOWELLED, DOWELLED_NOTE, PLAIN, GravestoneFit, fit_range_warnings
+from seisblock.measures import FilterRange
+from seisblock.references import papers
+from seisblock.studies.intervals import CONFIDENCE
+from seisblock.studies.survey.limits import fitted_limits, rigid_limits
+from seisblock.studies.survey.model_rates import ModelRate, rates_by_model
+from seisblock.studies.survey.overturning_rate import (
+    CURVE_PGA,
+    FREQUENCIES,
+    CurvePoint,
+    rate_curve,
+    rate_from_stones,
+    rate_warnings,
+    threshold_ratio,
+)
+from seisblock.studies.survey.shaking import Shaking
+
+Criterion = Literal["furukawa", "rigid", "simulate"]
+
+LARGER_COMPONENT = N_("larger")
+"""Name of the result of the horizontal that overturns more stones."""
+
+
+@dataclass(frozen=True)
+class AssessmentMethod:
+    """How a stone is judged.
+
+    Parameters
+    ----------
+    criterion : "furukawa", "rigid" or "simulate"
+        [Furukawa2009]_ eqs. (9), (10); one rigid block under a half-sine pulse; one rigid block that rocks under the motion itself.
+    fits : two GravestoneFit
+        For stones without and with a dowel; furukawa only.
+    inset : Inset
+        How far the edges of the stones are worn; rigid and simulate only: the fits have it in them.
+    width : float, m
+        Of stones whose width is not known; furukawa needs none.
+    gravity : float, m/s^2
+    confidence : float
+        Level of the interval of a rate.
+    """
+
+    criterion: Criterion = "furukawa"
+    fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED)
+    inset: EdgeWear = DEFAULT_WEAR
+    width: float = PAPER_WIDTH
+    gravity: float = STANDARD_GRAVITY
+    confidence: float = CONFIDENCE
+
+    def limits(self, cemetery: Cemetery, frequency: float) -> FloatArray:
+        """Return the PGA beyond which each stone falls, (size,), m/s^2, for the criteria that have one."""
+        if self.criterion == "furukawa":
+            return fitted_limits(cemetery, frequency, fits=self.fits)
+        return rigid_limits(cemetery, frequency, inset=self.inset, width=self.width, gravity=self.gravity)
+
+    @property
+    def citations(self) -> tuple[str, ...]:
+        """Keys of the papers relied on."""
+        return papers("gravestones as fitted" if self.criterion == "furukawa" else "gravestones as blocks")
+
+
+@dataclass(frozen=True)
+class Reinforcement:
+    """What becomes of the same cemetery when stones get dowels; keys as in :class:`CemeteryRate`."""
+
+    reinforced_stones: int
+    threshold_ratio: float | None
+    rate: float
+    rate_interval: tuple[float, float]
+    fallen: int
+    stones_saved: int
+    curve: tuple[CurvePoint, ...]
+
+
+@dataclass(frozen=True)
+class CemeteryRate:
+    """What one shaking does to a cemetery; the fields are the keys of one result in the document of ``overturn-rate``.
+
+    Parameters
+    ----------
+    component : str or None
+        Direction of the record, ``larger`` for the horizontal that overturns more stones, None for bare numbers.
+    pga_m_s2, equivalent_frequency_hz : float
+    threshold_ratio : float or None
+        Least H/B that falls without a dowel (with one where all stones have one); None where it is simulated.
+    threshold_ratio_reinforced : float or None
+        Least H/B that falls with a dowel; None where the criterion knows none.
+    rate : float
+    rate_interval : two floats
+        Clopper-Pearson.
+    fallen, stones : int
+    least_overturned_ratio, largest_standing_ratio : float or None
+        H/B of the stoutest stone that fell and of the most slender that stands.
+    reinforced : Reinforcement or None
+        The comparison with dowels, where it was asked for.
+    curve : tuple of CurvePoint
+        The rate against PGA, at this frequency and at the standard ones.
+    outside_fit : tuple of str
+        What lies outside the range of (9), (10), a sentence each; none where they are not used.
+    of : str or None
+        Which component ``larger`` is.
+    usual_highpass : FilterRange or None
+        How far PGV and frequency move with the usual filters; None when by no more than 5 %, or where the rate does not rest on a PGV.
+    rate_range : two floats or None
+        The least and the largest rate at those frequencies.
+    models : tuple of RateOpinion
+        The rate by each model of the stones, whichever criterion was asked for.
+    """
+
+    component: str | None
+    pga_m_s2: float
+    equivalent_frequency_hz: float
+    threshold_ratio: float | None
+    threshold_ratio_reinforced: float | None
+    rate: float
+    rate_interval: tuple[float, float]
+    fallen: int
+    stones: int
+    least_overturned_ratio: float | None
+    largest_standing_ratio: float | None
+    reinforced: Reinforcement | None
+    curve: tuple[CurvePoint, ...]
+    outside_fit: tuple[str, ...] = ()
+    of: str | None = None
+    usual_highpass: FilterRange | None = None
+    rate_range: tuple[float, float] | None = None
+    models: tuple[ModelRate, ...] = ()
+
+
+def assess_stones(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod) -> BoolArray:
+    """Return which stones fall, (size,), by the criterion asked for ([Furukawa2009]_, [Housner1963]_)."""
+    if method.criterion == "simulate":
+        from seisblock.studies.survey.simulation import simulated_overturns, sine_motion
+
+        motion = shaking.motion or sine_motion(shaking.pga, shaking.frequency)
+        return simulated_overturns(cemetery, motion, inset=method.inset, width=method.width, gravity=method.gravity)
+    checks.positive("the peak ground acceleration", shaking.pga, "m/s^2")
+    falls: BoolArray = shaking.pga > method.limits(cemetery, shaking.frequency)
+    return falls
+
+
+def overturning_curve(
+    cemetery: Cemetery,
+    method: AssessmentMethod,
+    shaking: Shaking | None = None,
+    frequencies: Sequence[float] = FREQUENCIES,
+    *,
+    progress: Progress | None = None,
+) -> tuple[CurvePoint, ...]:
+    """Return the rate against PGA, at a shaking's frequency first and at others ([Furukawa2009]_ figs. 16, 17).
+
+    Simulated curves scale the shaking's own motion, or sines of 20 s where there is none, to 100, 200, ... 1300 gal.
+    """
+    if method.criterion == "simulate":
+        from seisblock.studies.survey.simulation import SIMULATED_PGA, simulated_curve, sine_motion
+
+        recorded_motions = [(shaking.motion, shaking.frequency)] if shaking is not None and shaking.motion is not None else []
+        sine_frequencies = [] if recorded_motions else list(frequencies) if shaking is None else [shaking.frequency]
+        motions = recorded_motions or [(sine_motion(1.0, f), f) for f in sine_frequencies]
+        return simulated_curve(
+            cemetery, motions, SIMULATED_PGA, inset=method.inset, width=method.width, gravity=method.gravity, progress=progress
+        )
+    first = [] if shaking is None else [shaking.frequency]
+    curve_frequencies = list(dict.fromkeys([*first, *frequencies]))
+    return rate_curve(cemetery, CURVE_PGA, curve_frequencies, limits=method.limits)
+
+
+def assess_cemetery(
+    cemetery: Cemetery,
+    shaking: Shaking,
+    method: AssessmentMethod,
+    *,
+    reinforced_cemetery: Cemetery | None = None,
+    progress: Progress | None = None,
+) -> CemeteryRate:
+    """Return what a shaking does to a cemetery, and to the same one with more dowels ([Furukawa2009]_ section 4).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    shaking : Shaking
+    method : Method
+    reinforced_cemetery : Cemetery or None
+        The cemetery reinforced, see :meth:`Cemetery.with_dowels`; None for no comparison.
+    progress : callable
+        Told how many points of a simulated curve are done, and how many there are.
+    """
+    falls = assess_stones(cemetery, shaking, method)
+    highpass_range = None if method.criterion == "simulate" else shaking.usual_highpass
+    rate, ratios = rate_from_stones(falls, method.confidence), cemetery.ratios
+    return CemeteryRate(
+        shaking.component,
+        shaking.pga,
+        shaking.frequency,
+        _threshold(cemetery, shaking, method),
+        _threshold(cemetery.with_dowels(), shaking, method) if method.criterion == "furukawa" else None,
+        rate.rate,
+        rate.rate_interval,
+        rate.fallen,
+        rate.stones,
+        float(ratios[falls].min()) if falls.any() else None,
+        None if falls.all() else float(ratios[~falls].max()),
+        None if reinforced_cemetery is None else _reinforcement(reinforced_cemetery, shaking, method, rate.fallen),
+        overturning_curve(cemetery, method, shaking, progress=progress),
+        fit_range_warnings(shaking.pga, shaking.frequency, ratios) if method.criterion == "furukawa" else (),
+        usual_highpass=highpass_range,
+        rate_range=None if highpass_range is None else _rate_range(cemetery, shaking, method, highpass_range.pga_pgv_hz),
+        models=rates_by_model(cemetery, shaking.pga, shaking.frequency, shaking.motion, width=method.width, gravity=method.gravity),
+    )
+
+
+def larger_component(rates: Sequence[CemeteryRate]) -> CemeteryRate:
+    """Return the result that overturns most stones, the larger PGA deciding a tie, under the name ``larger``."""
+    largest = max(rates, key=lambda rate: (rate.rate, rate.pga_m_s2))
+    return replace(largest, component=LARGER_COMPONENT, of=largest.component)
+
+
+def cemetery_warnings(
+    cemetery: Cemetery, shakings: Sequence[Shaking], method: AssessmentMethod, *, reinforced_cemetery: Cemetery | None = None
+) -> list[str]:
+    """Return what should be known before believing rates, a sentence each, with the component they belong to ([Furukawa2009]_)."""
+    fitted = method.criterion == "furukawa"
+    messages = [
+        lazy_gettext("{name}: {text}", name=shaking.component, text=text) if shaking.component else text
+        for shaking in shakings
+        for text in rate_warnings(cemetery, shaking.pga, shaking.frequency, fitted=fitted)
+    ]
+    if fitted and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or reinforced_cemetery is not None):
+        messages.append(DOWELLED_NOTE)
+    return list(dict.fromkeys(messages))
+
+
+def _rate_range(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod, frequencies: Sequence[float]) -> tuple[float, float]:
+    """Return the least and the largest rate at some frequencies and that of the shaking itself."""
+    rates = [float(assess_stones(cemetery, replace(shaking, frequency=f), method).mean()) for f in (shaking.frequency, *frequencies)]
+    return min(rates), max(rates)
+
+
+def _threshold(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod) -> float | None:
+    """Return the least H/B that falls, None where it is simulated."""
+    if method.criterion == "simulate":
+        return None
+    return threshold_ratio(shaking.pga, shaking.frequency, reinforced=bool(cemetery.reinforced.all()), limits=method.limits)
+
+
+def _reinforcement(reinforced_cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod, fallen: int) -> Reinforcement:
+    """Return what becomes of the reinforced cemetery."""
+    rate = rate_from_stones(assess_stones(reinforced_cemetery, shaking, method), method.confidence)
+    return Reinforcement(
+        int(np.count_nonzero(reinforced_cemetery.reinforced)),
+        threshold_ratio(shaking.pga, shaking.frequency, reinforced=True, limits=method.limits),
+        rate.rate,
+        rate.rate_interval,
+        rate.fallen,
+        fallen - rate.fallen,
+        overturning_curve(reinforced_cemetery, method, shaking),
+    )

@@ -1,0 +1,133 @@
+"""Several cemeteries of one shaking: one estimate from all, or a contradiction in words."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import Message, lazy_gettext
+from seisblock.core.typing import FloatArray
+from seisblock.studies.survey.assumptions import Assumptions
+from seisblock.studies.survey.estimate import Interval, ShakingEstimate, estimate_shaking
+from seisblock.studies.survey.likelihood import Survey
+
+MIN_AGREEMENT = 0.01
+"""Below this probability, that cemeteries under one shaking differ as much, they contradict each other."""
+
+
+@dataclass(frozen=True)
+class JointEstimate:
+    """What several cemeteries say of one shaking, each with an error of its own ([Furukawa2009]_ eqs. (9), (10)).
+
+    Parameters
+    ----------
+    names : tuple of str
+    frequency_hz : float or None
+    pga_m_s2, pga_interval_m_s2 : float, two of them
+        Of all together.
+    apart : tuple of ShakingEstimate
+        Each by itself.
+    agreement : float
+        Probability that cemeteries under one shaking differ at least as much; 1 for one.
+    contradicts : tuple of (str, str)
+        Pairs whose own intervals do not meet, where the agreement is below 0.01.
+    """
+
+    names: tuple[str, ...]
+    frequency_hz: float | None
+    pga_m_s2: float
+    pga_interval_m_s2: Interval
+    apart: tuple[ShakingEstimate, ...]
+    agreement: float
+    contradicts: tuple[tuple[str, str], ...]
+
+
+def joint_estimate(
+    surveys: Sequence[tuple[str, Survey]], frequency: float | None = None, assumptions: Assumptions | None = None
+) -> JointEstimate:
+    """Return what several cemeteries say of one PGA: the product of their likelihoods, each with its own common error.
+
+    Parameters
+    ----------
+    surveys : sequence of (name, Survey)
+        At least one; at least one stone fell in one of them, and one stood.
+    frequency : float or None, Hz
+    assumptions : Assumptions
+
+    Raises
+    ------
+    ParameterError
+        If there is none, or in all of them no stone fell, or all did.
+    """
+    settings = assumptions or Assumptions()
+    if not surveys:
+        raise ParameterError("an estimate needs at least one survey")
+    fell, stone_count = sum(survey.fell for _, survey in surveys), sum(survey.stone_count for _, survey in surveys)
+    if fell in (0, stone_count):
+        raise ParameterError(
+            "{fell} of {judged} stones fell in all cemeteries together: that bounds the shaking on one side only",
+            fell=fell,
+            judged=stone_count,
+        )
+    band, weights = settings.frequency_band(frequency)
+    grid = np.arange(math.log(0.02), math.log(200.0), settings.common_error / 40.0)
+    total, single = np.zeros(grid.size), np.zeros((len(surveys), grid.size))
+    for f, weight in zip(band, weights, strict=True):
+        values = np.array([part.interpolate(grid) for _, survey in surveys for part in settings.likelihoods(survey, [f])])
+        total += weight * np.prod(values / values.max(axis=1, keepdims=True), axis=0)
+        single += weight * values
+    low, middle, high = _quantiles(grid, total, settings.level)
+    apart = tuple(estimate_shaking(survey, frequency, settings) for _, survey in surveys)
+    agreement = _agreement(single / single.max(axis=1, keepdims=True), grid)
+    names = [name for name, _ in surveys]
+    pairs = [
+        (names[i], names[j])
+        for i, j in itertools.combinations(range(len(names)), 2)
+        if agreement < MIN_AGREEMENT and not _intervals_overlap(apart[i].pga_interval_m_s2, apart[j].pga_interval_m_s2)
+    ]
+    return JointEstimate(tuple(names), frequency, middle, (low, high), apart, agreement, tuple(pairs))
+
+
+def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float, float, float]:
+    """Return lower end, median and upper end of what the grid holds the logarithm of."""
+    cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
+    tail = (1.0 - level) / 2.0
+    low, middle, high = (float(np.exp(np.interp(q * cumulative[-1], cumulative, grid))) for q in (tail, 0.5, 1.0 - tail))
+    return low, middle, high
+
+
+def _agreement(values: FloatArray, grid: FloatArray) -> float:
+    """Return the probability of a likelihood ratio as large as that of one shaking against one for each (chi-squared)."""
+    from scipy.special import chdtrc
+
+    if values.shape[0] == 1:
+        return 1.0
+    with np.errstate(divide="ignore"):
+        joint_log_likelihood = np.log(values).sum(axis=0)
+    return float(chdtrc(values.shape[0] - 1, -2.0 * float(joint_log_likelihood.max())))
+
+
+def _intervals_overlap(first: Interval, second: Interval) -> bool:
+    """Whether two intervals, or bounds, have something in common."""
+    low = max(-math.inf if end is None else end for end in (first[0], second[0]))
+    high = min(math.inf if end is None else end for end in (first[1], second[1]))
+    return low <= high
+
+
+def joint_warnings(estimate: JointEstimate) -> list[Message]:
+    """Return in words whether the cemeteries can be of one shaking."""
+    return [
+        lazy_gettext(
+            "{first} and {second} contradict each other: under one shaking such a difference has a probability of {chance:.2g}; was "
+            "the ground or the setting of the stones another?",
+            first=first,
+            second=second,
+            chance=estimate.agreement,
+        )
+        for first, second in estimate.contradicts
+    ]

@@ -1,0 +1,285 @@
+"""How strong a candidate record must have been: every factor on it at which an object moves as far as was observed.
+
+Displacements are not monotone in amplitude, and those of a block that jumps are not even continuous: a scan finds every change of
+sign, bisection the factor, and a factor at which the displacement leaps across the observed one is marked. What happens between two
+steps of the scan and back can be missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.core import checks
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_limit
+from seisblock.core.typing import FloatArray, Progress
+from seisblock.dynamics import integrate_many
+from seisblock.models.jump.batch import jump_many
+from seisblock.models.jump.solve import solve_jump
+from seisblock.models.slide.model import SLIDE, SLIP, STICK, UNDEFINED, parameters
+from seisblock.models.slide.solve import raise_lift_off, solve_slide
+from seisblock.records import Motion
+from seisblock.records._validation import validate_inputs, validate_motion
+from seisblock.studies.parallel import map_batches, map_threads
+
+MAX_FACTOR = 3.0
+"""Default largest factor."""
+
+STEPS = 300
+"""Default number of steps of the scan."""
+
+FACTOR_TOLERANCE = 1e-10
+"""Factors are located to this."""
+
+DISCONTINUITY_TOLERANCE = 1e-3
+"""A displacement that misses the observed one by more than this share at the factor found leaps across it."""
+
+
+@dataclass(frozen=True)
+class ScaleFactor:
+    """One factor that gives the observed displacement.
+
+    Parameters
+    ----------
+    scale : float
+        Factor on the record.
+    pga_m_s2 : float
+        Of the component so scaled.
+    displacement_m : float
+        Absolute displacement at this factor.
+    leaps : bool
+        The displacement leaps across the observed one here: it is met by no factor.
+    """
+
+    scale: float
+    pga_m_s2: float
+    displacement_m: float
+    leaps: bool
+
+
+@dataclass(frozen=True)
+class ScaleFactors:
+    """Every factor up to a limit; the fields are the keys of one result in the document of ``infer``.
+
+    Parameters
+    ----------
+    component : str
+    observed_m : float
+    pga_m_s2 : float
+        Of the component as it is.
+    scale_factors : tuple of ScaleFactor
+        In rising order; empty when the object never moves so far.
+    displacement_at_1_m : float
+        Under the record as it is.
+    largest_displacement_m, largest_at_scale : float
+        Largest displacement of the scan, and its factor.
+    limit : float
+        Largest factor of the scan.
+    curve : two tuples of float
+        Factors of the scan, and the displacement at each, m.
+    """
+
+    component: str
+    observed_m: float
+    pga_m_s2: float
+    scale_factors: tuple[ScaleFactor, ...]
+    displacement_at_1_m: float
+    largest_displacement_m: float
+    largest_at_scale: float
+    limit: float
+    curve: tuple[tuple[float, ...], tuple[float, ...]]
+
+
+def scale_factors(
+    displacement: Callable[[float], float],
+    observed: float,
+    motion: Motion,
+    *,
+    limit: float = MAX_FACTOR,
+    steps: int = STEPS,
+    progress: Progress | None = None,
+) -> ScaleFactors:
+    """Return every factor on a motion at which an object is displaced as observed.
+
+    Parameters
+    ----------
+    displacement : callable
+        From a factor to the absolute displacement, m; zero at factor zero.
+    observed : float, m
+        Positive.
+    motion : Motion
+        For its name and its peak.
+    limit : float
+        Largest factor, positive.
+    steps : int
+        Of the scan, at least 1.
+    progress : callable
+        Told the number of runs done and the number in all.
+
+    Raises
+    ------
+    ParameterError
+        If the observed displacement or the limit is not positive.
+
+    Examples
+    --------
+    >>> motion = Motion.from_arrays([0.0, 2.0, 0.0], 0.1)
+    >>> found = scale_factors(lambda s: s * (2.0 - s) if s < 2.0 else 0.0, 0.75, motion)
+    >>> [round(f.scale, 6) for f in found.scale_factors]
+    [0.5, 1.5]
+    """
+    checks.function("the displacement", displacement)
+    validate_motion(motion)
+    checks.positive("the observed displacement", observed, "m")
+    checks.positive("the largest factor", limit)
+    checks.integer("the number of steps", steps, minimum=1)
+    check_limit(N_("factors"), steps, "SEISBLOCK_RUNS")
+    grid = [limit * i / steps for i in range(steps + 1)]
+    values = [0.0, *_scan(displacement, grid[1:], progress)]
+    peak = float(np.abs(motion.horizontal).max())
+    factors = []
+    for i in range(1, len(grid)):
+        if (values[i - 1] < observed) != (values[i] < observed):
+            factor = _bisect_factor(displacement, observed, grid[i - 1], grid[i], values[i] < observed)
+            crossing = displacement(factor)
+            factors.append(ScaleFactor(factor, factor * peak, crossing, abs(crossing - observed) > DISCONTINUITY_TOLERANCE * observed))
+    top = int(np.argmax(values))
+    curve = tuple(grid), tuple(values)
+    return ScaleFactors(motion.name, observed, peak, tuple(factors), displacement(1.0), values[top], grid[top], limit, curve)
+
+
+@dataclass(frozen=True)
+class DisplacementFunction:
+    """How far an object is displaced, m, against the factor on a motion: of many factors side by side, or of one.
+
+    Parameters
+    ----------
+    vectorized : callable
+        From factors, (m,), to displacements, (m,), m.
+    """
+
+    vectorized: Callable[[FloatArray], FloatArray]
+
+    def __call__(self, factor: float) -> float:
+        """Return the displacement at one factor, m."""
+        return float(self.vectorized(np.array([factor]))[0])
+
+
+def _scan(displacement: Callable[[float], float], factors: list[float], progress: Progress | None) -> list[float]:
+    """Return the displacement at some factors, on all cores."""
+    if not isinstance(displacement, DisplacementFunction):
+        return list(map_threads(displacement, factors, progress=progress))
+    rows = np.array(factors)
+    parts = map_batches(lambda part: displacement.vectorized(rows[part]), rows.size, progress=progress)
+    return [float(value) for part in parts for value in part]
+
+
+def _bisect_factor(displacement: Callable[[float], float], observed: float, low: float, high: float, short_above: bool) -> float:
+    """Return the factor between two at which the displacement crosses the observed one."""
+    while high - low > FACTOR_TOLERANCE * max(high, 1.0):
+        middle = 0.5 * (low + high)
+        if (displacement(middle) < observed) == short_above:
+            high = middle
+        else:
+            low = middle
+    return high if not short_above else low
+
+
+def scale_motion(motion: Motion, factor: float) -> Motion:
+    """Return a motion multiplied by a factor; it no longer belongs to its record."""
+    return Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s)
+
+
+def jump_displacement(
+    block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, first: bool = False, **options: Any
+) -> Callable[[float], float]:
+    """Return how far a two-layer block is displaced, m, against the factor on a motion ([Sugimoto2017]_ table 1).
+
+    Parameters
+    ----------
+    block, motion, contact
+        As in :func:`seisblock.models.jump.solve.solve_jump`.
+    flight_only : bool
+        Count the jump alone, not the rocking-sliding after it.
+    first : bool
+        The first chain of the record counts, else all are added up. A chain in which the block topples counts as no displacement.
+    options
+        Its ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
+    >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.linspace(0.0, np.pi, 101)), np.zeros(200)]), 0.01)
+    >>> displacement = jump_displacement(load_two_layer("chozusha"), pulse, contact=load_contact("chozusha"))
+    >>> displacement(0.1), displacement(1.0) > 0.01
+    (0.0, True)
+    """
+    validate_inputs(block, TwoLayerBlock, motion)
+    checks.instance(contact, Contact)
+
+    def single(factor: float, key: str = "total_displacement_m") -> float:
+        response = solve_jump(block, scale_motion(motion, factor), contact=contact, first=first, **options)
+        return abs(sum((getattr(chain, key) or 0.0 for chain in response.outcome.chains), 0.0))
+
+    if flight_only:
+        return partial(single, key="jump_displacement_m")
+    if options.get("windows"):
+        return single
+    rows = {key: value for key, value in options.items() if key != "windows"}
+
+    def vectorized(factors: FloatArray) -> FloatArray:
+        result = jump_many([block], motion, contacts=[contact], factors=factors, first=first, **rows)
+        for factor in factors[result.jammed][:1]:
+            single(factor)  # which says at what time, and why
+        return np.abs(result.total_displacement_m)
+
+    return DisplacementFunction(vectorized)
+
+
+def slide_displacement(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
+    """Return how far an object slides on a level base, m, against the factor on a motion ([Fujino1978]_).
+
+    Parameters
+    ----------
+    base, motion
+        As in :func:`seisblock.models.slide.solve.solve_slide`.
+    largest : bool
+        The largest slip counts, not the one left when the record ends.
+    options
+        Its ``vertical`` and ``gravity``.
+
+    Raises
+    ------
+    ParameterError
+        If a coefficient lies outside its range.
+    ComponentError
+        If the vertical motion is asked of a record without one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> displacement = slide_displacement(0.2, pulse)
+    >>> round(displacement(1.0), 2), displacement(0.1)
+    (0.44, 0.0)
+    """
+    start = solve_slide(base, motion, **options)  # what cannot be solved is refused here
+    p, up = parameters(start.body, start.options["gravity_m_s2"]), start.options["vertical"]
+
+    def vectorized(factors: FloatArray) -> FloatArray:
+        rows = np.tile(np.asarray(p, dtype=np.float64), (factors.size, 1))
+        result = integrate_many(SLIDE, motion, rows, np.zeros(4), STICK, gains=factors[:, None] * [1.0, 0.0, up])
+        for row in np.flatnonzero(result.final_mode == UNDEFINED)[:1]:
+            raise_lift_off(motion, float(result.end_time[row]))
+        highest, _, lowest, _ = result.extrema[:, SLIP].T
+        return np.maximum(highest, -lowest) if largest else np.abs(result.final[:, SLIP])
+
+    return DisplacementFunction(vectorized)
