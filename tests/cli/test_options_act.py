@@ -83,4 +83,8 @@ def test_no_option_is_taken_and_left():
 def test_no_shared_option_is_gathered_and_left(gathered):
     """Each field of what the shared options become is read somewhere in the command line."""
     source = "\n".join(path.read_text(encoding="utf-8") for path in Path(cli.__file__).parent.rglob("*.py"))
-    assert [field.name for field in dataclasses.fields(gathered) if not re.search(rf"""(?<!self)\.{field.name}\b|getattr\(\w+, "{field.name}\"""", source)] == []
+    assert [
+        field.name
+        for field in dataclasses.fields(gathered)
+        if not re.search(rf"""(?<!self)\.{field.name}\b|getattr\(\w+, "{field.name}\"""", source)
+    ] == []
