@@ -176,11 +176,12 @@ def _check_bases(body: Pile, contact: PileContact | None, points: int) -> None:
     for stone in body.stones:
         if stone.is_round and (contact is not None or points != CORNER_POINTS):
             raise ParameterError(
-                "the stone {name} is round: it stands rigid on its rim, and neither on springs nor on a grid of points", name=stone.name
+                "the stone {name} is a cylinder, which requires rigid contact at the edges: leave out `contact` and `points`",
+                name=stone.name,
             )
         if points != CORNER_POINTS and stone.inset != SHARP_EDGES:
             raise ParameterError(
-                "an inset is one of stones that stand on their edges: leave out {points} points a side, which stand inside by themselves",
+                "edge wear requires contact at the edges: leave out `points` ({points} along each side of a joint)",
                 points=points,
             )
 

@@ -25,7 +25,7 @@ from seisblock.models.stack.constraint_row import (
 )
 from seisblock.models.stack.frames import BOX_CENTRE, R, X
 from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, FRICTION, POSITION, PREVIOUS_FORCE
-from seisblock.models.stack.spring_contact import KINETIC as SLICK
+from seisblock.models.stack.spring_contact import KINETIC as KINETIC_COLUMN
 
 _t = types()
 
@@ -91,7 +91,7 @@ def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
     ids[1] = b if memory.sleep_states[b, SUPPORT_POINTS] == 0 else ground
     set_delassus_block(ids[0], ids[1], ground, pile.inertias, memory.inverses, row)
     row[STATIC] = k[FRICTION]
-    row[KINETIC] = k[SLICK]
+    row[KINETIC] = k[KINETIC_COLUMN]
     row[WAS_SLIDING] = slot[CACHED_SLIDING]
     row[IMPACT_SPEED] = memory.step_info[FREE_FALL_SPEED]
     centre_friction_cone(row)

@@ -15,7 +15,7 @@ from seisblock.core.typing import FloatArray
 from seisblock.models.stack.arrays import PileArrays
 from seisblock.models.stack.buffers import PileOutput
 from seisblock.models.stack.frames import BOX_CENTRE, MASS, V, X
-from seisblock.models.stack.recorder import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LOST, MIN_COSINE, WORK
+from seisblock.models.stack.recorder import CREATED, DISSIPATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, MIN_COSINE, WORK
 
 SLIP_LIMIT = 1e-3
 """Residual displacement, m, above which a stone has slid."""
@@ -235,7 +235,7 @@ def stack_outcome(
     scale = float(masses.sum()) * gravity * height
     if ledger[CREATED] > MAX_CREATED_ENERGY * scale:
         raise SolverError(
-            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; try a finer time step",
+            "the integration of the pile {name} created {energy:.3g} J of energy with steps of {step:.3g} s: give a finer `step`",
             step=step,
             name=pile.body.name,
             energy=ledger[CREATED],
@@ -251,7 +251,7 @@ def stack_outcome(
         residual_slip_m={stone.name: stone.residual_slip_m for stone in stones},
         stones=stones,
         ground_work_j=float(ledger[WORK]),
-        lost_j=float(ledger[LOST]),
+        lost_j=float(ledger[DISSIPATED]),
         created_j=float(ledger[CREATED]),
         momentum_error=float(np.linalg.norm(momentum) / (masses.sum() * gravity * max(end.time, step))),
         step_s=step,

@@ -95,13 +95,13 @@ def _solve_sliding(row, c0, c1, c2):
 @kernel(_t.UniTuple(_t.float64, 3)(VECTOR, _t.float64, _t.float64, _t.float64), inline=True)
 def _projected_gradient_step(row, c0, c1, c2):
     """Return the impulse of a contact after one projected-gradient step; c is its velocity without an impulse."""
-    n0, n1, n2, floor, mu = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[MIN_NORMAL_VELOCITY], row[MU]
+    n0, n1, n2, bound, mu = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[MIN_NORMAL_VELOCITY], row[MU]
     q0, q1, q2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
     # the trace bounds the largest eigenvalue of W, so the step never increases the energy
     gain = 1.0 / (row[W] + row[W + 4] + row[W + 8])
-    u0 = c0 - floor * n0 + row[W] * q0 + row[W + 1] * q1 + row[W + 2] * q2
-    u1 = c1 - floor * n1 + row[W + 3] * q0 + row[W + 4] * q1 + row[W + 5] * q2
-    u2 = c2 - floor * n2 + row[W + 6] * q0 + row[W + 7] * q1 + row[W + 8] * q2
+    u0 = c0 - bound * n0 + row[W] * q0 + row[W + 1] * q1 + row[W + 2] * q2
+    u1 = c1 - bound * n1 + row[W + 3] * q0 + row[W + 4] * q1 + row[W + 5] * q2
+    u2 = c2 - bound * n2 + row[W + 6] * q0 + row[W + 7] * q1 + row[W + 8] * q2
     q0, q1, q2 = q0 - gain * u0, q1 - gain * u1, q2 - gain * u2
     normal_impulse = q0 * n0 + q1 * n1 + q2 * n2
     t0, t1, t2 = q0 - normal_impulse * n0, q1 - normal_impulse * n1, q2 - normal_impulse * n2
@@ -137,12 +137,12 @@ def _relax_contact(a, b, ground, inertias, row, minimise_energy, velocities):
     c0 = u0 + row[ROTATION_BIAS] - (row[W] * p0 + row[W + 1] * p1 + row[W + 2] * p2)
     c1 = u1 + row[ROTATION_BIAS + 1] - (row[W + 3] * p0 + row[W + 4] * p1 + row[W + 5] * p2)
     c2 = u2 + row[ROTATION_BIAS + 2] - (row[W + 6] * p0 + row[W + 7] * p1 + row[W + 8] * p2)
-    n0, n1, n2, floor = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[MIN_NORMAL_VELOCITY]
+    n0, n1, n2, bound = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2], row[MIN_NORMAL_VELOCITY]
     q0, q1, q2 = 0.0, 0.0, 0.0
     if row[BILATERAL] > 0.0:
         q0, q1, q2 = _solve_bilateral(row, c0, c1, c2)
-    elif (minimise_energy and floor > -math.inf) or c0 * n0 + c1 * n1 + c2 * n2 < floor:
-        e0, e1, e2 = floor * n0 - c0, floor * n1 - c1, floor * n2 - c2
+    elif (minimise_energy and bound > -math.inf) or c0 * n0 + c1 * n1 + c2 * n2 < bound:
+        e0, e1, e2 = bound * n0 - c0, bound * n1 - c1, bound * n2 - c2
         q0 = row[WI] * e0 + row[WI + 1] * e1 + row[WI + 2] * e2
         q1 = row[WI + 3] * e0 + row[WI + 4] * e1 + row[WI + 5] * e2
         q2 = row[WI + 6] * e0 + row[WI + 7] * e1 + row[WI + 8] * e2

@@ -34,7 +34,7 @@ FALL_COLUMNS = 6
 """A body's row: smallest cosine of its tilt, time of its fall (s, negative: none), direction of its axis at the fall (2); and the fall
 criteria: cosine of the tilt, and height of the centre, m, below which the body has fallen."""
 
-WORK, LOST, MAX_LOST, CREATED, IMPULSE, INITIAL_ENERGY, SOLVED, UNCONVERGED = 0, 1, 2, 3, 4, 7, 8, 9
+WORK, DISSIPATED, MAX_DISSIPATED, CREATED, IMPULSE, INITIAL_ENERGY, SOLVED, UNCONVERGED = 0, 1, 2, 3, 4, 7, 8, 9
 LEDGER_COLUMNS = 10
 """Work of the ground, J; dissipated energy; its largest value; largest drop below that, which only an integration error can cause; impulse
 of the ground contact and of the accelerated frame (3), N s; initial energy, J; number of solved steps with rigid contacts, and how many
@@ -104,9 +104,9 @@ def potential_energy_change(n, bodies, inertias, gravity, dt):
 @kernel(_t.void(VECTOR, _t.float64), inline=True)
 def update_energy_ledger(ledger, energy):
     """Enter the present energy; any decrease of the dissipated energy is an integration error."""
-    ledger[LOST] = ledger[WORK] - energy
-    ledger[MAX_LOST] = max(ledger[MAX_LOST], ledger[LOST])
-    ledger[CREATED] = max(ledger[CREATED], ledger[MAX_LOST] - ledger[LOST])
+    ledger[DISSIPATED] = ledger[WORK] - energy
+    ledger[MAX_DISSIPATED] = max(ledger[MAX_DISSIPATED], ledger[DISSIPATED])
+    ledger[CREATED] = max(ledger[CREATED], ledger[MAX_DISSIPATED] - ledger[DISSIPATED])
 
 
 @kernel(_t.UniTuple(_t.float64, 3)(READ_ONLY_MATRIX, _t.int64, _t.float64), inline=True)

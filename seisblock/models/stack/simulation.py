@@ -197,7 +197,7 @@ def _initial_fall_states(pile: PileArrays, bodies: FloatArray) -> FloatArray:
 def _tilt_body(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None:
     """Tilt a body about y, over the outermost point of its lower joint."""
     if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
-        raise ParameterError("no free stone is called {name!r}; there are {names}", name=name, names=list(pile.body.names))
+        raise ParameterError("no free stone named {name!r} in the pile; stones: {names}", name=name, names=list(pile.body.names))
     b = int(pile.owner[pile.body.names.index(name)])
     first = pile.members[b][0]
     box = pile.boxes[first]

@@ -128,7 +128,7 @@ def solve_stack(
     end = simulation.run(progress=progress)
     if end.status == Status.NOT_FINITE:
         raise SolverError(
-            "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
+            "the integration of the pile {name} diverged at {ended:.3f} s: give a finer `step`", name=body.name, ended=end.time
         )
     try:
         outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps, azimuth=motion.azimuth_deg)
@@ -173,8 +173,8 @@ def _convergence_warnings(ledger: FloatArray, motion: Motion) -> tuple[Message, 
         return ()
     return (
         lazy_gettext(
-            "{name}: the forces between the stones did not come to rest in {share:.0f} % of the steps, as where a stone bears one "
-            "a hundred times as heavy: slips may be too large; give a finer `step`",
+            "{name}: contact forces did not converge in {share:.0f} % of the steps (large mass ratios?); displacements may be "
+            "overestimated; give a finer `step`",
             name=motion.name or "x",
             share=100.0 * share,
         ),
@@ -189,7 +189,10 @@ def _retry_finer(
     try:
         response = solve_stack(body, motion, step=step, **contact_options, **run_options)
         message = lazy_gettext(
-            "{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=step, why=error.message
+            "{name}: solved with a finer step of {step:.2g} s, since the default step failed: {why}",
+            name=label,
+            step=step,
+            why=error.message,
         )
     except SolverError as second_error:
         # springs have one friction coefficient and no cylinders
@@ -198,29 +201,29 @@ def _retry_finer(
             raise
         response = solve_stack(body, motion, law=SPRINGS, **run_options)
         message = lazy_gettext(
-            "{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=second_error.message
+            "{name}: solved with contact springs, since rigid contact failed: {why}", name=label, why=second_error.message
         )
     return replace(response, warnings=(message, *response.warnings))
 
 
 def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
     if law not in (None, RIGID, SPRINGS):
-        raise ParameterError("the law of contact must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
+        raise ParameterError("`law` must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
     if law == RIGID and contact is not None:
-        raise ParameterError("rigid stones have no springs: leave `contact` out, or choose the law {springs!r}", springs=SPRINGS)
+        raise ParameterError("`contact` has no effect with rigid contact: leave it out, or give the law {springs!r}", springs=SPRINGS)
     return contact is None if law is None else law == RIGID
 
 
 def _with_kinetic_friction(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
     """Return the pile with the given kinetic friction; raise ParameterError for options that springs do not support."""
     if not rigid and not (mu_kinetic is None and restitution is None):
-        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+        raise ParameterError("`mu_kinetic` and `restitution` have no effect with contact springs: leave them out, or give the law 'rigid'")
     if mu_kinetic is not None:
         body = body.with_kinetic_friction(mu_kinetic)
     if not rigid and body.has_lower_kinetic_friction:
         raise ParameterError(
-            "the pile {name} has a kinetic friction, and springs have one friction for all: say `mu`, which then holds for "
-            "what slides, too, or choose rigid stones",
+            "the pile {name} has a kinetic friction coefficient, but contact springs use a single one: give `mu` for both, or "
+            "the law 'rigid'",
             name=body.name,
         )
     return body
@@ -229,10 +232,10 @@ def _with_kinetic_friction(body: Pile, rigid: bool, mu_kinetic: float | None, re
 def _joint_restitution(points: int, restitution: float | None) -> float:
     """Return the restitution of the joints, negative for plastic impacts."""
     if restitution is not None:
-        checks.fraction(N_("the restitution of the joints, a ratio of velocities,"), restitution)
+        checks.fraction(N_("the restitution of the joints"), restitution)
         if points != EDGE_POINTS:
             raise ParameterError(
-                "a restitution is one of stones that stand on their edges: leave out {points} points a side", points=points
+                "`restitution` requires contact at the edges: leave out `points` ({points} along each side of a joint)", points=points
             )
     return PLASTIC_RESTITUTION if restitution is None else float(restitution)
 

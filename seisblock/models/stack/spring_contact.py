@@ -28,7 +28,7 @@ REL_S, REL_D, REL_V, REL_W = 0, 9, 12, 15
 
 RELATIVE = 18
 NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION, CLAMP_TO_EDGE, KINETIC, RESTITUTION = range(8)
-FORCE, TORQUE, ENERGY, TOUCHING, OUTSIDE = 0, 3, 6, 7, 8
+FORCE, TORQUE, ENERGY, N_IN_CONTACT, OUTSIDE = 0, 3, 6, 7, 8
 SUM = 9
 """A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in contact, points beyond the face."""
 
@@ -95,7 +95,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
             s1 = 0.0
             s2 = 0.0
             energy = 0.0
-            touching = 0.0
+            in_contact = 0.0
             is_outside = 0.0
             depth = 0.0
             n0 = 0.0
@@ -144,7 +144,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                     stretch[o, q, 0] = e0
                     stretch[o, q, 1] = e1
                     energy = 0.5 * (kn * depth * depth + kt * (e0 * e0 + e1 * e1))
-                    touching = 1.0
+                    in_contact = 1.0
                     f0 = -f0 - sigma * n0 * f2
                     f1 = -f1 - sigma * n1 * f2
                     f2 *= -sigma * n2
@@ -161,12 +161,12 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
             orbit[q, 4] = s2 * f0 - s0 * f2
             orbit[q, 5] = s0 * f1 - s1 * f0
             orbit[q, 6] = energy
-            orbit[q, 7] = touching
+            orbit[q, 7] = in_contact
             orbit[q, 8] = is_outside
         for i in range(SUM):
             # sums in mirrored pairs are bit-identical for mirrored piles; floating-point addition is not associative
             total[i] += (orbit[0, i] + orbit[1, i]) + (orbit[2, i] + orbit[3, i])
-    return int(total[TOUCHING])
+    return int(total[N_IN_CONTACT])
 
 
 @kernel(_t.float64(VECTOR, VECTOR, _t.float64, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR))
@@ -242,5 +242,5 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     total[4] += s2 * f0 - s0 * f2
     total[5] += s0 * f1 - s1 * f0
     total[ENERGY] += 0.5 * (kn * compression * compression + kt * (e0 * e0 + e1 * e1 + e2 * e2))
-    total[TOUCHING] += 1.0
+    total[N_IN_CONTACT] += 1.0
     return normal_force

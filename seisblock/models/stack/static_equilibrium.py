@@ -97,8 +97,8 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         checks.positive("the time step", step, "s")
     if step is not None and not step <= limit:
         raise ParameterError(
-            "a step of {step:g} s is too coarse for the stiffest contact of the pile {name}, stable up to {limit:.3g} s: leave "
-            "it out, or give at most {most:.2g} s",
+            "`step` of {step:g} s exceeds the stability limit of the pile {name}, {limit:.3g} s (stiffest contact): leave it out, "
+            "or give at most {most:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
@@ -106,8 +106,8 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         )
     if step is not None and step < MIN_STEP_RATIO * limit:
         raise ParameterError(
-            "a step of {step:g} s is finer than does any good: the stiffest contact of the pile {name} is stable up to "
-            "{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {least:.2g} s",
+            "`step` of {step:g} s is needlessly fine: below 1/1000 of the stability limit of the pile {name}, {limit:.3g} s, the "
+            "error does not decrease; leave it out, or give at least {least:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
@@ -144,8 +144,8 @@ def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, grav
         checks.positive("the time step", step, "s")
         if not RIGID_MIN_STEP_RATIO * swing_time <= step <= RIGID_MAX_STEP_RATIO * swing_time:
             raise ParameterError(
-                "a step of {step:g} s will not do for the rigid stones of the pile {name}, the smallest of which swings in {swing:.2g} s: "
-                "leave it out, or give {least:.2g} to {most:.2g} s",
+                "`step` of {step:g} s is out of range for the pile {name} with rigid contact (swing time of the smallest stone "
+                "{swing:.2g} s): leave it out, or give {least:.2g} to {most:.2g} s",
                 step=step,
                 name=pile.body.name,
                 swing=swing_time,
@@ -183,7 +183,7 @@ def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stre
             _displace(pile, u, displacements, index, bodies, stretches)
             return
         active_points = in_contact
-    raise BodyError("the pile {name} does not come to rest on its joints: its load lies too close to an edge", name=pile.body.name)
+    raise BodyError("the pile {name} is not in equilibrium on its joints: the load is too close to an edge", name=pile.body.name)
 
 
 def _displace(

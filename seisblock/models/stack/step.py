@@ -26,7 +26,7 @@ from seisblock.models.stack.frames import (
     update_rotation_matrix,
     update_spin,
 )
-from seisblock.models.stack.spring_contact import ACTIVE, ALIVE, ENERGY, OUTSIDE, SUM, TOUCHING, add_joint_forces
+from seisblock.models.stack.spring_contact import ACTIVE, ALIVE, ENERGY, N_IN_CONTACT, OUTSIDE, SUM, add_joint_forces
 
 _t = types()
 
@@ -74,7 +74,7 @@ def clear_pair(pair, memory):
 @kernel(_t.void(INTEGERS, MATRIX, _t.int64, _t.int64, VECTOR), inline=True)
 def _mark_touching(owner, contact_matrix, c, p, total):
     """Mark two bodies as touching if any point carries a force."""
-    if total[TOUCHING] > 0.0:
+    if total[N_IN_CONTACT] > 0.0:
         contact_matrix[owner[c], owner[p]] = 1.0
         contact_matrix[owner[p], owner[c]] = 1.0
 

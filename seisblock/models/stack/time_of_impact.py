@@ -166,10 +166,10 @@ def add_restitution_rows(count, n, pile, memory):
     for i in range(count):
         memory.constraint_rows[i, LOAD_SHARE] = 0.0
     for i in range(count):
-        is_held = not (memory.constraint_rows[i, RESTITUTION_RATIO] >= 0.0 and _is_impact(memory.constraint_rows[i]))
+        has_row = not (memory.constraint_rows[i, RESTITUTION_RATIO] >= 0.0 and _is_impact(memory.constraint_rows[i]))
         for j in range(count, rows):
-            is_held = is_held or _same_bodies(i, j, memory)
-        if not is_held and _add_restitution_row(i, count, rows, n, pile, memory):
+            has_row = has_row or _same_bodies(i, j, memory)
+        if not has_row and _add_restitution_row(i, count, rows, n, pile, memory):
             rows += 1
     return rows
 
