@@ -195,7 +195,7 @@ BAD = {
     "fixed unknown": (("--fix", "nose"), "'nose'"),
     "too coarse": (("--step", "0.01", "--law", "springs"), "stability limit"),
     "too coarse for rigid stones": (("--step", "0.1"), "out of range"),
-    "rigid springs": (("--law", "rigid", "--young", "1e9"), "has no effect with rigid contact"),
+    "rigid springs": (("--law", "rigid", "--young", "1e9"), "no springs"),
     "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
     "grid without study": (("--grid", "2"), "go with --criterion"),

@@ -198,10 +198,10 @@ def test_where_the_run_pauses_changes_no_bit(monkeypatch):
         ({"law": "rigid", "contact": PileContact()}, "has no effect with rigid contact"),
         ({"law": "springs", "restitution": 0.9}, "have no effect with contact springs"),
         ({"restitution": 1.5}, "restitution of the joints"),
-        ({"restitution": 0.9, "points": 5}, "stand on their edges"),
+        ({"restitution": 0.9, "points": 5}, "requires contact at the edges"),
         ({"mu_kinetic": 0.9}, "more than static friction"),
-        ({"step": 0.1}, "will not do for the rigid stones"),
-        ({"step": 1e-9}, "will not do for the rigid stones"),
+        ({"step": 0.1}, "is out of range for the pile"),
+        ({"step": 1e-9}, "is out of range for the pile"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(more, said):
