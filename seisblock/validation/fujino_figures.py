@@ -24,7 +24,9 @@ FRICTION = np.round(np.arange(0.05, 0.2001, 0.005), 4)
 RATIOS = (0.333, 0.5, 0.75, 1.0)
 SLOPES = np.arange(0.0, 30.0, 0.25)
 CITATION = "[Fujino1978]_ "
-RECORD_NOTE = "bundled El Centro 1940 NS, 245.27 gal (the paper: own digitisation)"
+RECORD_NOTE = "bundled El Centro 1940 NS, 245.27 gal (paper: own digitisation)"
+TAFT_NOTE = "bundled El Centro 1940 NS, 245.27 gal (paper: Taft)"
+HACHINOHE_NOTE = "bundled El Centro 1940 NS, 245.27 gal (paper: Hachinohe)"
 
 
 @functools.cache
@@ -107,12 +109,12 @@ FIGURES = (
               "displacement has a shoulder from 0.08 to 0.14 and a local peak at 0.10, but is largest at 0.05"),
     *(
         _shape(f"fujino-fig15-either-or-{mu}", CITATION + "fig. 15", f"share of slopes with a final displacement of 0.2 to 1 m, mu = {mu}", "1", 0.0, 0.04,
-             functools.partial(_halfway, mu), note="paper: either cracks or complete sliding; " + RECORD_NOTE + " (the paper: Taft)")
+             functools.partial(_halfway, mu), note="paper: either cracks or complete sliding; " + TAFT_NOTE)
         for mu in (0.3, 0.4, 0.5, 0.6)
     ),
     *(
         _shape(f"fujino-fig15-linear-{mu}", CITATION + "fig. 15", f"correlation of displacement and slope beyond the foot, mu = {mu}", "1", 1.0, 0.1,
-             functools.partial(_correlation, mu), note="paper: nearly proportional to the slope; " + RECORD_NOTE + " (the paper: Taft)")
+             functools.partial(_correlation, mu), note="paper: nearly proportional to the slope; " + TAFT_NOTE)
         for mu in (0.2, 0.3, 0.4, 0.5, 0.6)
     ),
     _shape("fujino-fig15-rate", CITATION + "fig. 15", "rates of increase beyond the foot in decreasing order for mu = 0.2, 0.4, 0.6 (1: yes)", "1", 1.0,
@@ -120,11 +122,11 @@ FIGURES = (
     *(
         _shape(f"fujino-fig16-{slope}", CITATION + "fig. 16", f"critical friction over the smaller of eqs. (14), (15), {slope:g} degrees", "1", 1.0,
              tolerance, lambda slope=slope: _critical(slope) / _criterion(slope),  # type: ignore[misc]
-             note="the simulation approaches both criteria from below, except near their crossing; " + RECORD_NOTE + " (the paper: Hachinohe)")
+             note="the simulation approaches both criteria from below, except near their crossing; " + HACHINOHE_NOTE)
         for slope, tolerance in ((4.0, 0.02), (8.0, 0.02), (28.0, 0.02), (36.0, 0.02))
     ),
     _shape("fujino-fig16-below", CITATION + "fig. 16", "critical friction below both criteria at 12, 16 and 20 degrees, near their crossing (1: yes)",
          "1", 1.0, 0.0, lambda: float(all(_critical(slope) < _criterion(slope) for slope in (12.0, 16.0, 20.0))),
-         note="a single exceedance does not cause 2 m of sliding there; " + RECORD_NOTE + " (the paper: Hachinohe)"),
+         note="a single exceedance does not cause 2 m of sliding there; " + HACHINOHE_NOTE),
 )  # fmt: skip
 """Cases on figures 7, 15 and 16."""

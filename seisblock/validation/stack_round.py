@@ -252,7 +252,7 @@ CASES = (
     _rolling_case("slope", "acceleration of a drum rolling down a slope of 0.2 rad, (2/3) g sin(0.2)", "m/s^2", SLOPE_ACCELERATION, CONVERGED * SLOPE_ACCELERATION, simulated_slope_acceleration),
     _rolling_case("coin", "distance of a coin rolling at 2 m/s, after 1 s", "m", SPEED * SECONDS, DISTANCE_TOLERANCE, partial(rolling_distance, 1e-3)),
     _rolling_case(
-        "thrown", "distance of a drum thrown at 2 m/s without spin, after 1 s; friction 0.3, final speed 2/3",
+        "thrown", "distance of a drum thrown at 2 m/s without spin, after 1 s; friction 0.3, finally rolling at 2/3 of the speed",
         "m", thrown_distance(), DISTANCE_TOLERANCE, partial(rolling_distance, 2.0 * RADIUS, rolls=False, mu=LOW_FRICTION),
     ),
 )  # fmt: skip
