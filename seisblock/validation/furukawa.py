@@ -205,6 +205,7 @@ def _rate(survey: SurveyedRate, reinforced: bool) -> float:
 
 def scatter(surveys: tuple[SurveyedRate, ...] = SURVEYS) -> float:
     """Return the rms deviation of the surveyed rates from the curves, in ln PGA."""
+    # PGA at which the curve gives the surveyed rate, over the recorded PGA
     residuals = [math.log(float(overturning_level(s.frequency)) / _quantile(s.rate) / s.pga) for s in surveys]
     return math.sqrt(sum(r * r for r in residuals) / len(residuals))
 

@@ -40,6 +40,7 @@ def pile(mu: float | None = None) -> Pile:
 
 def rough_threshold(frequency: float, pga: float) -> float:
     """Return the smallest H/B of a sao that overturns under a sine without sliding; above the largest if none does."""
+    # the criterion study of a single sine gives its threshold H/B
     study = criterion_study(pile(NO_SLIP_FRICTION), frequencies=(frequency,), pgas=(pga,), gravity=GRAVITY)
     ratio = study.thresholds[0].ratio
     return RATIOS[-1] + HEIGHT_STEP if ratio is None else ratio
@@ -50,7 +51,7 @@ def composite_level(frequency: float, restitution: float | None) -> float:
     blocks = [(ratio, rigid_top(with_top(pile(), ratio), 5)) for ratio in RATIOS]
 
     def work(pga: float) -> Threshold:
-        """Return the most squat one that falls under a sine."""
+        """Return the threshold under a sine: the smallest H/B that overturns."""
         motion = sine_base(frequency, pga)
         falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=GRAVITY, restitution=restitution).overturned)
         return Threshold(frequency, pga, next(falls, None))

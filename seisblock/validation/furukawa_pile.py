@@ -63,6 +63,7 @@ def _component(rng: np.random.Generator, pga: float, pgv: float) -> FloatArray:
     noise = rng.normal(size=SAMPLE_COUNT)
     time = SAMPLING_S * np.arange(SAMPLE_COUNT)
     envelope = np.clip(time / 2.0, 0.0, 1.0) ** 2 * np.exp(-np.clip(time - 7.0, 0.0, None) / 2.0)
+    # bisection of the centre frequency, Hz: at a given PGA a lower band has a higher PGV
     low, high = 0.1, 8.0
     acceleration: FloatArray = noise
     for _ in range(25):

@@ -46,6 +46,7 @@ def simulated_threshold(w: float, halves: int, low: float, high: float) -> float
 
 def free_period(share: float) -> float:
     """Return the period of free rocking from theta0 = share alpha, linear and without loss, s."""
+    # without loss every second impact completes a period
     ground = Motion.from_arrays(np.zeros(2001), 0.01)
     response = solve_rock(from_slenderness(ALPHA, P), ground, restitution=1.0, linear=True, initial=(share * ALPHA, 0.0))
     times = [event.time_s for event in response.events if event.name == "impact"]

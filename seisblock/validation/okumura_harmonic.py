@@ -59,6 +59,7 @@ def _three_ways() -> tuple[float, float]:
             modal = uplift_thresholds(body, ratio, phi_deg=phi, rho_deg=rho)
             for corner in (1, 2, 3, 4):
                 closed = harmonic_uplift_ratio(ratio, alpha=alpha, beta=beta, damping=damping, phi_deg=phi, rho_deg=rho, corner=corner)
+                # a corner that practically never lifts has no meaningful ratio of thresholds
                 finite = np.isfinite(modal[corner - 1]) & (modal[corner - 1] < 1e6)
                 closed_apart = max(closed_apart, float(np.abs(closed[finite] / modal[corner - 1][finite] - 1.0).max(initial=0.0)))
             direction = shaking_direction(phi, rho)

@@ -28,6 +28,7 @@ def _steady(ratio: float, share: float) -> tuple[float, Response[UpliftOutcome]]
     """Return the threshold A/g at theta/omega_1, and the response to a ramped sine of `share` times the threshold."""
     threshold = float(uplift_thresholds(BODY, [ratio], phi_deg=PHI, rho_deg=RHO, damping="dashpots").min())
     phase = 2.0 * np.pi * np.arange(50 * 200 + 1) / 200
+    # a ramp over 30 cycles keeps the transient below the steady amplitude
     envelope = 0.5 - 0.5 * np.cos(np.pi * np.minimum(phase / (60.0 * np.pi), 1.0))
     rows = share * threshold * STANDARD_GRAVITY * np.outer(shaking_direction(PHI, RHO), envelope * np.sin(phase))
     return threshold, solve_uplift(BODY, Motion(rows, 2.0 * np.pi / (ratio * natural_modes(BODY).omega_1) / 200))

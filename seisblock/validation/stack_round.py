@@ -140,6 +140,7 @@ def rock_and_roll(
     end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, ground_at_rest(2.0 * UPRIGHT_TIME, step))
     time, axis = _axis(end, 2.0 * UPRIGHT_TIME)
     lean = np.hypot(axis[:, 0], axis[:, 1])
+    # smallest lean: passage through the upright position; the next maximum is the lean on the other side
     upright = int(np.argmin(np.where(time < UPRIGHT_TIME, lean, np.inf)))
     back = upright + int(np.argmax(lean[upright:]))
     angle = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
@@ -160,6 +161,7 @@ def simulated_rim_rate(height: float, lean: float) -> float:
 
 def roll_down_slope() -> tuple[float, SimulationResult]:
     """Return the acceleration of a drum on its side on a slope, m/s^2, and the result; the slope is an inclined gravity."""
+    # a slope is level ground under inclined gravity: g sin along x, and the vertical component reduced to g cos
     even = np.full(round(SECONDS / STEP) + 1, STANDARD_GRAVITY)
     motion = Motion.from_arrays(-even * math.sin(SLOPE), STEP, vertical=even * (math.cos(SLOPE) - 1.0))
     end = release(drum(2.0 * RADIUS), LYING_AXES, RADIUS, np.zeros(3), np.zeros(3), motion)
@@ -189,6 +191,7 @@ def rolling_distance(height: float, rolls: bool = True, mu: float = NO_SLIP_FRIC
 
 def thrown_distance() -> float:
     """Return the distance of a drum thrown without spin, m: friction spins it up until it rolls at two thirds of its speed."""
+    # sliding lasts until the circumferential speed equals the decreasing speed: v0 / (3 mu g)
     slips = SPEED / (3.0 * LOW_FRICTION * STANDARD_GRAVITY)
     return SPEED * slips - 0.5 * LOW_FRICTION * STANDARD_GRAVITY * slips**2 + 2.0 / 3.0 * SPEED * (SECONDS - slips)
 

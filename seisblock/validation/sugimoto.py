@@ -143,6 +143,7 @@ def _flight_to_floor(ground_case: int) -> float:
         drop_of_corner = block.centroid_height * (math.cos(angle) - 1) + half * math.sin(angle)
         return restitution * omega * half * t - GRAVITY * t * t / 2 - drop_of_corner
 
+    # angular velocity before the impact from the flight time to the ground, then the first return to the starting level
     omega = brentq(lambda omega: corner(landing - impact, omega) + drop, 0.0, 3.0, xtol=1e-15)
     return float(brentq(corner, 1e-6, landing - impact, args=(omega,), xtol=1e-15))
 

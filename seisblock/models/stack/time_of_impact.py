@@ -119,7 +119,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
                 touch_count += 1.0
                 prior_force += table[j, PRIOR_NORMAL_FORCE]
                 load += max(_normal_part(table[j], PRIOR_IMPULSE), 0.0)
-    # no loaded point, or no room for another row: the impact stays plastic
+    # no loaded point, or the rows are full: the impact stays plastic
     if touch_count == 0.0 or row_index >= table.shape[0]:
         return False
     for k in range(ARM_A, NORMAL + 3):
