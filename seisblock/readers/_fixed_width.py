@@ -59,7 +59,7 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
     field_lines = lines[first : first + ceil(count / per_line)]
     if count < 1 or len(field_lines) * per_line < count:
         raise RecordFormatError(
-            "{name} is cut short: its header promises {count} numbers from line {line} on, and the file ends before them: fetch it again",
+            "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again",
             name=name,
             count=count,
             line=first + 1,

@@ -40,7 +40,7 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     peak = parse_number(peak_text)
     if peak is None:
         text = lazy_gettext(
-            "{component}: the header's peak is no number ({text!r}): the samples cannot be checked", component=code, text=peak_text[:20]
+            "{component}: header peak {text!r} is not a number; peak of the samples not checked", component=code, text=peak_text[:20]
         )
         return (QCFlag("header", text, code),)
     extremes = np.array([values.max(), values.min()])
@@ -48,7 +48,7 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
     text = lazy_gettext(
-        "{component}: the header says that the peak is {told:g} {unit}, the samples reach {peak:g} {unit}",
+        "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}",
         component=code,
         told=peak,
         unit=unit,

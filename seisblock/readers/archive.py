@@ -90,7 +90,7 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
             raise
         except _DAMAGE_ERRORS as error:
             raise RecordFormatError(
-                "{name} is a damaged or encrypted archive ({error}): fetch it again or unpack it first",
+                "{name}: archive damaged or encrypted ({error}); download it again or unpack it first",
                 name=blob.name,
                 error=str(error)[:200],
             ) from error

@@ -44,11 +44,13 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
-        raise RecordError("{name}: not one recording, the starts differ ({starts}): read these files one by one", name=name, starts=starts)
+        raise RecordError(
+            "{name}: start times differ ({starts}), so the files are not one recording; read them separately", name=name, starts=starts
+        )
     intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
         interval_texts = [f"{dt:g} s" for dt in intervals]
-        raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=interval_texts)
+        raise RecordError("{name}: sampling intervals differ ({found}); give the files of one recording", name=name, found=interval_texts)
     components = [c for part in selected_parts for c in part.components]
     history = dict.fromkeys(line for part in selected_parts for line in part.history)
     if selected_parts[0].format in SYNCHRONOUS_FORMATS:
@@ -87,11 +89,11 @@ def _select_station(name: str, parts: Sequence[Record], station: str | None) -> 
     if station is not None:
         matching_parts = [p for p in parts if matches_station(p, station)]
         if not matching_parts:
-            raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=station_names)
+            raise ComponentError("{name}: no station {station!r}; available: {listed}", name=name, station=station, listed=station_names)
         return matching_parts
     if len(stations) > 1:
         raise ComponentError(
-            "{name} holds {count} stations: choose one with `station`: {listed}", name=name, count=len(stations), listed=station_names
+            "{name} contains {count} stations; select one with `station`: {listed}", name=name, count=len(stations), listed=station_names
         )
     return parts
 
@@ -100,21 +102,23 @@ def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tupl
     """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
     levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
     if level is not None and level not in LEVELS:
-        raise ComponentError("unknown level {level!r}: give surface or borehole", level=level)
+        raise ComponentError("unknown `level` {level!r}: expected surface or borehole", level=level)
     if not levels:
         if level == "borehole":
-            raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave `level` out", name=name)
+            raise ComponentError("{name}: no borehole sensor (KiK-net stations only); omit `level`", name=name)
         return parts, ()
     selected_level = level or ("surface" if "surface" in levels else "borehole")
     matching_parts = [p for p in parts if p.metadata.get("level") == selected_level]
     if not matching_parts:
-        raise ComponentError("{name} holds no {taken} components, only {levels}", name=name, taken=selected_level, levels=sorted(levels))
-    reason = lazy_gettext("as asked") if level else lazy_gettext("the default") if len(levels) > 1 else lazy_gettext("the only one given")
-    text = (
-        "took the surface sensor of the KiK-net station ({why})"
-        if selected_level == "surface"
-        else "took the borehole sensor of the KiK-net station ({why})"
+        raise ComponentError("{name}: no {taken} sensor; available: {levels}", name=name, taken=selected_level, levels=sorted(levels))
+    reason = (
+        lazy_gettext("selected by `level`")
+        if level
+        else lazy_gettext("default")
+        if len(levels) > 1
+        else lazy_gettext("only sensor in the files")
     )
+    text = "KiK-net surface sensor used ({why})" if selected_level == "surface" else "KiK-net borehole sensor used ({why})"
     return matching_parts, (lazy_gettext(text, why=reason),)
 
 
@@ -128,7 +132,9 @@ def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component],
     trimmed_components = [replace(c, acceleration=c.acceleration[:min_length]) for c in components]
     return trimmed_components, [
         lazy_gettext(
-            "cut all components to the shortest, {shortest} samples (the files hold {lengths})", shortest=min_length, lengths=length_texts
+            "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})",
+            shortest=min_length,
+            lengths=length_texts,
         )
     ]
 

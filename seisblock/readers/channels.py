@@ -30,7 +30,7 @@ def make_component(direction: Direction, values: FloatArray, name: str) -> tuple
     """
     if direction.sign > 0:
         return Component(direction.code, values, direction.azimuth_deg), ()
-    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=name.strip()),)
+    history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=name.strip()),)
     return Component(direction.code, -values, direction.azimuth_deg), history
 
 

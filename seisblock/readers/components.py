@@ -146,4 +146,4 @@ def _load_file(path: Path, origin: RawFile, budget: ReadBudget) -> RawFile:
     try:
         return RawFile(str(path), read_bytes(path, str(path), budget), path)
     except RecordError as error:
-        raise RecordError("{error}; it belongs to {name}", error=error.message, name=origin.name) from error
+        raise RecordError("{error} (component file of the same set as {name})", error=error.message, name=origin.name) from error

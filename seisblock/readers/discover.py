@@ -129,7 +129,7 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
     elif not exists and any(mark in name for mark in "*?["):
         matches = sorted(match for match in glob.glob(str(path), recursive=True) if Path(match).is_file())  # noqa: PTH207 - Path.glob takes no absolute pattern
         if not matches:
-            raise RecordNotFoundError("no file fits the pattern {name}", name=name)
+            raise RecordNotFoundError("no file matches the pattern {name}", name=name)
         yield from matches
     else:
         yield name if exists else _sample_path(name)
@@ -147,14 +147,14 @@ def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) 
     """Yield the files that a list names, one on each line; those that are not here are looked for beside the list."""
     real_path = os.path.realpath(path)
     if real_path in open_lists:
-        raise RecordNotFoundError("{name}: this list of records names itself: take it off the list", name=path)
+        raise RecordNotFoundError("{name}: the record list contains itself; remove that line", name=path)
     try:
         lines = read_bytes(path, str(path), RecordNotFoundError).decode("utf-8-sig").splitlines()
     except UnicodeDecodeError as error:
-        raise RecordNotFoundError("{name}: the list of records cannot be read: {reason}", name=path, reason=str(error)) from error
+        raise RecordNotFoundError("{name}: cannot read the record list: {reason}", name=path, reason=str(error)) from error
     entries = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith("#")]
     if not entries:
-        raise RecordNotFoundError("{name}: the list names no record: write one file on each line", name=path)
+        raise RecordNotFoundError("{name}: the record list is empty; write one file name per line", name=path)
     for line in entries:
         sibling = path.parent / line
         yield from _expand_name(str(sibling) if not Path(line).exists() and sibling.exists() else line, options, (*open_lists, real_path))
@@ -167,10 +167,10 @@ def _expand_folder(path: Path, options: ReadOptions) -> Iterator[str]:
             file for file in path.rglob("*") if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)
         )
     except OSError as error:
-        raise RecordNotFoundError("{name}: the folder cannot be read: {reason}", name=path, reason=os_error_text(error)) from error
+        raise RecordNotFoundError("{name}: cannot read the folder: {reason}", name=path, reason=os_error_text(error)) from error
     candidates = [str(file) for file in files if options.format is not None or _may_be_record(file)]
     if not candidates:
-        raise RecordNotFoundError("{name}: no record in this folder, {count} other files", name=path, count=len(files))
+        raise RecordNotFoundError("{name}: no record found in this folder ({count} other files)", name=path, count=len(files))
     yield from candidates
 
 
@@ -259,7 +259,9 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
             yield RecordSource(path.name, str(path), stamp, failure=error)
         else:
             if not member_count:
-                yield RecordSource(path.name, str(path), stamp, failure=RecordFormatError("{name}: no record in this bundle", name=path))
+                yield RecordSource(
+                    path.name, str(path), stamp, failure=RecordFormatError("{name}: no record found in this archive", name=path)
+                )
         for incomplete_key in buffer.keys:
             yield _archive_source(buffer.pop(incomplete_key), stamp)
 

@@ -93,10 +93,10 @@ def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
             continue
         parts.extend(replace(part, metadata={**part.metadata, "bundle": blob.name}) for part in read_parts(member, options))
     if not parts:
-        member_names = [m.basename for m in members[:8]] or lazy_gettext("nothing but plots")
+        member_names = [m.basename for m in members[:8]] or lazy_gettext("plots only")
         raise RecordFormatError(
-            "{name}: no record in this bundle, only {held}: expected files of K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet "
-            "or CWA, or plain tables",
+            "{name}: no record found in this archive (contents: {held}); expected K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, "
+            "ESM, GeoNet or CWA files, or plain tables",
             name=blob.name,
             held=member_names,
         )
@@ -109,17 +109,17 @@ def _check_options(record: Record, options: ReadOptions) -> Record:
     if options.units is not None and header_unit:
         option_unit = normalize_unit(options.units)
         if option_unit is None:
-            raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=options.units)
+            raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=options.units)
         if option_unit != header_unit:
             raise UnitError(
-                "{source} is in {stated} by its own header, the option says {units}: leave the option out",
+                "{source}: header unit {stated} contradicts `units` {units}; omit `units`",
                 source=record.source,
                 stated=header_unit,
                 units=options.units,
             )
     if options.dt is not None and abs(options.dt - record.dt) > 1e-6:
         raise ParameterError(
-            "{source}: its header says dt = {dt:g} s, the option says {options_dt:g} s: leave the option out",
+            "{source}: header dt {dt:g} s contradicts `dt` {options_dt:g} s; omit `dt`",
             source=record.source,
             dt=record.dt,
             options_dt=options.dt,

@@ -56,7 +56,7 @@ class ReadBudget:
         self.bytes_read += count
         if self.remaining_bytes < 0:
             raise RecordError(
-                "{name} holds more than the {limit} MiB that may be read: set {variable} to read more",
+                "{name}: larger than the limit of {limit} MiB; set {variable} to read more",
                 name=name,
                 limit=self.limits["SEISBLOCK_READ_MIB"],
                 variable="SEISBLOCK_READ_MIB",
@@ -71,7 +71,7 @@ class ReadBudget:
     def check_nesting(self, name: str, depth: int) -> None:
         """Refuse an archive that lies too deep in others."""
         if depth > self.limits["SEISBLOCK_READ_NESTING"]:
-            self._raise_exceeded(name, depth, "SEISBLOCK_READ_NESTING", N_("archives within archives"))
+            self._raise_exceeded(name, depth, "SEISBLOCK_READ_NESTING", N_("levels of nested archives"))
 
     def check_samples(self, name: str, count: int) -> None:
         """Count samples that were read."""
@@ -82,7 +82,7 @@ class ReadBudget:
     def _raise_exceeded(self, name: str, count: int, variable: str, quantity: str) -> None:
         """Say what was found, what is allowed, and what lifts it."""
         raise RecordError(
-            "{name}: {found} {what}, and {limit} may be read: set {variable} to read more",
+            "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more",
             name=name,
             found=count,
             what=lazy_gettext(quantity),

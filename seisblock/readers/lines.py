@@ -100,7 +100,7 @@ def read_lines(blob: RawFile) -> Sequence[str]:
         except UnicodeDecodeError:
             continue
         return lines
-    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:

@@ -63,7 +63,7 @@ class MemberBuffer:
             self._file.write(blob.data)
         except OSError as error:
             raise RecordError(
-                "{name} cannot be put away until the rest of its set is unpacked, in {folder}: {reason}",
+                "{name}: cannot write a temporary file in {folder}: {reason}",
                 name=blob.name,
                 folder=tempfile.gettempdir(),
                 reason=os_error_text(error),

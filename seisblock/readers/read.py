@@ -85,7 +85,7 @@ def read(
     options = ReadOptions(format, units, dt, station, level)
     sources = _as_list(source)
     if not sources:
-        raise ParameterError("no file was named: give at least one record")
+        raise ParameterError("no record given: give at least one file")
     return _assemble_record([_open_and_parse(s, options) for s in sources], options)
 
 
@@ -151,7 +151,7 @@ def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
     if isinstance(locations, (str, PathLike)):
         return [locations]
     if not isinstance(locations, Iterable):
-        raise KindError("a path is needed, or a list of paths, found {found}", found=checks.type_name(locations))
+        raise KindError("expected a path or a list of paths, found {found}", found=checks.type_name(locations))
     return list(locations)
 
 
@@ -161,7 +161,7 @@ def _check_duplicates(names: Sequence[str]) -> None:
     repeated_names = [name for name in dict.fromkeys(names) if counts[str(Path(name).absolute())] > 1]
     if repeated_names or names.count(STDIN) > 1:
         raise ParameterError(
-            "{name} is named {count} times among the records: name each file once",
+            "{name} is given {count} times; give each record once",
             name=repeated_names[0] if repeated_names else STDIN,
             count=counts[str(Path(repeated_names[0]).absolute())] if repeated_names else names.count(STDIN),
         )
@@ -204,7 +204,7 @@ def _assemble_record(group: Sequence[OpenedSource], options: ReadOptions, named_
         station_codes = list(dict.fromkeys(part.station for part in parts))
         if len(station_codes) > 1:
             raise ComponentError(
-                "{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(station_codes)
+                "{name} contains {count} stations, but one record is needed; select one with `station`", name=name, count=len(station_codes)
             )
     record = assemble(name, parts, station=None if options.station == ALL_STATIONS else options.station, level=options.level)
     return _finish_record(replace(record, sha256=sha256_digest(blobs)))

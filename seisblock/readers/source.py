@@ -71,9 +71,9 @@ class FileBytes:
                 data = stream.read(max(stop - begin, 0))
                 is_unchanged = file_stamp(os.fstat(stream.fileno())) == self.stamp
         except OSError as error:
-            raise RecordError("{name} cannot be read: {reason}", name=self.name, reason=os_error_text(error)) from error
+            raise RecordError("{name}: cannot read the file: {reason}", name=self.name, reason=os_error_text(error)) from error
         if not is_unchanged:
-            raise RecordError("{name} changed while it was read: read it again when it is complete", name=self.name)
+            raise RecordError("{name}: file changed while reading; read it again after it is complete", name=self.name)
         return data
 
 
@@ -158,7 +158,7 @@ def open_source(source: Location, budget: ReadBudget) -> RawFile:
         path = resolve_path(source)
         blob = RawFile(name, read_bytes(path, name, budget), path)
     if not any(not piece.isspace() for piece in blob.chunks()):
-        raise RecordError("{name} is empty: expected a strong-motion record", name=blob.name)
+        raise RecordError("{name}: empty file; expected a strong-motion record", name=blob.name)
     return blob
 
 
@@ -180,9 +180,9 @@ def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
     try:
         info = path.stat()
         if stat.S_ISDIR(info.st_mode):
-            raise RecordError("{name} is a directory: name a record file in it", name=name)
+            raise RecordError("{name} is a folder: give a record file in it", name=name)
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
-            raise RecordError("{name} is a device, not a record: name a file, or - for the standard input", name=name)
+            raise RecordError("{name} is a device: give a file, or - for the standard input", name=name)
         budget.check_declared_size(name, info.st_size)
         mark_read(path)
         if stat.S_ISREG(info.st_mode) and info.st_size > LARGE_FILE_BYTES:
@@ -191,7 +191,7 @@ def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
         with path.open("rb") as stream:
             return budget.read(name, stream)
     except OSError as error:
-        raise RecordError("{name} cannot be read: {reason}", name=name, reason=os_error_text(error)) from error
+        raise RecordError("{name}: cannot read the file: {reason}", name=name, reason=os_error_text(error)) from error
 
 
 def resolve_path(source: Location) -> Path:
@@ -205,14 +205,12 @@ def resolve_path(source: Location) -> Path:
             return path.expanduser()
     except (OSError, RuntimeError, ValueError) as error:  # too long, no such home, a NUL in it
         raise RecordNotFoundError(
-            "{name!r} is no name of a file: {reason}", name=name[:MAX_QUOTED_LENGTH], reason=_error_reason(error)
+            "invalid file name {name!r}: {reason}", name=name[:MAX_QUOTED_LENGTH], reason=_error_reason(error)
         ) from error
     sample = find_sample(name) if path.name == name else None
     if sample is None:
         sample_names = [s.name for s in list_samples() if s.kind == "record"]
-        raise RecordNotFoundError(
-            "{name}: no such file, and no bundled sample of that name (there are {known})", name=name, known=sample_names
-        )
+        raise RecordNotFoundError("{name}: no such file or bundled sample (samples: {known})", name=name, known=sample_names)
     return sample
 
 
@@ -250,7 +248,7 @@ def decode_text(blob: RawFile) -> str:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
-    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def japanese_encodings(data: bytes) -> tuple[str, str]:

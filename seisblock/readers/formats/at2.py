@@ -50,13 +50,11 @@ def read_at2(blob: RawFile) -> Record:
     header = " ".join(lines[:sampling_line])
     unit_match = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
     if unit_match and unit_match[1].upper() not in ("G", "G'S", "GS"):
-        raise RecordFormatError(
-            "{name}: an AT2 file is in g, but its header says {found!r}: expected an acceleration in g", name=blob.name, found=unit_match[1]
-        )
+        raise RecordFormatError("{name}: AT2 unit {found!r} in the header: expected acceleration in g", name=blob.name, found=unit_match[1])
     values = _parse_samples(blob.name, lines[sampling_line + 1 :], sampling_line + 2)
     if values.size != count:
         raise RecordFormatError(
-            "{name}: its header promises {count} samples (NPTS), it holds {found}: it is cut or damaged",
+            "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged",
             name=blob.name,
             count=count,
             found=values.size,
@@ -64,7 +62,7 @@ def read_at2(blob: RawFile) -> Record:
     event, station, direction = _parse_title(lines[1] if sampling_line > 1 else "", blob.basename)
     code, azimuth, sign = parse_orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
-    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=direction),) if sign < 0 else ()
+    history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
     return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
 
@@ -119,7 +117,7 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
                 )
             return index, int(count), dt
     raise RecordFormatError(
-        "{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {count}",
+        "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines",
         name=name,
         count=_HEADER_LINES,
     )
@@ -129,7 +127,7 @@ def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArr
     """Return the samples, g, row after row."""
     tokens = " ".join(lines).split()
     if not tokens:
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
     try:
         values = np.fromiter(map(float, tokens), dtype=np.float64, count=len(tokens))
     except ValueError:

@@ -60,10 +60,10 @@ _STRUCTURES = {10, 11, 12, 13, 15, 20}
 """Numbers of stations in a building, bridge, dam, wharf, or other structure."""
 
 _UNSUPPORTED = {
-    "raw": N_("raw counts (volume 0): take volume 1 or 2 of the same record"),
-    "velocity": N_("a velocity: take the file of accelerations of the same record"),
-    "displacement": N_("a displacement: take the file of accelerations of the same record"),
-    "uneven": N_("uneven samples, pairs of time and acceleration: take volume 2 of the same record, whose samples are even"),
+    "raw": N_("raw counts (volume 0): use volume 1 or 2 of the same record"),
+    "velocity": N_("velocity: use the acceleration file of the same record"),
+    "displacement": N_("displacement: use the acceleration file of the same record"),
+    "uneven": N_("unevenly sampled pairs of time and acceleration: use volume 2 of the same record (evenly sampled)"),
 }
 
 
@@ -124,26 +124,26 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     count = int(comment_head[1][:4])
     comments = lines[line_index + 1 : line_index + 1 + count]
     if len(comments) < count or not all(line.lstrip().startswith("|") for line in comments):
-        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comments that begin with |", count=count))
+        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comment lines beginning with |", count=count))
     line_index += 1 + count
     data, layout = _DATA.match(lines[line_index] if line_index < len(lines) else ""), parse_fortran_format(_line_text(lines, line_index))
     if data is None or layout is None:
         message = lazy_gettext(
-            "expected a line with count, unit and format of the samples below it, found {text!r}", text=_line_text(lines, line_index)
+            "expected a line with count, unit and format of the samples, found {text!r}", text=_line_text(lines, line_index)
         )
         raise_line_error(name, line_index + 1, message)
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
     if int(data[4]) == 3 or integer_values[UNIT] == 3:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
     samples = parse_fixed_width(name, lines, line_index + 1, size, layout)
     end = line_index + 1 + count_lines(size, layout)
     if end < len(lines) and not re.match(r"/&|End-of-data", lines[end], re.IGNORECASE):
         raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=_line_text(lines, end)))
     if int(data[4]) != integer_values[UNIT]:
         message = lazy_gettext(
-            "the unit of the samples is {one} here and {other} in the integers", one=data[3].strip(), other=integer_values[UNIT]
+            "sample unit {one} contradicts unit code {other} in the integer header", one=data[3].strip(), other=integer_values[UNIT]
         )
         raise_line_error(name, line_index + 1, message)
     text = [*lines[begin : begin + int(title[2][:3])], *[""] * (PEAK + 1)]
@@ -155,7 +155,7 @@ def _check_quantity(name: str, quantity: str) -> None:
     stated_quantity = re.sub(r"^(?:un)?corrected\s+", "", quantity.strip().lower())
     reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if stated_quantity.startswith(word)), None)
     if reason is not None:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(reason))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(reason))
 
 
 def _line_text(lines: Sequence[str], index: int) -> str:
@@ -168,7 +168,7 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
     head, layout = _SECTION_HEAD.match(_line_text(lines, line_index)), parse_fortran_format(_line_text(lines, line_index))
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
         message = lazy_gettext(
-            "expected the number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
+            "expected number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
         )
         raise_line_error(name, line_index + 1, message)
     count = int(head[1][:6])
@@ -179,21 +179,21 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
     """Return one channel."""
     if block.integers[UNIT] not in _UNITS:
         unit_code = block.integers[UNIT]
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=name, line=block.data_line + 1, text=unit_code)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=block.data_line + 1, text=unit_code)
     unit, factor = _UNITS[block.integers[UNIT]]
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
         raise_line_error(
             name,
             block.data_line + 1,
-            lazy_gettext("the reals above tell a sampling interval of {dt:g} ms: expected one above 0", dt=1000.0 * dt),
+            lazy_gettext("expected a sampling interval above 0 ms in the real header, found {dt:g} ms", dt=1000.0 * dt),
         )
     direction, direction_name = _parse_direction(block)
     scaled_samples = block.samples if factor == 1.0 else factor * block.samples
     component, history = make_component(direction, to_si(scaled_samples, unit), direction_name)
     flags = _qc_flags(direction.code, block, dt)
     if not is_complete:
-        flags += (QCFlag("cut", lazy_gettext("the mark that ends the last channel is missing: the file looks cut")),)
+        flags += (QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated")),)
     start = _start_time(block)
     return Record(
         (component,),
@@ -263,8 +263,11 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     flags = flag_peak_mismatch(code, peak_text, block.samples, _UNITS[block.integers[UNIT]][0], 2.0 * half_last_digit(peak_text))
     size, length = block.samples.size, float(block.reals[LENGTH])
     if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=f"{length:g}",
-        count=size,
-                    seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=f"{length:g}",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

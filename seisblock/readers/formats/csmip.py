@@ -50,10 +50,10 @@ _PEAKS = {1: r"\bmax\s*=\s*(-?[\d.]+)", 2: r"\bpeak acceleration\s*=\s*(-?[\d.]+
 
 _END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
 _UNSUPPORTED = {
-    "RES": N_("response spectra (volume 3): take volume 2 of the same record"),
-    "FIL": N_("uncorrected, uneven samples in the layout of USC: take corrected, even ones of the same record, volume 2"),
+    "RES": N_("response spectra (volume 3): use volume 2 of the same record"),
+    "FIL": N_("uncorrected, unevenly sampled data in USC format: use the corrected volume 2 of the same record"),
 }
-_UNEVEN = N_("uneven samples (volume 1, pairs of time and acceleration): take volume 2 of the same record, whose samples are even")
+_UNEVEN = N_("unevenly sampled pairs of time and acceleration (volume 1): use volume 2 of the same record (evenly sampled)")
 
 
 class _Section(NamedTuple):
@@ -98,7 +98,7 @@ def read_csmip(blob: RawFile) -> list[Record]:
 
 def _flag_truncated(part: Record) -> Record:
     """Return a record with the doubt that its file lacks its end."""
-    flag = QCFlag("cut", lazy_gettext("the mark that ends the last channel is missing: the file looks cut"))
+    flag = QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated"))
     return replace(part, doubts=(*part.doubts, flag))
 
 
@@ -109,7 +109,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
         raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
     kind = title[1][:3].decode().upper()
     if kind in _UNSUPPORTED:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
     volume = _VOLUMES[kind]
     line_index = begin + _HEADERS[volume]
     sections = [_parse_section(name, lines, line_index, volume)]
@@ -120,7 +120,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
         raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
     acceleration = next((section for section in sections if section.quantity == "accel"), None)
     if acceleration is None:
-        raise RecordFormatError("{name}, line {line}: there is no acceleration in this channel", name=name, line=begin + 1)
+        raise RecordFormatError("{name}, line {line}: no acceleration in this channel", name=name, line=begin + 1)
     return _to_record(name, lines[begin:line_index], begin, volume, acceleration), end + 1
 
 
@@ -129,12 +129,10 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     text = lines[line_index] if line_index < len(lines) else ""
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNEVEN))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
-        message = lazy_gettext(
-            "expected a line with count, interval and unit of the samples below it, found {text!r}", text=text.strip()[:80]
-        )
+        message = lazy_gettext("expected a line with count, interval and unit of the samples, found {text!r}", text=text.strip()[:80])
         raise_line_error(name, line_index + 1, message)
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
@@ -152,7 +150,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     unit = normalize_unit(section.unit)
     if unit is None:
         line = begin + len(text) + 1
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=name, line=line, text=section.unit)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=line, text=section.unit)
     line_shift = volume - 1
     channel = re.match(r"\s*CHAN\s+(\S+?)\s*:\s*(\d{1,3}\s*deg\b|\S+)(.*)", text[CHANNEL + line_shift], re.IGNORECASE)
     station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + line_shift], re.IGNORECASE)
@@ -229,15 +227,16 @@ def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCF
     promised_count = int((count_match[1] or count_match[2])[:12]) if count_match else 0
     if promised_count != size:
         flags += (
-            QCFlag(
-                "count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=size)
-            ),
+            QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=size)),
         )
     length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
     seconds = parse_number(length[1]) if length else None
     if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
-        text=length[1] if length else "-",
-                    count=size, seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=length[1] if length else "-",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

@@ -78,7 +78,7 @@ def read_cwa(blob: RawFile) -> Record:
     if unit is None:
         entry = header["amplitudeunit"]
         raise_line_error(
-            blob.name, entry.line, lazy_gettext("expected a unit of acceleration such as gal, found {text!r}", text=entry.value[:40])
+            blob.name, entry.line, lazy_gettext("expected an acceleration unit such as gal, found {text!r}", text=entry.value[:40])
         )
     labels = {"Time": 0, **{code: i + 1 for i, code in enumerate(directions)}}
     rows = parse_columns(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
@@ -114,7 +114,7 @@ def _require_entry(name: str, header: Mapping[str, _Entry], key: str) -> _Entry:
     if key not in header:
         line_names = {"amplitudeunit": "#AmplitudeUnit", "samplerate": "#SampleRate(Hz)", "datasequence": "#DataSequence"}
         raise RecordFormatError(
-            "{name}: the header of a CWA file lacks the line {line}: it is cut or damaged, fetch it again", name=name, line=line_names[key]
+            "{name}: CWA header line {line} missing: file truncated or damaged; download it again", name=name, line=line_names[key]
         )
     return header[key]
 
@@ -126,7 +126,7 @@ def _parse_directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Dire
     parsed_directions = [parse_direction(letter) for letter in letters]
     directions = {direction.code: direction for direction in parsed_directions if direction is not None and direction.sign > 0.0}
     if not _SEQUENCE.match(entry.value) or len(directions) != len(letters):
-        message = lazy_gettext("expected the sequence of the columns, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
+        message = lazy_gettext("expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
         raise_line_error(name, entry.line, message)
     return directions
 
@@ -136,11 +136,11 @@ def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArra
     entry = _require_entry(name, header, "samplerate")
     rate = parse_number(entry.value)
     if rate is None or not rate > 0.0:
-        raise_line_error(name, entry.line, lazy_gettext("expected samples per second, found {text!r}", text=entry.value[:40]))
+        raise_line_error(name, entry.line, lazy_gettext("expected the number of samples per second, found {text!r}", text=entry.value[:40]))
     dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
     if abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
-            "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=name, rate=rate, dt=dt
+            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged", name=name, rate=rate, dt=dt
         )
     return 1.0 / rate
 
@@ -179,7 +179,7 @@ def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterato
     slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
         message = lazy_gettext(
-            "the header tells a duration of {text} s, {count} samples take {seconds:g} s",
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
             text=entry.value[:20] or "-",
             count=count,
             seconds=count * dt,
@@ -201,7 +201,7 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
         text = lazy_gettext(
-            "{component}: the header says that the samples lie within {told!r}, they reach from {low:g} to {high:g} {unit}",
+            "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}",
             component=direction.code,
             told=entry.value[:40],
             low=sample_extremes[0],

@@ -49,11 +49,11 @@ def read_esm(blob: RawFile) -> Record:
     header, body = _parse_header(blob.name, lines)
     kind = _get_value(blob.name, header, "DATA_TYPE")[1]
     if kind.upper() != "ACCELERATION":
-        raise RecordFormatError("{name} holds {what} by its own header: take the file of accelerations (ACC)", name=blob.name, what=kind)
+        raise RecordFormatError("{name}: header states {what}: use the acceleration file (ACC)", name=blob.name, what=kind)
     line, unit_text = _get_value(blob.name, header, "UNITS")
     unit = normalize_unit(unit_text)
     if unit is None:
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=blob.name, line=line, text=unit_text)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=blob.name, line=line, text=unit_text)
     line, text = _get_value(blob.name, header, "SAMPLING_INTERVAL_S")
     dt = parse_number(text)
     if not dt or dt < 0:
@@ -62,7 +62,7 @@ def read_esm(blob: RawFile) -> Record:
     (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
         raise RecordFormatError(
-            "{name}: its header promises {count} samples (NDATA), it holds {found}: it is cut or damaged",
+            "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged",
             name=blob.name,
             count=count,
             found=values.size,
@@ -91,19 +91,19 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
         if match is None:
             if parse_number(line) is None:
                 raise_line_error(
-                    name, index + 1, lazy_gettext("expected KEY: value, or the first sample, found {text!r}", text=line.strip()[:80])
+                    name, index + 1, lazy_gettext("expected 'KEY: value' or the first sample, found {text!r}", text=line.strip()[:80])
                 )
             return header, index
         if match[1] in header:
-            raise_line_error(name, index + 1, lazy_gettext("the header tells {key} twice", key=match[1]))
+            raise_line_error(name, index + 1, lazy_gettext("duplicate header entry {key}", key=match[1]))
         header[match[1]] = (index + 1, (match[2] or "").strip())
-    raise RecordFormatError("{name}: no sample among the first {count} lines: it is cut or damaged", name=name, count=_MAX_HEADER_LINES)
+    raise RecordFormatError("{name}: no sample in the first {count} lines: file truncated or damaged", name=name, count=_MAX_HEADER_LINES)
 
 
 def _get_value(name: str, header: Header, key: str) -> tuple[int, str]:
     """Return the line and the value of a key."""
     if key not in header:
-        raise RecordFormatError("{name}: its header has no {key}: it is cut or damaged", name=name, key=key)
+        raise RecordFormatError("{name}: header entry {key} missing: file truncated or damaged", name=name, key=key)
     return header[key]
 
 
@@ -150,10 +150,16 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     duration = parse_number(text)
     if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
         flags += (
-            QCFlag("count", lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
-            text=text[:20] or "-",
-                                count=values.size, seconds=values.size * dt)),
-        )  # fmt: skip
+            QCFlag(
+                "count",
+                lazy_gettext(
+                    "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+                    text=text[:20] or "-",
+                    count=values.size,
+                    seconds=values.size * dt,
+                ),
+            ),
+        )
     return flags
 
 
@@ -162,4 +168,4 @@ def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
     last = lines[-1].strip()
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()
-    return (QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")),)
+    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)

@@ -172,12 +172,13 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
     count, text = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
     size, seconds = block.samples.size, parse_number(text)
     if count != size:
-        flags += (
-            QCFlag("count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=count, count=size)),
-        )
+        flags += (QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=count, count=size)),)
     if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=text[:20] or "-",
-        count=size,
-                    seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=text[:20] or "-",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

@@ -69,11 +69,11 @@ def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ..
     """Return what speaks for a file that was cut: JMA ends its last line, and publishes whole seconds."""
     flags = []
     if lines[-1].strip():
-        flags.append(QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")))
+        flags.append(QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
         text = lazy_gettext(
-            "{samples} samples are no whole number of seconds ({seconds:.6g} s): lines are missing, or the file was cut",
+            "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
             samples=samples,
             seconds=seconds,
         )
@@ -92,7 +92,7 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int,
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
     raise RecordFormatError(
-        "{name}: the JMA header is cut short: {count} lines, none of which names the components (NS,EW,UD)", name=name, count=count
+        "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)", name=name, count=count
     )
 
 
@@ -114,9 +114,7 @@ def _get_value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tup
     for key in keys:
         if key in header:
             return header[key][0], header[key][1].rstrip(", ")
-    raise RecordFormatError(
-        "{name}: the JMA header has no {key!r} line: it is cut short, or this is not a JMA file", name=name, key=keys[0]
-    )
+    raise RecordFormatError("{name}: JMA header line {key!r} missing: file truncated or not a JMA file", name=name, key=keys[0])
 
 
 def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
@@ -134,7 +132,7 @@ def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
     line, text = _get_value(name, header, "UNIT")
     stated_units = {normalize_unit(part.rstrip(") ")) for part in text.split("(")} - {None}
     if len(stated_units) > 1:
-        raise UnitError("{name}, line {line}: {text!r} states two units: expected gal(cm/s/s)", name=name, line=line, text=text)
+        raise UnitError("{name}, line {line}: two units in {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
     unit = next(iter(stated_units), None)
     if unit is None:
         raise UnitError("{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)

@@ -126,9 +126,9 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
         line = lines[index] if index < len(lines) else ""
         if not line.startswith(label.split("|")[0]):
             expected_label = label.replace("|", "")
-            actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("the file ends")
+            actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("found the end of the file")
             raise RecordFormatError(
-                "{name}, line {line}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged",
+                "{name}, line {line}: expected {wanted!r}, {found}: K-NET header (17 lines) truncated or damaged",
                 name=name,
                 line=index + 1,
                 wanted=expected_label,
@@ -152,7 +152,7 @@ def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> Fl
     """Return the counts as obspy decodes them."""
     body = lines[len(_LABELS) :]
     if not any(line.strip() for line in body):
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=len(_LABELS))
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=len(_LABELS))
     import obspy  # lazily: it takes longer to import than to read
 
     text = "\n".join([*_canonical_header(values), *body])
@@ -160,7 +160,7 @@ def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> Fl
         counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
     except (ValueError, IndexError, TypeError) as error:
         _raise_bad_line(name, body)
-        raise RecordFormatError("{name}: obspy cannot decode this K-NET file ({error})", name=name, error=error) from error
+        raise RecordFormatError("{name}: obspy cannot decode the K-NET file ({error})", name=name, error=error) from error
     if not (np.abs(counts) < MAX_COUNT).all():
         _raise_bad_line(name, body)
     return counts
@@ -191,12 +191,13 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
     """Refuse a file that ends before its header says, and doubt one that is longer or does not say."""
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        message = lazy_gettext("header Duration Time {text!r} is not a number; number of samples not checked", text=text[:20])
         return (QCFlag("header", message),)
     promised_count = round(duration * rate)
     if count < promised_count:
         raise RecordFormatError(
-            "{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again",
+            "{name}: file truncated: header states {promised} samples ({duration:g} s at {rate:g} Hz), file contains {count}; "
+            "download it again",
             name=name,
             promised=promised_count,
             duration=duration,
@@ -204,7 +205,7 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
             count=count,
         )
     if count > promised_count:
-        message = lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=count)
+        message = lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=count)
         return (QCFlag("count", message),)
     return ()
 
@@ -214,12 +215,12 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
     header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
     if header_maximum is None:
         message = lazy_gettext(
-            "{component}: the header's Max. Acc. is no number ({text!r}): the samples cannot be checked", component=code, text=text[:20]
+            "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked", component=code, text=text[:20]
         )
         return (QCFlag("header", message, code),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
         message = lazy_gettext(
-            "{component}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",
+            "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal",
             component=code,
             told=header_maximum,
             peak=peak,
@@ -237,7 +238,7 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
     return tuple(
         QCFlag(
             "header",
-            lazy_gettext("{name}: the name says {named}, the header {told}", name=basename, named=file_value, told=header_value),
+            lazy_gettext("{name}: file name ({named}) and header ({told}) disagree", name=basename, named=file_value, told=header_value),
             code,
         )
         for file_value, header_value in pairs

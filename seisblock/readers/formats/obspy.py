@@ -61,12 +61,10 @@ def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None)
         traces, warning_texts = _read_traces(blob.name, path, name)
     flags = flag_obspy_file(blob.data, name, traces, warning_texts)
     if units is None:
-        raise UnitError(
-            "{name} is a {format} file, which does not say the unit of its samples: give `units`, gal|m/s2|g", name=blob.name, format=name
-        )
+        raise UnitError("{name}: {format} file without a sample unit: give `units`, gal|m/s2|g", name=blob.name, format=name)
     unit = normalize_unit(units)
     if unit is None:
-        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
+        raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
     traces.reverse()
     # one by one out of the list: obspy's samples go as ours come
     return [_to_record(blob.name, traces.pop(), name, unit, flags) for _ in range(len(traces))]
@@ -96,8 +94,7 @@ def _detect_obspy_format(blob: RawFile, path: Path) -> str:
 def _raise_unsupported(name: str, waveform: str) -> NoReturn:
     """Refuse a format whose decoder cannot be trusted."""
     raise RecordFormatError(
-        "{name}: {format} is not read here, for its decoder in obspy crashes on damaged files: convert the record, "
-        "with obspy for example, to MSEED or SAC",
+        "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC",
         name=name,
         format=waveform,
     )
@@ -113,8 +110,8 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
         known_formats = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING_FORMATS - {"PICKLE"}))
         raise ParameterError(
-            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, CSV, or OBSPY: "
-            "and one of {usable}",
+            "unknown format {waveform!r}: expected JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, "
+            "CSV, or OBSPY: followed by one of {usable}",
             waveform=waveform,
             usable=known_formats,
         )
@@ -124,9 +121,9 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # obspy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
-        raise RecordFormatError("{name}: obspy cannot read it as {format} ({why})", name=name, format=waveform, why=reason) from error
+        raise RecordFormatError("{name}: obspy cannot read the file as {format} ({why})", name=name, format=waveform, why=reason) from error
     if not stream:
-        raise RecordFormatError("{name}: obspy finds no samples in it", name=name)
+        raise RecordFormatError("{name}: no samples found by obspy", name=name)
     return list(stream), [str(warning.message) for warning in warning_list if issubclass(warning.category, UserWarning)]
 
 
@@ -136,13 +133,13 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
 
     stats = trace.stats
     if np.ma.is_masked(trace.data):
-        raise RecordFormatError("{name}: channel {channel} has gaps: cut the record to a stretch without", name=name, channel=trace.id)
+        raise RecordFormatError("{name}: channel {channel} has gaps; extract a window without gaps", name=name, channel=trace.id)
     if trace.data.dtype.kind not in "iuf":
-        raise RecordFormatError("{name}: channel {channel} holds text, not samples", name=name, channel=trace.id)
+        raise RecordFormatError("{name}: channel {channel} contains text, not samples", name=name, channel=trace.id)
     values = np.require(trace.data, np.float64, ["C", "O", "W"])  # nobody holds them but us
     if values.size < 2 or not stats.delta > 0:
         raise RecordFormatError(
-            "{name}: channel {channel} holds {count} samples at an interval of {dt} s: no waveform",
+            "{name}: channel {channel} is not a waveform ({count} samples, interval {dt} s)",
             name=name,
             channel=trace.id,
             count=values.size,
@@ -151,7 +148,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
         text = lazy_gettext(
-            "{channel}: the calibration factor {factor:g} of the file was not applied: units are as you said",
+            "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`",
             channel=trace.id,
             factor=stats.calib,
         )

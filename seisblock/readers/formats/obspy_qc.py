@@ -41,7 +41,8 @@ def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_t
         What obspy warned of meanwhile: integrity checks of miniSEED, ends of files in the middle of a block.
     """
     obspy_flags = (
-        QCFlag("header", lazy_gettext("obspy: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH])) for text in warning_texts
+        QCFlag("header", lazy_gettext("obspy warning: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]))
+        for text in warning_texts
     )
     file_flags: Iterator[QCFlag] = iter(())
     if waveform in _COUNTED_FORMATS:
@@ -67,16 +68,16 @@ def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
         total_count += count
         if stated_count is None or stated_count != count:
             text = lazy_gettext(
-                "{channel}: the header states {stated} samples, {count} follow",
+                "{channel}: header states {stated} samples, file contains {count}",
                 channel=fields[0],
                 stated=words[0][:20] if words else "no",
                 count=count,
             )
             yield QCFlag("count", text)
         if has_times and not _is_evenly_sampled(cells[::2]):
-            yield QCFlag("clock", lazy_gettext("{channel}: the times of its samples are not those of an even clock", channel=fields[0]))
+            yield QCFlag("clock", lazy_gettext("{channel}: sample times are not evenly spaced", channel=fields[0]))
     if total_count != read_count:
-        yield QCFlag("count", lazy_gettext("of {promised} samples in the file obspy read {read}", promised=total_count, read=read_count))
+        yield QCFlag("count", lazy_gettext("obspy read {read} of {promised} samples in the file", promised=total_count, read=read_count))
 
 
 def _is_evenly_sampled(times: Sequence[str]) -> bool:
@@ -96,7 +97,7 @@ def _flag_partial_block(size: int, traces: Sequence[Any]) -> Iterator[QCFlag]:
     """Yield a doubt about a miniSEED file of so many bytes that ends in the middle of a block, which obspy passes over."""
     length = min(int(trace.stats.mseed.record_length) for trace in traces)
     if size % length:
-        yield QCFlag("cut", lazy_gettext("the file ends in the middle of a block of {length} bytes: it looks cut", length=length))
+        yield QCFlag("cut", lazy_gettext("file ends inside a block of {length} bytes: probably truncated", length=length))
 
 
 def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
@@ -109,7 +110,7 @@ def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
             header_value = float(header.get(key, _SAC_UNDEFINED))
             if header_value != _SAC_UNDEFINED and not abs(header_value - value) <= slack:
                 text = lazy_gettext(
-                    "{channel}: the header says {key} {told:g}, that of the samples is {value:g}",
+                    "{channel}: header {key} {told:g} differs from the value of the samples, {value:g}",
                     channel=trace.id,
                     key=key.upper(),
                     told=header_value,

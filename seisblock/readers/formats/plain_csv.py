@@ -29,7 +29,7 @@ from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
-_TIME_GUESSED_NOTE = N_("took the first column, which climbs evenly, as the time in s")
+_TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s")
 
 
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
@@ -95,7 +95,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     components = [Component(c.code, to_si_in_place(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(
-            "{name} holds no acceleration: expected at least one such column, found {columns}",
+            "{name}: no acceleration column: expected at least one, found {columns}",
             name=blob.name,
             columns=[name.strip() for name in layout.names] if has_names else [lazy_gettext("time")],
         )
@@ -143,9 +143,7 @@ def _start_time(timestamp: Timestamp | None, zone_s: int | None) -> tuple[dateti
         return None, ()
     if timestamp.utc_offset_s is None and zone_s is not None:
         return timestamp.utc - timedelta(seconds=zone_s), ()
-    return timestamp.utc, () if timestamp.utc_offset_s is not None else (
-        lazy_gettext("took the times of the file as UTC: no time zone stands beside them"),
-    )
+    return timestamp.utc, () if timestamp.utc_offset_s is not None else (lazy_gettext("times taken as UTC (no time zone in the file)"),)
 
 
 def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> TableColumns:
@@ -161,7 +159,7 @@ def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units:
 
 def _missing_interval_error(name: str) -> ParameterError:
     """Return the error of a table that does not say how far apart its samples are."""
-    return ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=name)
+    return ParameterError("{name}: no time column: give the sampling interval with `dt`, for example 0.01 s", name=name)
 
 
 def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFlag, ...]:
@@ -171,15 +169,14 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
         text = lazy_gettext(
-            "{count} line(s) are empty (the first is line {line}) where each stands for a sample: if samples are missing there, all later "
-            "ones come too early",
+            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
             count=len(empty_lines),
             line=empty_lines[0],
         )
         flags.append(QCFlag("line", text))
     if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
         flags.append(
-            QCFlag("cut", lazy_gettext("the last line is the shortest and has no end: the file looks cut, and its last number with it"))
+            QCFlag("cut", lazy_gettext("last line shortest and without line end: file probably truncated, last number incomplete"))
         )
     return tuple(flags)
 
@@ -199,7 +196,7 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
         names[-1] = "ACC"
     if units is None:
         raise UnitError(
-            "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
+            "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g",
             name=name,
             column=1 + has_time,
         )
@@ -216,7 +213,7 @@ def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[
     interval = sampling_interval(name, row, printed_times, unit=column.seconds)
     if dt is not None and abs(dt - interval) > 1e-6:
         raise ParameterError(
-            "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out",
+            "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`",
             name=name,
             found=interval,
             dt=dt,

@@ -56,11 +56,11 @@ _SAMPLE_TOLERANCE = 6e-5
 """Half a unit of the fifth digit, relatively: what samples are printed to."""
 
 _UNSUPPORTED = {
-    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected accelerogram, whose samples are uneven: take the corrected file of the same record"),
-    "VELOCITY": N_("a velocity: take the corrected accelerogram of the same record"),
-    "DISPLACEMENT": N_("a displacement: take the corrected accelerogram of the same record"),
-    "RESPONSE": N_("a response spectrum: take the corrected accelerogram of the same record"),
-    "*": N_("a file that does not say what its samples are, as raw counts do: take the corrected accelerogram"),
+    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected, unevenly sampled accelerogram: use the corrected file of the same record"),
+    "VELOCITY": N_("velocity: use the corrected accelerogram of the same record"),
+    "DISPLACEMENT": N_("displacement: use the corrected accelerogram of the same record"),
+    "RESPONSE": N_("a response spectrum: use the corrected accelerogram of the same record"),
+    "*": N_("samples of unknown quantity (for example raw counts): use the corrected accelerogram"),
 }
 
 
@@ -90,11 +90,15 @@ def read_smc(blob: RawFile) -> Record:
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
-            raise_line_error(name, index + 1, lazy_gettext("expected one of {count} comments that begin with |", count=integers[COMMENTS]))
+            raise_line_error(
+                name, index + 1, lazy_gettext("expected one of {count} comment lines beginning with |", count=integers[COMMENTS])
+            )
     rate = float(reals[RATE])
     if not 0.0 < rate < MISSING:
         raise_line_error(
-            name, TEXT + INTEGERS + 1, lazy_gettext("expected samples per second, found {rate:g}: the samples may be uneven", rate=rate)
+            name,
+            TEXT + INTEGERS + 1,
+            lazy_gettext("expected the number of samples per second, found {rate:g}: samples may be uneven", rate=rate),
         )
     count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
     gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
@@ -103,7 +107,9 @@ def read_smc(blob: RawFile) -> Record:
         raise_line_error(
             name,
             end_line + 1,
-            lazy_gettext("expected the end after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]),
+            lazy_gettext(
+                "expected the end of the file after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]
+            ),
         )
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)
@@ -126,7 +132,7 @@ def _check_title(name: str, title: str) -> None:
     kind = match[1].decode("latin-1").upper() if match else "*"
     reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if kind.startswith(word)), None)
     if reason is not None:
-        raise RecordFormatError("{name}: this SMC file holds {what}", name=name, what=lazy_gettext(reason))
+        raise RecordFormatError("{name}: the SMC file contains {what}", name=name, what=lazy_gettext(reason))
 
 
 def _parse_direction(lines: list[str], integers: list[int], missing_value: int) -> tuple[Direction, str]:

@@ -22,7 +22,7 @@ from seisblock.readers.table.headers import (
 )
 
 ACCEPTED_NAMES = lazy_gettext(
-    "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or an acceleration by its unit, as in 'table (gal)'"
+    "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or a name with an acceleration unit, as in 'table (gal)'"
 )
 _NON_NAMES = {"true", "false", "nan", "inf", "null", "none", "yes"}
 _RIGHT_ANGLE_TOLERANCE_DEG = 1.0
@@ -88,7 +88,7 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
     """
     entries = [_classify_column(name, index, heading) for index, heading in enumerate(names)]
     notes = [
-        lazy_gettext("left out column {name!r}: {what}", name=names[i], what=lazy_gettext(entry))
+        lazy_gettext("column {name!r} ignored: {what}", name=names[i], what=lazy_gettext(entry))
         for i, entry in enumerate(entries)
         if isinstance(entry, str)
     ]
@@ -104,7 +104,7 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
         stating_names = _quote_names(names, [c for c in columns if c.unit])
         notes.append(
             lazy_gettext(
-                "took {unit}, which {states} states, for {others}, too",
+                "unit {unit} of {states} also used for {others}",
                 unit=common_unit,
                 states=stating_names,
                 others=_quote_names(names, unitless),
@@ -113,13 +113,13 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
         default_unit = common_unit
     final_columns = tuple(_apply_unit(name, names[column.index], column, default_unit, units) for column in columns)
     notes += [
-        lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=names[c.index])
+        lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=names[c.index])
         for c in final_columns
         if c.sign < 0
     ]
     if len({column.unit for column in final_columns if column.code != TIME}) > 1:
         unit_texts = [f"{names[c.index]!r}: {c.unit}" for c in final_columns if c.code != TIME]
-        notes.append(lazy_gettext("the columns state several units, and each was taken in its own ({units})", units=unit_texts))
+        notes.append(lazy_gettext("columns converted from different units ({units})", units=unit_texts))
     return TableColumns(final_columns, tuple(notes))
 
 
@@ -141,7 +141,7 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     inner_unit = normalize_unit(split_unit(split_unit(heading)[0])[1])
     if unit and inner_unit and inner_unit != unit:
         raise UnitError(
-            "{name}: column {written!r} states two units, {inner} and {unit}: keep one of them",
+            "{name}: two units, {inner} and {unit}, in column {written!r}; keep one",
             name=name,
             written=heading,
             inner=inner_unit,
@@ -149,14 +149,14 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         )
     if bare_heading.isdecimal() and parse_direction(bare_heading) is None:
         raise RecordFormatError(
-            "{name}: column {written!r} is named by a number that is no azimuth: expected 0 to 360 degrees, or {understood}",
+            "{name}: column name {written!r} is not an azimuth: expected 0 to 360 degrees, or {understood}",
             name=name,
             written=heading,
             understood=ACCEPTED_NAMES,
         )
     if normalize_unit(bare_heading) or bare_heading.lower() in _NON_NAMES:
         raise RecordFormatError(
-            "{name}: {written!r} stands where column {index} should have a name: expected {understood}",
+            "{name}: {written!r} is not a name for column {index}: expected {understood}",
             name=name,
             written=heading,
             index=index + 1,
@@ -168,7 +168,7 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     if component_code(heading) == TIME or seconds:
         if unit_text and seconds is None and not is_clock_unit(unit_text):
             raise UnitError(
-                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
+                "{name}: unknown time unit {unit_text!r} in column {written!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
                 name=name,
                 written=heading,
                 unit_text=unit_text,
@@ -181,7 +181,7 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         return quantity
     if unit_text:
         raise UnitError(
-            "{name}: column {written!r} has the unknown unit {unit_text!r}: expected gal, m/s2 or g, or no such column",
+            "{name}: unknown unit {unit_text!r} in column {written!r}: expected gal, m/s2 or g; correct the unit or remove the column",
             name=name,
             written=heading,
             unit_text=unit_text,
@@ -221,8 +221,8 @@ def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], 
         return columns
     if units is None and not any(c.unit for c in columns):
         raise UnitError(
-            "{name}: columns {names} without a unit: {one!r} may be the time or the transverse direction; name the unit in "
-            "the header, as in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
+            "{name}: columns {names} have no unit: {one!r} may be time or the transverse direction; add the unit to the header, as "
+            "in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=[repr(n) for n in names],
             one=names[time_column.index],
@@ -235,8 +235,8 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     bare_azimuths = [c for c in columns if not c.unit and (d := parse_direction(strip_name(names[c.index]))) and d.is_bare_number]
     if bare_azimuths and not (len(bare_azimuths) == 2 and _are_perpendicular(*bare_azimuths)):
         raise RecordFormatError(
-            "{name}: no names in the header: {names}; azimuths come as a perpendicular pair (10,280), with N and E (N10E), or "
-            "with a degree sign (10°)",
+            "{name}: ambiguous column names {names}: write azimuths as a perpendicular pair (10,280), with N and E (N10E) or with "
+            "a degree sign (10°)",
             name=name,
             names=_quote_names(names, bare_azimuths),
         )
@@ -245,8 +245,8 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     ]
     if velocity_columns:
         raise UnitError(
-            "{name}: codes of instruments that measure velocity: {names}; expected accelerations: if they are, name the unit in "
-            "the header, as in 'HHN (gal)', or give `units`, gal|m/s2|g",
+            "{name}: velocity-sensor codes {names}: expected accelerations; for accelerations, add the unit to the header, as in "
+            "'HHN (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=_quote_names(names, velocity_columns),
         )
@@ -254,7 +254,7 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     known_columns = [c for c in columns if c.code and c.code != TIME]
     if unknown_columns and (known_columns or units is None):
         raise RecordFormatError(
-            "{name}: column not understood: {names}; expected {understood}; name it so, or take it out",
+            "{name}: unknown column {names}: expected {understood}; rename or remove the column",
             name=name,
             names=_quote_names(names, unknown_columns),
             understood=ACCEPTED_NAMES,
@@ -274,9 +274,9 @@ def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]
     """Refuse two columns that mean the same."""
     for code, count in Counter(c.code for c in columns).items():
         if count > 1:
-            meaning = lazy_gettext("the time") if code == TIME else code
+            meaning = lazy_gettext("time") if code == TIME else code
             raise RecordFormatError(
-                "{name}: several columns mean {meant} ({names}): keep one of them",
+                "{name}: several columns for {meant} ({names}); keep one",
                 name=name,
                 meant=meaning,
                 names=_quote_names(names, [c for c in columns if c.code == code]),
@@ -287,7 +287,7 @@ def _parse_units_option(units: str | None) -> str | None:
     """Return the unit that the caller states."""
     unit = None if units is None else normalize_unit(units)
     if units is not None and unit is None:
-        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
+        raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
     return unit
 
 
@@ -298,13 +298,13 @@ def _apply_unit(name: str, heading: str, column: Column, option: str | None, uni
     unit = column.unit or option
     if unit is None:
         raise UnitError(
-            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
+            "{name}: column {written!r} has no unit: add it to the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
             name=name,
             written=heading or column.index + 1,
         )
     if units is not None and unit != option:
         raise UnitError(
-            "{name}: column {written!r} is in {unit}, the option says {units}: leave the option out",
+            "{name}: unit {unit} of column {written!r} contradicts `units` {units}; omit `units`",
             name=name,
             written=heading,
             unit=unit,

@@ -41,7 +41,7 @@ def _flag_count(text: str, samples: int) -> Iterator[QCFlag]:
     for count in _COUNT.findall(text):
         if parse_number(count) not in (None, samples):
             yield QCFlag(
-                "count", lazy_gettext("a comment promises {promised} samples, the file holds {count}", promised=count, count=samples)
+                "count", lazy_gettext("{promised} samples stated in a comment, file contains {count}", promised=count, count=samples)
             )
 
 
@@ -52,7 +52,10 @@ def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
             value = parse_number(value_text)
             if value is not None and abs(value - actual) > _INTERVAL_TOLERANCE * actual:
                 yield QCFlag(
-                    "clock", lazy_gettext("a comment says {told} {unit}, the samples are {dt:g} s apart", told=value_text, unit=unit, dt=dt)
+                    "clock",
+                    lazy_gettext(
+                        "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", told=value_text, unit=unit, dt=dt
+                    ),
                 )
 
 
@@ -62,5 +65,5 @@ def _flag_unit(text: str, columns: Sequence[Column]) -> Iterator[QCFlag]:
     for unit_text in _UNIT.findall(text):
         unit = normalize_unit(unit_text.rstrip(".)"))
         if unit is not None and unit not in units:
-            text = lazy_gettext("a comment says that the unit is {told}, the columns are in {units}", told=unit, units=sorted(units))
+            text = lazy_gettext("unit {told} in a comment differs from the unit of the columns, {units}", told=unit, units=sorted(units))
             yield QCFlag("header", text)

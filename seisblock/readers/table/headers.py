@@ -53,16 +53,16 @@ _TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0,
 _ZONES = {"jst": 32400, "日本時間": 32400, "日本標準時": 32400, "utc": 0, "gmt": 0}
 _CLOCK = re.compile(r"(?:y+[-/]m+[-/]d+[t ]*)?h+:m+(?::s+(?:\.[sf]+)?)?", re.IGNORECASE)
 _OTHER_UNITS = {
-    N_("a velocity"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
-    N_("a displacement"): ("m", "cm", "mm"),
-    N_("an angle"): ("deg", "rad"),
-    N_("a frequency"): ("hz",),
+    N_("velocity values"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
+    N_("displacement values"): ("m", "cm", "mm"),
+    N_("angle"): ("deg", "rad"),
+    N_("frequency"): ("hz",),
 }
 _OTHER_NAMES = {
-    N_("a velocity"): ("vel", "velocity", "速度"),
-    N_("a displacement"): ("disp", "displacement", "変位"),
-    N_("a number of the line"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
-    N_("a note"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
+    N_("velocity values"): ("vel", "velocity", "速度"),
+    N_("displacement values"): ("disp", "displacement", "変位"),
+    N_("line number"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
+    N_("remarks"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
 _QUANTITY_BY_UNIT = {spelling: what for what, spellings in _OTHER_UNITS.items() for spelling in spellings}
 _QUANTITY_BY_NAME = {spelling: what for what, spellings in _OTHER_NAMES.items() for spelling in spellings}
@@ -132,7 +132,7 @@ def classify_other_quantity(text: str) -> str | None:
     Examples
     --------
     >>> classify_other_quantity("vel (cm/s)"), classify_other_quantity("index"), classify_other_quantity("NS (gal)")
-    ('a velocity', 'a number of the line', None)
+    ('velocity values', 'line number', None)
     """
     name, unit = split_unit(text)
     if normalize_unit(unit) or time_unit_seconds(unit):

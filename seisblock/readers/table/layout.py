@@ -56,8 +56,7 @@ def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
     if table_line is None or head[table_line].strip() == first:
         return None
     return RecordFormatError(
-        "{name}: the names of the columns stand in line {line} only ({header!r}), and the file begins {first!r}: take the lines above "
-        "the names out, or put # before each",
+        "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #",
         name=name,
         line=table_line + 1,
         header=head[table_line].strip()[:MAX_QUOTED_LENGTH],
@@ -86,7 +85,7 @@ def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
     """Return where the numbers begin, the names of the columns and the separator."""
     first = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if first is None:
-        raise RecordFormatError("{name} holds comments only: expected columns of numbers", name=name)
+        raise RecordFormatError("{name}: comments only; expected columns of numbers", name=name)
     separator = find_separator(lines[first])
     if not _is_numeric_row(lines[first], separator):
         names = tuple(_split_cells(lines[first], separator))

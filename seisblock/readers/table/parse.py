@@ -79,13 +79,13 @@ def parse_columns(
         If there is no line, or a cell is missing, is text or is not finite; the message names the line.
     """
     if not any(line.strip() for line in lines):
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
     row_count = _count_rows(lines, separator)
     table = None if row_count is None else _parse_with_numpy(lines, columns, separator, row_count)
     if table is None or not all(np.isfinite(column).all() for column in table):
         table = list(np.ascontiguousarray(_parse_cell_by_cell(name, lines, first_line, columns, width, separator).T))
     if not table or not table[0].size:
-        raise RecordFormatError("{name}: the lines after its header (line {line}) hold no samples", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples in the lines after the header (line {line})", name=name, line=first_line - 1)
     return table
 
 
@@ -155,12 +155,12 @@ def _parse_cell(name: str, line: int, label: str, cells: Sequence[str], index: i
         if cell:
             raise_line_error(name, line, lazy_gettext("expected a number in column {label}, found {cell!r}", label=label, cell=cell))
     if not cell:
-        raise_line_error(name, line, lazy_gettext("the cell of column {label} is empty", label=label))
+        raise_line_error(name, line, lazy_gettext("empty cell in column {label}", label=label))
     if not isfinite(value):
-        raise_line_error(name, line, lazy_gettext("column {label} holds {cell!r}, which is no acceleration", label=label, cell=cell))
+        raise_line_error(name, line, lazy_gettext("expected a finite number in column {label}, found {cell!r}", label=label, cell=cell))
     return value
 
 
 def raise_line_error(name: str, line: int, message: str) -> NoReturn:
     """Raise the error that a line of a file deserves."""
-    raise RecordFormatError("{name}, line {line}: {what}; correct the file or cut it before that line", name=name, line=line, what=message)
+    raise RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=message)

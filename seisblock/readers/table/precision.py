@@ -48,8 +48,8 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
         return ()
     line, cell, printed_decimals = min(cells_without_point)
     text = lazy_gettext(
-        "{count} number(s) have no decimal point (the first in line {line}: {cell}) where all others of the column have {decimals} "
-        "decimals: the point may be lost",
+        "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
+        "decimals: decimal point probably lost",
         count=len(cells_without_point),
         line=line,
         cell=cell[:40],
@@ -71,7 +71,7 @@ def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCF
     *decimal_counts, last = [_count_decimals(line.split(separator)[-1]) for line in lines[-TAIL_LINES:] if line.strip()]
     if len(decimal_counts) < MIN_LINES or len(set(decimal_counts)) > 1 or last >= decimal_counts[0]:
         return ()
-    return (QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")),)
+    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
 
 
 def _count_decimals(cell: str) -> int:

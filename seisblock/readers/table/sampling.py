@@ -69,8 +69,8 @@ def sampling_interval(
     repeat_count = int(np.count_nonzero(steps == 0.0))
     if steps.min() >= 0.0 and repeat_count > max(MIN_ROUNDED_STEPS, MIN_ROUNDED_SHARE * steps.size):
         raise RecordFormatError(
-            "{name}: its times are printed to too few digits: {repeats} of {count} are those of the line before (the first: {first:g} s): "
-            "print more of them, or leave the column out and give `dt`, the sampling interval in s",
+            "{name}: too few digits in the time column: {repeats} of {count} times repeat the previous line (first: {first:g} s); "
+            "write more digits, or remove the column and give the sampling interval with `dt`, in s",
             name=name,
             repeats=repeat_count,
             count=count,
@@ -78,12 +78,12 @@ def sampling_interval(
         )
     if not median_step > 0.0:
         raise RecordFormatError(
-            "{name}: its time does not increase (step {usual:g} s): expected an even time in s", name=name, usual=median_step
+            "{name}: time column does not increase (usual step {usual:g} s): expected evenly increasing times", name=name, usual=median_step
         )
     row = int(np.argmax(np.abs(steps - median_step)))
     raise RecordFormatError(
-        "{name}: its time is uneven: from {first:.9g} to {second:.9g} s, where most steps are {usual:.9g} s: a line is "
-        "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed",
+        "{name}: uneven time column: step from {first:.9g} to {second:.9g} s, usual step {usual:.9g} s (line missing or "
+        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits",
         name=name,
         first=seconds[row],
         second=seconds[row + 1],
