@@ -1,4 +1,4 @@
-"""Which parts are one recording, and how they become one record."""
+"""Assembly of files or channels of one recording into one record."""
 
 from __future__ import annotations
 
@@ -12,34 +12,34 @@ from seisblock.records import Component, Record
 from seisblock.records.site import matches_station
 
 LEVELS = ("surface", "borehole")
-_COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
+_COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # other codes: before the vertical
 SYNCHRONOUS_FORMATS = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
-"""Formats whose components start together and end at will."""
+"""Formats whose components have a common start but may differ in length."""
 
 TRIM_TOLERANCE = 0.05
-"""How much longer than the shortest, relatively, such a component may be."""
+"""Largest relative excess in length over the shortest component that is trimmed."""
 
 
 def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
-    """Return the one record that parts make: of one station, level, start and sampling.
+    """Return one record from parts with a common station, level, start and sampling interval.
 
     Parameters
     ----------
     name : str
-        Of the source, for messages.
+        Source name, for messages.
     parts : sequence of Record
-        One or several components each, at least one part.
+        At least one part, with one or several components each.
     station : str or None
-        Station to take when the parts come from several.
+        Station to select if there are several.
     level : {"surface", "borehole"} or None
-        Sensor of a KiK-net station; None is the surface when there is one.
+        Sensor of a KiK-net station; None selects the surface sensor if present.
 
     Raises
     ------
     ComponentError
-        If the station or level is missing, or several stations leave the choice open.
+        If the station or level is missing, or there are several stations and none is selected.
     RecordError
-        If the parts are not one recording.
+        If the parts do not belong to one recording.
     """
     selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
@@ -70,7 +70,8 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
 
 
 def belongs_to_recording(parts: Sequence[Record], group_parts: Sequence[Record]) -> bool:
-    """Return whether the one component of a file belongs to the recording that other files began: same station and start (or event)."""
+    """Return whether a single-component file belongs to the recording of other files."""
+    # same station, start (or event), sampling interval and format, and a component that the group lacks
     if len(parts) != 1 or len(parts[0].components) != 1:
         return False
     part, first = parts[0], group_parts[0]
@@ -83,7 +84,6 @@ def belongs_to_recording(parts: Sequence[Record], group_parts: Sequence[Record])
 
 
 def _select_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
-    """Return the parts of one station."""
     stations = list(dict.fromkeys(p.station for p in parts))
     station_names = [s or lazy_gettext("(unnamed)") for s in stations]
     if station is not None:
@@ -99,7 +99,7 @@ def _select_station(name: str, parts: Sequence[Record], station: str | None) -> 
 
 
 def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Sequence[Record], tuple[str, ...]]:
-    """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
+    """Return the parts of one KiK-net sensor and a history entry; parts of other networks are unchanged."""
     levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
     if level is not None and level not in LEVELS:
         raise ComponentError("unknown `level` {level!r}: expected surface or borehole", level=level)
@@ -123,7 +123,7 @@ def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tupl
 
 
 def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
-    """Return components of one length when they differ a little at the end, and what was cut."""
+    """Return components trimmed to equal length if they differ slightly, and the history entries."""
     lengths = [c.acceleration.size for c in components]
     min_length = min(lengths)
     if max(lengths) == min_length or max(lengths) > (1.0 + TRIM_TOLERANCE) * min_length:
@@ -140,7 +140,7 @@ def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component],
 
 
 def _merge_metadata(parts: Sequence[Record]) -> dict[str, object]:
-    """Return what the headers say together; what each component has of its own is gathered."""
+    """Return merged header entries; dictionaries by component are combined."""
     metadata: dict[str, object] = {}
     for part in parts:
         for key, value in part.metadata.items():

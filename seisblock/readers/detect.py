@@ -1,4 +1,4 @@
-"""Which format some bytes are in: content decides, never the name."""
+"""Format detection by content."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _DETECTORS = (
     (esm.is_esm, esm.FORMAT),
     (at2.is_at2, at2.FORMAT),
 )
-"""What tells a format by its first bytes, the most particular first."""
+"""Tests of the first bytes for each format, the most specific first."""
 
 
 def detect_format(blob: RawFile) -> str:
-    """Return ``BUNDLE``, a format of ours, or ``OBSPY`` for whatever else there is."""
+    """Return ``BUNDLE`` for an archive, the name of a format read here, or ``OBSPY`` for anything else."""
     head = blob.content[:4096]
     if archive.is_archive(head):
         return ARCHIVE

@@ -1,4 +1,4 @@
-"""From one file to the parts in it: the format's reader is found and called."""
+"""Selection of the reader for a file or for the members of an archive."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _ALIASES = {
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the caller says about files that do not say it themselves."""
+    """Options for files that lack information in their headers."""
 
     format: str | None = None
     units: str | None = None
@@ -62,7 +62,7 @@ class ReadOptions:
 
 
 def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
-    """Return the records, or single components, that a file or a bundle holds."""
+    """Return the records, or single components, in a file or an archive."""
     format_name = detect_format(blob)
     if format_name == ARCHIVE:
         return _read_archive(blob, options)
@@ -72,7 +72,7 @@ def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
 
 
 def _read_file(blob: RawFile, format_name: str, options: ReadOptions) -> list[Record]:
-    """Return the records in one file, by the format it was found to be in or the one that the caller says."""
+    """Return the records in one file by the detected format or the format option."""
     kind = format_name if options.format is None else options.format.upper()
     kind = _ALIASES.get(kind, kind)
     if kind in _READERS:
@@ -85,7 +85,7 @@ def _read_file(blob: RawFile, format_name: str, options: ReadOptions) -> list[Re
 
 
 def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
-    """Return the parts in a bundle; files in it that are no records are passed over."""
+    """Return the parts in an archive; members that are not records are skipped."""
     members = list_members(blob, options.budget)
     parts: list[Record] = []
     for member in members:
@@ -104,7 +104,7 @@ def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
 
 
 def _check_options(record: Record, options: ReadOptions) -> Record:
-    """Return a record whose header agrees with the options."""
+    """Return the record, after a check of its header against the options."""
     header_unit = str(record.metadata.get("unit", ""))
     if options.units is not None and header_unit:
         option_unit = normalize_unit(options.units)
