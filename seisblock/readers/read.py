@@ -1,4 +1,4 @@
-"""Reading of records from files, folders' component sets, archives and bundled samples."""
+"""Reading of records: files, component sets, archives and bundled samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PEER's AT2: one component in g, its direction in the second line of the header or in the file's name."""
+"""PEER AT2: one component in g, direction in the second header line or in the file name."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FILE_NAME = re.compile(
 
 
 def is_at2(head: bytes) -> bool:
-    """Return whether a file's first bytes are an AT2 header: text with NPTS and DT in its first lines, and no velocity or displacement."""
+    """Return whether bytes begin an AT2 header: NPTS and DT in the first lines, no velocity or displacement."""
     text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
     if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
         return False
@@ -37,13 +37,13 @@ def is_at2(head: bytes) -> bool:
 
 
 def read_at2(blob: RawFile) -> Record:
-    """Return the one component in an AT2 file.
+    """Return the component in an AT2 file.
 
     Notes
     -----
     Azimuths 0 and 360 are called ``NS``, 90 ``EW``; any other direction keeps its azimuth as its code (``180``, ``164``), with its sign
-    as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with the sign turned, which the history says. The header has a date but no time:
-    `start` is None, and ``metadata["event"]`` tells which files belong together.
+    as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with reversed sign, noted in the history. The header has a date but no time: `start`
+    is None, and ``metadata["event"]`` identifies files of one recording.
     """
     lines = decode_text(blob).split("\n")
     sampling_line, count, dt = _parse_sampling(blob.name, lines)
@@ -68,7 +68,7 @@ def read_at2(blob: RawFile) -> Record:
 
 
 def parse_orientation(direction: str) -> tuple[str, float | None, float]:
-    """Return code, azimuth in degrees clockwise from north, and sign, of a direction as PEER writes it.
+    """Return code, azimuth in degrees clockwise from north, and sign of a PEER direction.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def parse_orientation(direction: str) -> tuple[str, float | None, float]:
 
 
 def split_direction(basename: str) -> tuple[str, str] | None:
-    """Return a file name without the direction, and the direction, or None when it holds none.
+    """Return a file name without the direction, and the direction; None if there is none.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def split_direction(basename: str) -> tuple[str, str] | None:
 
 
 def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
-    """Return the index of the line with NPTS and DT, and both."""
+    """Return line index, NPTS and DT of the sampling line."""
     for index, line in enumerate(lines[:_HEADER_LINES]):
         old_match = _OLD_STYLE.match(line)
         count, interval = (
@@ -124,7 +124,7 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
 
 
 def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
-    """Return the samples, g, row after row."""
+    """Return the samples, g, (n,)."""
     tokens = " ".join(lines).split()
     if not tokens:
         raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
@@ -141,7 +141,7 @@ def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArr
 
 
 def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
-    """Return event, station and direction from the header's second line, the direction else from the file's name."""
+    """Return event, station and direction from the second header line, else the direction from the file name."""
     fields = [field.strip() for field in line.split(",")]
     name_parts = split_direction(basename)
     if len(fields) >= 4:

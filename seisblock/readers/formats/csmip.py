@@ -1,9 +1,9 @@
-"""CSMIP (California): volumes 1 and 2, all channels of a station in one file, text, integers and reals in lines of their own.
+"""CSMIP (California), volumes 1 and 2: all channels of a station in one file.
 
-Seen in files: volume 1 has 13 lines of text, 7 of integers and 7 of reals, volume 2 has 25, 7 and 13; then a line that tells count,
-interval, unit and format of the samples below it, in volume 2 once more for velocities and displacements, which are passed over; and a
-mark where the channel ends. Volume 1 of films is uneven, pairs of time and acceleration: it is refused by name, as are volume 3 (spectra)
-and the files of USC.
+Layout found in files: volume 1 has 13 lines of text, 7 of integers and 7 of reals, volume 2 has 25, 7 and 13; then a line with count,
+interval, unit and format of the samples below it, in volume 2 also for velocities and displacements, which are skipped; then an end mark.
+Volume 1 of film records is unevenly sampled pairs of time and acceleration; these, volume 3 (spectra) and USC files raise an error that
+names them.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from seisblock.records.site import UTC_OFFSETS
 
 FORMAT = "CSMIP"
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
-"""Lines above the samples of a channel, by volume."""
+"""Header lines above the samples of a channel, by volume."""
 
 _FORMS = {1: (8, 9), 2: (8, 10)}
-"""Of samples whose format is not told."""
+"""Default numbers per line and field width of the samples, by volume."""
 
 EVENT, ORIGIN, TRIGGER, STATION, NAME, CHANNEL, HYPOCENTRE = 1, 2, 3, 4, 5, 6, 8
-"""Lines of text in volume 1; in volume 2 each is one further down."""
+"""Text line numbers in volume 1; in volume 2 one more."""
 
 _TITLE = re.compile(
     rb"[ ]*(UNCORRECTED ACCELEROGRAM DATA|CORRECTED ACCELEROGRAM\b|RESPONSE AND FOURIER|FILE\s+\d+ OF UNCORRECTED)", re.IGNORECASE
@@ -46,7 +46,7 @@ _SECTION = re.compile(r"\s*(\d+)\s+(?:points of\s+)?(accel|veloc|displ)", re.IGN
 _INTERVAL = re.compile(r"\bat\s+([\d.]+)\s*(sec|pts/sec)", re.IGNORECASE)
 _UNIT = re.compile(r"(?:units?\s*(?:of|:)|\bin(?! units))\s*([a-z][a-z0-9/]*)", re.IGNORECASE)
 _PEAKS = {1: r"\bmax\s*=\s*(-?[\d.]+)", 2: r"\bpeak acceleration\s*=\s*(-?[\d.]+)"}
-"""How the header tells the largest sample, by volume."""
+"""Patterns of the header peak, by volume."""
 
 _END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
 _UNSUPPORTED = {
@@ -57,7 +57,7 @@ _UNEVEN = N_("unevenly sampled pairs of time and acceleration (volume 1): use vo
 
 
 class _Section(NamedTuple):
-    """Samples of one quantity: what it is, their interval and unit as told, and where the lines below begin."""
+    """Samples of one quantity: quantity, interval, unit, values, and index of the line after them."""
 
     quantity: str
     dt: float
@@ -67,7 +67,7 @@ class _Section(NamedTuple):
 
 
 def is_csmip(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of a CSMIP file of any volume, or of USC: its title, then upright columns of text."""
+    """Return whether bytes begin with the title of a CSMIP or USC file."""
     match = _TITLE.match(head)
     if match is None or b"GNS SCIENCE" in head[:200].upper():
         return False
@@ -75,12 +75,12 @@ def is_csmip(head: bytes) -> bool:
 
 
 def read_csmip(blob: RawFile) -> list[Record]:
-    """Return the channels in a CSMIP file of volume 1 or 2, as records of one component each.
+    """Return the channels in a CSMIP file of volume 1 or 2, as single-component records.
 
     Notes
     -----
-    The azimuths are kept. A file of more than three channels, or of two in one direction, is a structure's: each place in it is a station
-    of its own. Peak, count and length that the header tells are compared with the samples.
+    Azimuths are kept. A file with more than three channels, or two in one direction, is that of a structure: each location becomes a
+    station. Header peak, count and length are checked against the samples.
     """
     lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     while lines and not lines[-1].strip():
@@ -97,13 +97,13 @@ def read_csmip(blob: RawFile) -> list[Record]:
 
 
 def _flag_truncated(part: Record) -> Record:
-    """Return a record with the doubt that its file lacks its end."""
+    """Return a record with the flag of a missing end mark."""
     flag = QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated"))
     return replace(part, doubts=(*part.doubts, flag))
 
 
 def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record, int]:
-    """Return the channel that begins at a line, and where the next does."""
+    """Return the channel that begins at a line, and the index of the next."""
     title = _TITLE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
         raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
@@ -125,7 +125,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
 
 
 def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int) -> _Section:
-    """Return the samples whose count, interval and unit stand in a line."""
+    """Return the samples described by the line at `line_index`."""
     text = lines[line_index] if line_index < len(lines) else ""
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
@@ -146,7 +146,6 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
 
 
 def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
-    """Return one channel."""
     unit = normalize_unit(section.unit)
     if unit is None:
         line = begin + len(text) + 1
@@ -180,7 +179,6 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
 
 
 def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
-    """Return what the text says of station and earthquake."""
     event, origin, trigger, station, name, hypocentre = (
         text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
     )
@@ -203,7 +201,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
 
 
 def parse_magnitude(text: str) -> dict[str, object]:
-    """Return the magnitude in a text, Mw before ML before Ms, ready for the metadata.
+    """Return metadata with the magnitude in a text, Mw before ML before Ms.
 
     Examples
     --------
@@ -218,7 +216,7 @@ def parse_magnitude(text: str) -> dict[str, object]:
 
 
 def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
-    """Return what the text says of the samples that is not so: peak, count, interval and length of the record."""
+    """Return flags for peak, count and record length that differ from the header."""
     size, dt = section.values.size, section.dt
     peak = re.search(_PEAKS[volume], text, re.IGNORECASE)
     peak_text = peak[1] if peak else ""

@@ -1,4 +1,4 @@
-"""ASCII of the Engineering Strong-Motion database (ESM): one component, 64 lines ``KEY: value``, then a sample in each line."""
+"""ESM (Engineering Strong-Motion database) ASCII: one component, 64 header lines ``KEY: value``, one sample per line."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from seisblock.records import QCFlag, Record
 FORMAT = "ESM"
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
 _MAX_HEADER_LINES = 100
-"""Lines of a header, of which there are 64."""
+"""Number of lines searched for the end of the header (64 lines)."""
 
 _DURATION_TOLERANCE = 1.5
-"""How many intervals the header's duration may lie from the count."""
+"""Tolerance of the header duration, in sampling intervals."""
 
 Header = dict[str, tuple[int, str]]
-"""Of each key the number of its line, and its value."""
+"""Line number and value by key."""
 
 
 def is_esm(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of ESM's ASCII: the event's name, then its identifier, each behind its key."""
+    """Return whether bytes begin an ESM ASCII header (EVENT_NAME, EVENT_ID)."""
     return re.match(rb"(?:\xef\xbb\xbf)?EVENT_NAME:[^\n]*\r?\nEVENT_ID:", head) is not None
 
 
 def read_esm(blob: RawFile) -> Record:
-    """Return the one component in an ASCII file of ESM.
+    """Return the component in an ESM ASCII file.
 
     Notes
     -----
-    Count, peak, time of the peak and duration are the header's own; where the samples differ it is doubted, and a file that ends before
-    its count is refused. Velocities, displacements and spectra are refused by what they say they are.
+    Header peak and duration are checked against the samples (quality flags); a count that differs is an error, as are velocities,
+    displacements and spectra.
     """
     lines = decode_text(blob).split("\n")
     header, body = _parse_header(blob.name, lines)
@@ -84,7 +84,7 @@ def read_esm(blob: RawFile) -> Record:
 
 
 def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
-    """Return the keys of the header, and the index of the first sample."""
+    """Return the header and the index of the first sample line."""
     header: Header = {}
     for index, line in enumerate(lines[:_MAX_HEADER_LINES]):
         match = _KEY.match(line.strip("\ufeff\r "))
@@ -101,14 +101,14 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
 
 
 def _get_value(name: str, header: Header, key: str) -> tuple[int, str]:
-    """Return the line and the value of a key."""
+    """Return line number and value of a required key."""
     if key not in header:
         raise RecordFormatError("{name}: header entry {key} missing: file truncated or damaged", name=name, key=key)
     return header[key]
 
 
 def _parse_time(text: str) -> datetime | None:
-    """Return the UTC time of ``20190728_160919.870``, None where it is none."""
+    """Return the UTC time of ``20190728_160919.870``, or None."""
     match = re.fullmatch(r"(\d{4})(\d\d)(\d\d)_?(\d\d)(\d\d)(\d\d(?:\.\d+)?)", text.strip())
     if match is None:
         return None
@@ -117,8 +117,6 @@ def _parse_time(text: str) -> datetime | None:
 
 
 def _metadata(header: Header) -> dict[str, object]:
-    """Return what the header says of station and earthquake."""
-
     def header_value(key: str) -> str:
         return header.get(key, (0, ""))[1]
 
@@ -142,7 +140,7 @@ def _metadata(header: Header) -> dict[str, object]:
 
 
 def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: float) -> tuple[QCFlag, ...]:
-    """Return what the header says of the samples that is not so: the peak, and the duration."""
+    """Return flags for peak and duration that differ from the header."""
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
     peak_text = header.get(key, (0, ""))[1]
     flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
@@ -164,7 +162,7 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
 
 
 def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
-    """Return a doubt about a file whose last sample has fewer decimals than the one before and no end of line."""
+    """Return a flag if the last sample has fewer decimals than the previous one and no line end."""
     last = lines[-1].strip()
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()

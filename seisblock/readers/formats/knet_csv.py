@@ -1,4 +1,4 @@
-"""NIED's K-NET CSV: comment lines that hold a header, gal, offset not removed."""
+"""NIED K-NET CSV: header in comment lines, gal, offset not removed."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ _CHANNELS |= {"4": ("NS", "surface"), "5": ("EW", "surface"), "6": ("UD", "surfa
 
 
 def is_knet_csv(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of NIED's CSV of K-NET or KiK-net."""
+    """Return whether bytes begin a K-NET or KiK-net CSV of NIED."""
     return re.match(rb"(?:\xef\xbb\xbf)?#\s*(?:K-NET|KiK-net)\s*CSV", head, re.IGNORECASE) is not None
 
 
 def read_knet_csv(blob: RawFile) -> list[Record]:
-    """Return the record in a CSV of NIED; of KiK-net's ``1(gal)`` to ``6(gal)`` two, borehole and surface.
+    """Return the record in a NIED CSV; for KiK-net (``1(gal)`` to ``6(gal)``) two, borehole and surface.
 
     Notes
     -----
-    The time column is taken as the true time of the samples, JST: the trigger delay is already off. The offset is kept and told.
+    The time column is the true time of the samples, JST, without the trigger delay. The offset is kept and recorded in the metadata.
     """
     lines = decode_text(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
@@ -82,7 +82,7 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
 
 
 def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag, ...]:
-    """Return what speaks against the count of samples: the header's duration is another, or no number."""
+    """Return a flag if the header duration differs from the samples or is unreadable."""
     text = _line_after(header, "DurationTime(s)")
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
@@ -100,7 +100,7 @@ def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag,
 
 
 def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> tuple[QCFlag, ...]:
-    """Return what speaks against the times of the day, which the seconds beside them have to go with."""
+    """Return a flag if the time of day disagrees with the relative time."""
     time_texts = [line.partition(",")[0].strip().replace("/", "-").replace(" ", "T") for line in lines if line.strip(" \t,")]
     try:
         if not all(map(_TIME_OF_DAY.fullmatch, time_texts)):
@@ -120,7 +120,7 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
 
 
 def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
-    """Return, for each sensor (of K-NET one, without a level), which column holds which component."""
+    """Return column index by component for each sensor level (empty for K-NET)."""
     sensors: dict[str, dict[str, int]] = {}
     for index, column in enumerate(names):
         code, level = _CHANNELS.get(column.split("(")[0], (component_code(column), ""))
@@ -147,7 +147,7 @@ def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]
 
 
 def _line_after(header: Sequence[str], key: str) -> str:
-    """Return the header line that follows the line beginning with a key."""
+    """Return the header line after the line that begins with a key."""
     for line, next_line in pairwise(header):
         if line.startswith(key):
             return next_line
@@ -155,7 +155,6 @@ def _line_after(header: Sequence[str], key: str) -> str:
 
 
 def _start_time(name: str, line: str, line_number: int, relative_time: float) -> datetime:
-    """Return the time of the first sample, UTC."""
     text = line.split(",")[0]
     time = parse_jst(text)
     if time is None:
@@ -164,7 +163,6 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
 
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
-    """Return what the header says of event and station."""
     metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
     if level:
         metadata["level"] = level

@@ -1,4 +1,4 @@
-"""Any other format that obspy reads, once its unit is known."""
+"""Other formats read by ObsPy, with the unit given by the user."""
 
 from __future__ import annotations
 
@@ -20,38 +20,38 @@ from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import to_si_in_place
 from seisblock.records import Component, QCFlag, Record
 
-# PICKLE runs whatever the file says; the others have a reader here
+# unpickling executes arbitrary code; the other formats have a reader here
 _SKIPPED_FORMATS = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "CWA", "KNET", "GSE1", "GSE2"}
 _CRASHING_FORMATS = {"GSE1", "GSE2"}
-"""Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
+"""Formats whose obspy decoder crashes (segmentation fault) on damaged files."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
 
 def is_gse(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of GSE 1 or 2, which no reader here takes."""
+    """Return whether bytes begin a GSE 1 or 2 file (not supported)."""
     return _GSE.search(head) is not None
 
 
 def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None) -> list[Record]:
-    """Return the components in a file that obspy recognises.
+    """Return the components in a file of a format known to obspy.
 
     Parameters
     ----------
-    blob : Blob
-        Any waveform format of obspy but its pickles.
+    blob : RawFile
+        File of any waveform format of obspy except PICKLE.
     units : str or None
-        Unit of the samples as obspy gives them; formats with a calibration of their own (``stats.calib``) are not calibrated further.
+        Unit of the samples as returned by obspy; the calibration factor ``stats.calib`` is not applied.
     waveform : str or None
-        Name of the format as obspy spells it; None tries them all.
+        Format name of obspy; None tries all formats.
 
     Raises
     ------
     RecordFormatError
-        If obspy knows no such format, or fails on the file.
+        If obspy does not know the format or fails on the file.
     UnitError
-        If the unit is not given.
+        If the unit is missing or unknown.
     """
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
         suffix = "".join(c for c in Path(blob.basename).suffix[:12] if c.isalnum() or c == ".")
@@ -66,12 +66,11 @@ def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None)
     if unit is None:
         raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
     traces.reverse()
-    # one by one out of the list: obspy's samples go as ours come
+    # popped one by one, so that the samples of obspy are freed during conversion
     return [_to_record(blob.name, traces.pop(), name, unit, flags) for _ in range(len(traces))]
 
 
 def _detect_obspy_format(blob: RawFile, path: Path) -> str:
-    """Return obspy's name of the format of a file."""
     from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
     for candidate, entry in ENTRY_POINTS["waveform"].items():
@@ -92,7 +91,7 @@ def _detect_obspy_format(blob: RawFile, path: Path) -> str:
 
 
 def _raise_unsupported(name: str, waveform: str) -> NoReturn:
-    """Refuse a format whose decoder cannot be trusted."""
+    """Raise for a format whose decoder is unsafe."""
     raise RecordFormatError(
         "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC",
         name=name,
@@ -101,7 +100,7 @@ def _raise_unsupported(name: str, waveform: str) -> NoReturn:
 
 
 def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]:
-    """Return the traces of a file, gapless pieces of one channel joined, and what obspy warned of."""
+    """Return the traces of a file, contiguous pieces merged, and the warnings of obspy."""
     import obspy
     from obspy.core.util.base import ENTRY_POINTS
 
@@ -128,7 +127,7 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
 
 
 def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCFlag, ...]) -> Record:
-    """Return one trace as a record of one component."""
+    """Return one trace as a single-component record."""
     from datetime import UTC
 
     stats = trace.stats
@@ -136,7 +135,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
         raise RecordFormatError("{name}: channel {channel} has gaps; extract a window without gaps", name=name, channel=trace.id)
     if trace.data.dtype.kind not in "iuf":
         raise RecordFormatError("{name}: channel {channel} contains text, not samples", name=name, channel=trace.id)
-    values = np.require(trace.data, np.float64, ["C", "O", "W"])  # nobody holds them but us
+    values = np.require(trace.data, np.float64, ["C", "O", "W"])  # owned, so that they can be scaled in place
     if values.size < 2 or not stats.delta > 0:
         raise RecordFormatError(
             "{name}: channel {channel} is not a waveform ({count} samples, interval {dt} s)",

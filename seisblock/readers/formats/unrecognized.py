@@ -1,4 +1,4 @@
-"""What is said of a file that no reader takes: how it begins, and where a table in it does."""
+"""Error for files of unknown format."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KNOWN_FORMATS = N_(
 
 
 def unrecognized_error(blob: RawFile) -> RecordFormatError:
-    """Return the error of a file in no format that is known: of a text it quotes the first line, and tells where a table begins below."""
+    """Return the error of a file of unknown format; quotes the first line and locates a table below it."""
     try:
         lines = read_lines(blob)[:MAX_PREAMBLE_LINES]
     except RecordFormatError:

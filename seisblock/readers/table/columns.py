@@ -1,4 +1,7 @@
-"""What each column of a plain table is: no column is dropped in silence, and none is read as what it does not say it is."""
+"""Column headings of plain tables: component, time, unit.
+
+Every column is classified; an ambiguous or unknown heading is an error, and ignored columns are recorded in the history.
+"""
 
 from __future__ import annotations
 
@@ -26,26 +29,26 @@ ACCEPTED_NAMES = lazy_gettext(
 )
 _NON_NAMES = {"true", "false", "nan", "inf", "null", "none", "yes"}
 _RIGHT_ANGLE_TOLERANCE_DEG = 1.0
-"""How far from perpendicular, in degrees, two bare numbers may be and still be taken for azimuths."""
+"""Largest deviation from perpendicular, degrees, of two bare numbers taken as azimuths."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """One column that is read.
+    """Column to be read.
 
     Parameters
     ----------
     index : int
-        Its place in the table.
+        Index in the table.
     label : str
-        What messages call it.
+        Name for messages.
     code : str
         Component code, or ``TIME``.
     unit : str
-        Of the acceleration, normalised; of the time, empty.
+        Normalised acceleration unit; empty for time.
     azimuth_deg : float or None
     sign : float
-        -1 where the samples are turned to positive up.
+        -1 if the samples are converted to positive up.
     seconds : float
         Unit of a time column, s.
     """
@@ -61,30 +64,30 @@ class Column:
 
 @dataclass(frozen=True)
 class TableColumns:
-    """The columns that are read, and what is to be said about the others and about guesses."""
+    """Columns to be read, and history notes on ignored columns and assumptions."""
 
     columns: tuple[Column, ...]
     notes: tuple[str, ...] = ()
 
 
 def parse_header(name: str, names: Sequence[str], units: str | None = None) -> TableColumns:
-    """Return what the columns of a table are, by the names in its header.
+    """Return the columns of a table from the names in its header.
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        File name, for messages.
     names : sequence of str
-        As written; at least one is not empty.
+        Column names as written, at least one not empty.
     units : str or None
-        Unit of columns that name none.
+        Unit of columns without a unit.
 
     Raises
     ------
     RecordFormatError
-        If a column is not understood, two mean the same, or a unit or a word stands where a name should.
+        If a column is unknown, two have the same meaning, or a name is a unit or another word.
     UnitError
-        If a unit is unknown, missing or contradicts the option.
+        If a unit is unknown, missing, or contradicts `units`.
     """
     entries = [_classify_column(name, index, heading) for index, heading in enumerate(names)]
     notes = [
@@ -124,7 +127,7 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
 
 
 def is_header_row(names: Sequence[str]) -> bool:
-    """Return whether a line can be a header: one of its words is a direction, the time, or carries a unit of acceleration."""
+    """Return whether a line can be a header: a name is a direction or the time, or has an acceleration unit."""
     return any(
         normalize_unit(split_unit(n)[1])
         or component_code(n) in (TIME, "ACC")
@@ -134,7 +137,7 @@ def is_header_row(names: Sequence[str]) -> bool:
 
 
 def _classify_column(name: str, index: int, heading: str) -> Column | str:
-    """Return a column as its own name tells it, or what it is when it is no acceleration and no time."""
+    """Return a column from its own name, or the quantity of a column to be ignored."""
     unit_text = split_unit(heading)[1]
     bare_heading = strip_name(heading)
     unit, seconds = normalize_unit(unit_text), time_unit_seconds(unit_text)
@@ -192,19 +195,18 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
 
 
 def _acceleration_column(index: int, heading: str, direction: Direction, unit: str) -> Column:
-    """Return a column of acceleration."""
     return Column(index, heading, direction.code, unit, direction.azimuth_deg, direction.sign)
 
 
 def _unknown_direction(bare_heading: str) -> Direction:
-    """Return the direction, not known, of a column that is an acceleration by its unit; ``T`` beside a unit is transverse."""
+    """Return the direction of a column known as acceleration by its unit; ``T`` with a unit is transverse."""
     return Direction(
         component_code(bare_heading) if component_code(bare_heading) != TIME else bare_heading.upper() if bare_heading else "ACC"
     )
 
 
 def _resolve_down(names: Sequence[str], columns: list[Column]) -> list[Column]:
-    """Return the columns with a lone ``D`` taken as down only beside two horizontals that are known, and no vertical."""
+    """Return the columns; a lone ``D`` is down only beside two oriented horizontals and no vertical."""
     down_column = next((c for c in columns if c.sign < 0.0 and strip_name(names[c.index]).lower() == "d"), None)
     known_count = sum(c.azimuth_deg is not None for c in columns)
     if down_column is None or (known_count == 2 and sum(c.code == down_column.code for c in columns) == 1):
@@ -213,9 +215,9 @@ def _resolve_down(names: Sequence[str], columns: list[Column]) -> list[Column]:
 
 
 def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> list[Column]:
-    """Return the columns with a lone ``T`` beside ``L`` or ``R`` taken as transverse where a unit of acceleration is known."""
+    """Return the columns; a lone ``T`` beside ``L`` or ``R`` is transverse if an acceleration unit is known."""
     time_columns = [c for c in columns if c.code == TIME]
-    # t and T: the small letter is the time
+    # with both t and T, the lower-case letter is the time
     time_column = next((c for c in time_columns if names[c.index] == "T" or (names[c.index] == "t" and len(time_columns) == 1)), None)
     if time_column is None or not {"L", "R"} & {c.code for c in columns}:
         return columns
@@ -231,7 +233,7 @@ def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], 
 
 
 def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> None:
-    """Refuse what is not understood, and complete what needs company: bare numbers, and channels whose unit is an option."""
+    """Raise for ambiguous or unknown columns; name the remaining columns when `units` is given."""
     bare_azimuths = [c for c in columns if not c.unit and (d := parse_direction(strip_name(names[c.index]))) and d.is_bare_number]
     if bare_azimuths and not (len(bare_azimuths) == 2 and _are_perpendicular(*bare_azimuths)):
         raise RecordFormatError(
@@ -260,18 +262,17 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
             understood=ACCEPTED_NAMES,
         )
     for position, column in enumerate(columns):
-        if not column.code:  # the option says that they are accelerations
+        if not column.code:  # `units` declares all columns as accelerations
             columns[position] = replace(column, code=re.sub(r"\s+", " ", names[column.index].upper()) or f"C{column.index + 1}")
 
 
 def _are_perpendicular(first: Column, second: Column) -> bool:
-    """Return whether two azimuths are a right angle apart."""
     angle = abs((first.azimuth_deg or 0.0) - (second.azimuth_deg or 0.0)) % 180.0
     return abs(angle - 90.0) <= _RIGHT_ANGLE_TOLERANCE_DEG
 
 
 def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]) -> None:
-    """Refuse two columns that mean the same."""
+    """Raise if two columns have the same meaning."""
     for code, count in Counter(c.code for c in columns).items():
         if count > 1:
             meaning = lazy_gettext("time") if code == TIME else code
@@ -284,7 +285,6 @@ def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]
 
 
 def _parse_units_option(units: str | None) -> str | None:
-    """Return the unit that the caller states."""
     unit = None if units is None else normalize_unit(units)
     if units is not None and unit is None:
         raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
@@ -292,7 +292,7 @@ def _parse_units_option(units: str | None) -> str | None:
 
 
 def _apply_unit(name: str, heading: str, column: Column, option: str | None, units: str | None) -> Column:
-    """Return a column of acceleration with the unit it states, or the one that is given."""
+    """Return an acceleration column with its own unit or the default unit."""
     if column.code == TIME:
         return column
     unit = column.unit or option
@@ -314,5 +314,5 @@ def _apply_unit(name: str, heading: str, column: Column, option: str | None, uni
 
 
 def _quote_names(names: Sequence[str], columns: Sequence[Column]) -> str:
-    """Return the names of columns as they are written, each in quotes."""
+    """Return the names of columns as written, quoted."""
     return ", ".join(repr(names[c.index]) for c in columns)
