@@ -40,12 +40,12 @@ def test_files_patterns_folders_and_lists(folder):
         "records/r0.csv",
         "other.csv",
     ]
-    with pytest.raises(RecordNotFoundError, match=r"no file fits the pattern"):
+    with pytest.raises(RecordNotFoundError, match=r"no file matches the pattern"):
         found("*.knt")
     with pytest.raises(RecordNotFoundError, match=r"cannot read gone.txt: No such file"):
         found("@gone.txt")
     (folder / "empty.txt").write_text("# nothing\n")
-    with pytest.raises(RecordNotFoundError, match=r"names no record"):
+    with pytest.raises(RecordNotFoundError, match=r"record list is empty"):
         found("@empty.txt")
     (folder / "one.txt").write_text("@two.txt\n")
     (folder / "two.txt").write_text("r0.csv\n@one.txt\n")

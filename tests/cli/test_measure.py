@@ -131,7 +131,7 @@ def test_two_records_are_told_apart(run, sines, tmp_path):
     [
         (["--threshold", "150"], 2, "no unit"),
         (["--threshold", "fast"], 2, "not a number"),
-        (["--threshold", "1 furlong"], 2, "unknown unit"),
+        (["--threshold", "1 furlong"], 2, "unknown acceleration unit"),
         (["--threshold", "-5gal"], 3, "must be positive"),
         (["--width", "24cm"], 2, "both --width and --height"),
         (["--width", "24cm", "--height", "0"], 3, "positive"),
