@@ -25,9 +25,8 @@ def parse_fortran_format(text: str) -> tuple[int, int] | None:
 
     Examples
     --------
-    >>> parse_fortran_format("(8F10.3)"), parse_fortran_format("Format=(1E15.6)"), parse_fortran_format("(10I8)"),
-    ... parse_fortran_format("none")
-    ((8, 10), (1, 15), (10, 8), None)
+    >>> [parse_fortran_format(text) for text in ("(8F10.3)", "Format=(1E15.6)", "(10I8)", "none")]
+    [(8, 10), (1, 15), (10, 8), None]
     """
     match = _FORTRAN_FORMAT.search(text)
     per_line, width = (int(match[1] or 1), int(match[2])) if match else (0, 0)

@@ -21,9 +21,10 @@ def parse_coordinates(text: str) -> tuple[float | None, float | None]:
 
     Examples
     --------
-    >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("Site X  42 31 12S  172 49 48E"),
-    ... parse_coordinates("none")
-    ((35.908, -120.458), (-42.52, 172.83), (None, None))
+    >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("none")
+    ((35.908, -120.458), (None, None))
+    >>> parse_coordinates("Site X  42 31 12S  172 49 48E")
+    (-42.52, 172.83)
     """
     degrees_by_letter: dict[str, float] = {}
     for degrees, minutes, seconds, letter in _SEXAGESIMAL.findall(text):

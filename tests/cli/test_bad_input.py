@@ -55,7 +55,7 @@ def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):
     """T may be the time: said, not guessed."""
     name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
     code, said = run("measure", name)
-    assert code == 3 and "'T' may be the time or the transverse direction" in said
+    assert code == 3 and "'T' may be time or the transverse direction" in said
     assert len(said.splitlines()) == 1
 
 
@@ -65,7 +65,7 @@ def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):
 def test_two_columns_of_one_name(run, tmp_path, header):
     """Or of one meaning: keep one of them."""
     code, said = run("slide", table(tmp_path / "two.csv", header, *[100] * header.count("gal")), "--mu", "0.2")
-    assert code == 3 and "several columns for" in said and said.endswith("keep one of them")
+    assert code == 3 and "several columns for" in said and said.endswith("keep one")
 
 
 def test_one_way_sliding_with_lift_off(run, tmp_path):
@@ -135,4 +135,4 @@ def test_three_channels_of_which_none_is_vertical(tmp_path):
 def test_a_number_that_is_no_azimuth(run, tmp_path):
     """400 degrees, or a value where a name belongs."""
     code, said = run("measure", table(tmp_path / "rec.csv", "time,400 (gal),130 (gal),UD (gal)", 100, 60, 20))
-    assert code == 3 and "'400 (gal)' is named by a number that is no azimuth" in said
+    assert code == 3 and "column name '400 (gal)' is not an azimuth" in said

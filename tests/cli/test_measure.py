@@ -131,7 +131,7 @@ def test_two_records_are_told_apart(run, sines, tmp_path):
     [
         (["--threshold", "150"], 2, "no unit"),
         (["--threshold", "fast"], 2, "not a number"),
-        (["--threshold", "1 furlong"], 2, "unknown acceleration unit"),
+        (["--threshold", "1 furlong"], 2, "unknown unit"),
         (["--threshold", "-5gal"], 3, "must be positive"),
         (["--width", "24cm"], 2, "both --width and --height"),
         (["--width", "24cm", "--height", "0"], 3, "positive"),
@@ -140,7 +140,7 @@ def test_two_records_are_told_apart(run, sines, tmp_path):
         (["--velocity-highpass", "-1"], 2, "positive"),
         (["--velocity-highpass", "100"], 3, "half the sampling rate"),
         (["--component", "XX"], 3, "NS, EW, UD"),
-        (["--window", "5:70"], 3, "runs from 0 to 60 s"),
+        (["--window", "5:70"], 3, "lies outside the record (0 to 60 s)"),
         (["--animate", "a.gif"], 2, "No such option '--animate'"),
     ],
 )

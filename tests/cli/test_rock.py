@@ -212,7 +212,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "0", "--height", "1"], "width must be positive"),
         (["--width", "0.2", "--height", "-1"], "height must be positive"),
         (["--width", "nan", "--height", "1"], "not a number"),
-        (["--width", "24parsec", "--height", "1"], "unknown acceleration unit"),
+        (["--width", "24parsec", "--height", "1"], "unknown unit"),
         (["--width", "0.2"], "--height"),
         ([], "--width, --height missing"),
         (["--block", "gravestone", "--width", "0.2"], "not both"),

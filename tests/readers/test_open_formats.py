@@ -184,7 +184,7 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
     ("text", "says"),
     [
         (UNEVEN, "unevenly sampled pairs of time and acceleration .volume 1.: use volume 2"),
-        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "unevenly sampled data in USC format: use the corrected"),
+        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "unevenly sampled data in USC format"),
         ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n", "response spectra .volume 3.: use volume 2"),
         (layouts.cosmos(ROWS[0], title="Raw acceleration counts", level=0, unit=50), "raw counts .volume 0.: use volume 1 or 2"),
         (layouts.cosmos(ROWS[0], title="Velocity data"), "velocity: use the acceleration file"),
