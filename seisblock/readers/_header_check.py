@@ -46,6 +46,7 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     extremes = np.array([values.max(), values.min()])
     # both extremes when their sizes agree within the rounding: the header may state either
     largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
+    # 1e-6: rounding of the tolerance itself
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
     text = lazy_gettext(

@@ -55,6 +55,7 @@ def parse_datetime(text: str) -> tuple[datetime | None, str]:
     if match is None:
         return None, "UTC"
     clock = (match[7] or "UTC").upper()
+    # unknown abbreviations cannot be converted
     clock = clock if clock in UTC_OFFSETS else "UTC"
     first, second, third = (int(part) for part in match.group(1, 2, 3))
     year, month, day = (first, second, third) if len(match[1]) == 4 else (third, first, second)
@@ -72,6 +73,7 @@ def utc_datetime(year: int, month: int, day: int, hour: int, minute: int, second
     """
     try:
         local_time = datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=round(second, 6))
+        # seconds up to 61: leap seconds
         return local_time - UTC_OFFSETS.get(clock, timedelta(0)) if 0.0 <= second < 61.0 else None
     except (ValueError, OverflowError):
         return None

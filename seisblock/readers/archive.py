@@ -86,6 +86,7 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
     while True:
         try:
             member = next(members, None)
+        # errors of this package (limits, nested archives) keep their message
         except InputError:
             raise
         except _DAMAGE_ERRORS as error:
@@ -132,6 +133,7 @@ def _iter_compressed(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterat
     """Yield a decompressed file, or the members of a compressed tar."""
     with stream as decompressor:
         is_tar = decompressor.read(_TAR_MAGIC.stop)[_TAR_MAGIC] == b"ustar"
+        # only the head was read to recognise a tar
         decompressor.seek(0)
         if not is_tar:
             yield RawFile(re.sub(r"\.(?:gz|bz2|xz)\Z", "", name, flags=re.IGNORECASE), budget.read(name, decompressor))

@@ -53,6 +53,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
         raise RecordError("{name}: sampling intervals differ ({found}); give the files of one recording", name=name, found=interval_texts)
     components = [c for part in selected_parts for c in part.components]
     history = dict.fromkeys(line for part in selected_parts for line in part.history)
+    # other formats with unequal lengths are rejected by Record
     if selected_parts[0].format in SYNCHRONOUS_FORMATS:
         components, trim_notes = _trim_to_shortest(components)
         history.update(dict.fromkeys(trim_notes))

@@ -55,6 +55,7 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
     counts = Counter(zip(places, codes, strict=True))
     result = []
     for part, place, code in zip(parts, places, codes, strict=True):
+        # two channels with one direction at one place are told apart by their number
         needs_number = not place or counts[place, code] > 1
         channels = part.metadata.get("channels")
         number = channels.get(code, "") if isinstance(channels, dict) else ""

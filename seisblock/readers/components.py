@@ -98,6 +98,7 @@ def _load_knet_set(blob: RawFile, path: Path, level: str | None, budget: ReadBud
     match = _KNET_NAME.match(path.name)
     if match is None:
         return [blob]
+    # KiK-net suffixes: 1 borehole, 2 surface
     sensor = _SENSORS.get(level or "", match["sensor"]) if match["sensor"] else ""
     ranks = {f"{match['stem']}.{code}{sensor}".upper(): rank for code, rank in _COMPONENT_ORDER.items()}
     paths = {ranks[p.name.upper()]: p for p in _directory_files(path) if p.name.upper() in ranks and p.name.startswith(match["stem"])}
@@ -118,6 +119,7 @@ def _load_at2_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile
             continue
         candidate = _load_file(neighbour, blob, budget)
         if _at2_key(candidate) == _at2_key(blob):
+            # keyed by component: a duplicate direction replaces, the given file is checked below
             files_by_code[parse_orientation(other_parts[1])[0]] = blob if neighbour == path else candidate
     if not any(candidate.path == path for candidate in files_by_code.values()):
         return [blob]

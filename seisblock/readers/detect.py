@@ -35,10 +35,12 @@ def detect_format(blob: RawFile) -> str:
     if archive.is_archive(head):
         return ARCHIVE
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        # an even number of bytes: UTF-16 code units
         head = head[:4094].decode("utf-16", "replace").encode()
     for is_format, name in _DETECTORS:
         if is_format(head):
             return name
+    # GSE files are text: recognised before the test for tables
     if obspy.is_gse(head):
         return OBSPY
     try:

@@ -81,6 +81,7 @@ def strip_component_words(text: str) -> str:
     ['UD', '南北', '上下', 'NS', 'NS', 'x', 'HNE', '加速度']
     """
     previous_text, stripped_text = text.strip(), _FILLER_WORDS.sub("", text.strip())
+    # repeated until unchanged: filler words may stand on both sides
     while stripped_text and stripped_text != previous_text:
         previous_text, stripped_text = stripped_text.strip(), _FILLER_WORDS.sub("", stripped_text.strip())
     return previous_text
@@ -120,6 +121,7 @@ def parse_direction(text: str) -> Direction | None:
     degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
     if degrees and float(degrees[1]) <= 360.0:
         return direction_from_azimuth(float(degrees[1]), is_bare_number=degrees[0] == degrees[1])
+    # SEED code: band, instrument (N accelerometer, H and L seismometers), orientation
     seed = _SEED.fullmatch(text.strip())
     if seed:
         letter, instrument = seed[2].upper(), seed[1].upper()

@@ -109,6 +109,7 @@ def iter_records(names: Iterable[str], options: ReadOptions) -> Iterator[RecordS
 def expand_names(names: Iterable[str], options: ReadOptions) -> list[str]:
     """Return the files denoted by names, each once; see :func:`iter_records`."""
     files: dict[str, str] = {}
+    # by real path: a file given by several names is read once
     for path in (expanded_path for name in names for expanded_path in _expand_name(name, options)):
         files.setdefault(os.path.realpath(path), path)
     return list(files.values())
@@ -249,10 +250,12 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
     with MemberBuffer() as buffer:
         try:
             for member in iter_members(open_source(path, archive_budget), archive_budget):
+                # members such as notes are skipped unless the options declare them to be records
                 if options.format is None and options.units is None and detect_format(member) == OBSPY:
                     continue
                 key, size = _file_set(member.name)
                 member_count += 1
+                # a complete set is yielded at once, which keeps the buffer small
                 if buffer.add(key, member) == size:
                     yield _archive_source(buffer.pop(key), stamp)
         except InputError as error:

@@ -43,6 +43,7 @@ class ReadBudget:
 
     def check_declared_size(self, name: str, count: int) -> None:
         """Raise if a declared size exceeds the remaining bytes, before reading."""
+        # before reading: a declared size may be far beyond the memory
         if count > self.remaining_bytes:
             self._raise_exceeded(name, -(-count // MIB), "SEISBLOCK_READ_MIB", "MiB")
 

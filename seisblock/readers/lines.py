@@ -69,6 +69,7 @@ class LazyLines(Sequence[str]):
 
     def _chunk(self, number: int) -> list[str]:
         """Return the lines of one chunk without transforms."""
+        # chunk limits fall on line ends, which are single bytes in these encodings
         text = self.data[self.offsets[number] : self.offsets[number + 1]].decode(self.encoding).replace("\r\n", "\n")
         lines = text.split("\n")
         return lines if number + 2 == self.offsets.size else lines[:CHUNK_LINES]
@@ -94,6 +95,7 @@ def read_lines(blob: RawFile) -> Sequence[str]:
     for encoding in ("utf-8", *source.japanese_encodings(data[: source.HEAD_BYTES])):
         lines = LazyLines(data, encoding, offsets, 0, count)
         try:
+            # decode all chunks once: an invalid byte may occur anywhere
             for _ in lines.chunks():
                 pass
         except UnicodeDecodeError:

@@ -74,6 +74,7 @@ class MemberBuffer:
     def pop(self, key: Hashable) -> list[RawFile]:
         """Remove and return the members under a key, in the order added."""
         members = [self._read_member(member) for member in self._sets.pop(key)]
+        # reuse the space when nothing is buffered
         if not self._sets:
             self._file.seek(0)
             self._file.truncate()

@@ -225,6 +225,7 @@ def _load_components(
     parts = [part for opened_source in group for part in opened_source.parts]
     if len(group) == 1:
         siblings = load_component_files(blobs[0], options.budget, options.level)
+        # companions that are sources themselves are not read twice
         family = [b for b in siblings if b is blobs[0] or b.path not in named_paths]
         if family != blobs:
             parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else read_parts(blob, options))]

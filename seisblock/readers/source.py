@@ -181,11 +181,13 @@ def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
         info = path.stat()
         if stat.S_ISDIR(info.st_mode):
             raise RecordError("{name} is a folder: give a record file in it", name=name)
+        # devices such as /dev/zero never end
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
             raise RecordError("{name} is a device: give a file, or - for the standard input", name=name)
         budget.check_declared_size(name, info.st_size)
         mark_read(path)
         if stat.S_ISREG(info.st_mode) and info.st_size > LARGE_FILE_BYTES:
+            # counted once, though the file may be read several times
             budget.bytes_read += info.st_size
             return FileBytes(path, name, file_stamp(info))
         with path.open("rb") as stream:
@@ -264,6 +266,7 @@ def japanese_encodings(data: bytes) -> tuple[str, str]:
         as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD_BYTES else "strict")
     except UnicodeDecodeError:
         return "cp932", "euc_jp"
+    # EUC-JP decoded as Shift-JIS yields half-width kana; require kanji of table headings before preferring EUC-JP
     kana = _HALF_WIDTH_KANA.search(head.decode("cp932", errors="ignore"))
     return ("euc_jp", "cp932") if kana and _TABLE_KANJI.search(as_euc) else ("cp932", "euc_jp")
 

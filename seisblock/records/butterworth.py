@@ -31,10 +31,12 @@ def highpass_sections(dt: float, hz: float) -> FloatArray:
         Corner frequency, below half the sampling rate.
     """
     prewarped = math.tan(math.pi * hz * dt)
+    # Butterworth pole pairs: damping ratios cos of the pole angles
     damping = np.cos(np.pi * (np.arange(N_SECTIONS) + 0.5) / (2 * N_SECTIONS))
     scale = 1.0 + 2.0 * damping * prewarped + prewarped**2
     a1, a2 = 2.0 * (prewarped**2 - 1.0) / scale, (1.0 - 2.0 * damping * prewarped + prewarped**2) / scale
     gain = np.ones(N_SECTIONS)
+    # the whole gain in the first section, as scipy.signal.butter(output="sos") has it
     gain[0] = 1.0 / scale.prod()
     return np.column_stack((gain, a1, a2))
 
@@ -55,6 +57,7 @@ def run_sections(sections: FloatArray, row: FloatArray, *, steady_state: bool, b
     """
     memory = np.zeros((N_SECTIONS, 2))
     if steady_state and row.size:
+        # steady state of the first section for a constant input; its output is zero, so the second starts at rest
         initial = sections[0, 0] * row[-1 if backwards else 0]
         memory[0] = -initial, initial
     starts = range(0, row.size, CHUNK_SIZE)
@@ -73,6 +76,7 @@ def _run(sections, row, memory, backwards):
         i = row.size - 1 - count if backwards else count
         x = gain * row[i]
         y = x + m0
+        # numerator 1, -2, 1: double zero at frequency zero
         m0 = -2.0 * x - a1 * y + m1
         m1 = x - a2 * y
         x = gain_2 * y

@@ -108,6 +108,7 @@ def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[fl
     """Return the baseline at mid-record and its rise from there to the end, m/s^2."""
     n = acceleration.size
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
+    # half-sample offset keeps all weights positive, so that short records stay well-conditioned
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
     # the weights are symmetric about the middle, so the normal equations for level and slope decouple
     ends = ((_normalized_positions(n, 0, length), acceleration[:length]), (_normalized_positions(n, n - length, n), acceleration[-length:]))
@@ -141,6 +142,7 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
         raise ParameterError(
             "high-pass corner must lie between 0 and {nyquist:g} Hz (half the sampling rate), found {hz:g} Hz", nyquist=nyquist, hz=hz
         )
+    # as a float: the ratio may exceed the range of integers
     pad = np.ceil(PADDING_PERIODS / (hz * dt))
     if pad > MAX_PADDING:
         min_corner = PADDING_PERIODS / (MAX_PADDING * dt)

@@ -160,9 +160,11 @@ def floor_motion(record: Record, storey: Storey) -> Record:
     """
     checks.instance(record, Record)
     checks.instance(storey, Storey)
+    # 1e-9: a ratio that is whole up to rounding needs no further subdivision
     subdivisions = max(1, math.ceil(POINTS_PER_PERIOD * record.dt / storey.period_s - 1e-9))
     dt = record.dt / subdivisions
     items = N_("samples of floor motion")
+    # checked before allocation, and again with the free vibration
     check_limit(items, (record.samples - 1) * subdivisions * len(record.components), "SEISBLOCK_READ_SAMPLES")
     rows = [_interpolate(component.acceleration, subdivisions) for component in record.components]
     n_ringdown = max(
@@ -208,6 +210,7 @@ def _ringdown_samples(ground: FloatArray, dt: float, storey: Storey) -> int:
     final = storey.omega**2 * math.hypot(float(u[-1]), (float(v[-1]) + decay * float(u[-1])) / damped_omega)
     if final <= RINGDOWN_RATIO * largest or final == 0.0:
         return 0
+    # exponential decay with rate zeta*omega from the state at the end of the record
     return math.ceil(math.log(final / (RINGDOWN_RATIO * max(largest, final))) / (decay * dt))
 
 

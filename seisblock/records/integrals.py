@@ -45,6 +45,7 @@ def velocities(acceleration: FloatArray, dt: float, initial_velocity: float = 0.
     for begin, end in _blocks(acceleration.size):
         velocity = _velocity_block(acceleration[begin : end + 1], dt, carry)
         carry = float(velocity[-1])
+        # added after the carry is stored, so that it enters once
         velocity += initial_velocity
         yield begin, velocity
 
@@ -83,6 +84,7 @@ def displacements(acceleration: FloatArray, dt: float, initial_velocity: float =
     carry = 0.0
     for begin, velocity in velocities(acceleration, dt, initial_velocity):
         a = acceleration[begin : begin + velocity.size]
+        # exact double integral of a linear acceleration over each interval
         steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
         steps[0] += carry
         np.cumsum(steps, out=steps)

@@ -181,6 +181,7 @@ class Motion(PlotMixin):
         if not self.is_long:
             yield MotionSegment(0, self.acceleration, 0)
             return
+        # segments share their end samples: the last of one is the first of the next
         last = self.samples - 1
         for begin in range(min(first_sample, last - 1), last, SEGMENT_SAMPLES):
             end = min(begin + SEGMENT_SAMPLES, last)
@@ -234,6 +235,7 @@ def motion_of(record: Record, component: str) -> Motion:
     zeros = np.zeros(record.samples)
     up = zeros if record.vertical is None else record.vertical.acceleration
     if record.samples > LONG_MOTION_SAMPLES:
+        # a long motion keeps the row across as a function, which saves a third of its memory
         rows: MotionRows = (along, across or zeros, up)
     else:
         rows = readonly(np.stack([along, zeros if across is None else across(slice(None)), up]))
@@ -246,6 +248,7 @@ def motion_of(record: Record, component: str) -> Motion:
 def _warn_units(motion: Motion, depth: int) -> None:
     """Warn if peak or sampling interval suggest another unit."""
     is_flagged = motion.record is not None and any(flag.kind == "size" for flag in motion.record.doubts)
+    # max and -min instead of abs: no temporary array
     peak = max(max(float(row.max()), -float(row.min())) for row in (motion.horizontal, motion.vertical))
     if peak > IMPLAUSIBLE_PGA and not is_flagged:
         warn_external(
@@ -283,6 +286,7 @@ def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callab
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
             return readonly(-opposite.acceleration), None
         pair = oriented_pair(record)
+        # the row across lies 90 degrees counter-clockwise of the row along
         along = acceleration_at_azimuth(pair, azimuth)
     return along, azimuth_projection(pair, azimuth - 90.0)
 

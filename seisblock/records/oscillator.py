@@ -30,6 +30,7 @@ def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
     system[0, 1] = system[2, 3] = 1.0
     system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
     step = _matrix_exponential(system * dt)
+    # the fourth variable is the slope (a1 - a0)/dt
     step[:2, 3] /= dt
     step[:2, 2] -= step[:2, 3]  # from (a, a') to the samples at both ends
     return step
@@ -70,6 +71,7 @@ def _integrate(step, ground, u, v):
 def _matrix_exponential(matrix: FloatArray) -> FloatArray:
     """Return the exponential of a small matrix by Taylor series with scaling and squaring."""
     # scipy.linalg.expm calls threaded BLAS and is about 100 times slower for a 4 x 4 matrix
+    # scaling and squaring: the series converges to double precision for a norm of at most 1
     halvings = max(math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1.0))), 0)
     small = matrix / 2.0**halvings
     total = term = np.eye(matrix.shape[0])

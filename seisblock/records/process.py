@@ -84,6 +84,7 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
             first=record_start,
             last=record_end,
         )
+    # 1e-6 of a sample: a window end on a sample includes it in spite of rounding
     begin = int(np.ceil((start - record_start) / record.dt - 1e-6))
     stop = int(np.floor((end - record_start) / record.dt + 1e-6)) + 1
     if stop - begin < 2:

@@ -115,6 +115,7 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     """Yield flags for clipped peaks and for constant values during shaking."""
     step_in = np.where(starts > 0, np.abs(a[starts] - a[np.maximum(starts - 1, 0)]), 0.0)
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
+    # clipped: at an extreme of the record, entered and left by steep steps
     at_peak = np.isin(a[starts], (a.max(), a.min())) & (np.abs(a[starts]) > 0.5 * peak)
     is_clipped = at_peak & (np.minimum(step_in, step_out) > EDGE_RATIO * peak)
     if is_clipped.any():
@@ -126,6 +127,7 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
             times=_format_times(starts[is_clipped], dt),
         )
         yield QCFlag("clipped", text, code)
+    # 7.5 intervals: eight equal samples, with a margin for rounding
     is_long = (ends - starts) * dt >= max(MIN_HOLD_S, 7.5 * dt)
     holds = [
         i
@@ -160,6 +162,7 @@ def _ends_at_rest(samples: FloatArray, value: float) -> bool:
     pulse = samples[zeros[-1] :] if zeros.size else samples
     if value != 0.0 or pulse.size < _MIN_PULSE_SAMPLES:
         return False
+    # analytic pulses have small third differences; recorded shaking does not
     is_smooth = np.median(np.abs(np.diff(pulse, 3))) < SMOOTHNESS_RATIO * np.median(np.abs(np.diff(pulse)))
     # quadratic extrapolation to the first sample of the run
     extrapolated = 3.0 * (pulse[-1] - pulse[-2]) + pulse[-3]
@@ -191,6 +194,7 @@ def _check_directions(record: Record) -> Iterator[QCFlag]:
     if len(oriented) != 2:
         return
     first, second = oriented
+    # modulo 180: opposite directions are the same axis
     angle = abs((first.azimuth_deg or 0.0) - (second.azimuth_deg or 0.0)) % 180.0
     if abs(angle - 90.0) > MAX_SKEW_DEG:
         text = lazy_gettext(

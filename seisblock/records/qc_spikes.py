@@ -56,6 +56,7 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
         piece = acceleration[offset : start + _BLOCK + 2 * _MARGIN]
         if piece.size < 2 * _MARGIN + 5:
             continue
+        # candidates near the overlap are found twice; each block reports its own samples only
         block = range(start - offset, min(start + _BLOCK, acceleration.size) - offset)
         step = np.diff(piece)
         lone = {s for s in _find_spikes(step) if s in block}
@@ -78,6 +79,7 @@ def _find_end_spikes(acceleration: FloatArray) -> list[int]:
 def _find_spikes(step: FloatArray) -> Iterator[int]:
     """Yield indices of isolated samples; step k leads from sample k to k + 1."""
     for i in _find_outliers(0.5 * np.abs(np.diff(step))):
+        # a spike is a rise and a fall of similar size, both steeper than the adjacent steps
         rise, fall = step[i], step[i + 1]
         adjacent = max(abs(step[i - 1]) if i > 0 else 0.0, abs(step[i + 2]) if i + 2 < step.size else 0.0)
         smaller = min(abs(rise), abs(fall))
@@ -104,6 +106,7 @@ def _find_outliers(surprise: FloatArray) -> list[int]:
         return []
     windows = sliding_window_view(padded, 2 * _MARGIN + 1)[candidates]
     largest = windows[:, NEIGHBOUR_STEPS : NEIGHBOUR_STEPS + 2 * EXCLUDED_STEPS + 1].max(axis=1)
+    # the larger of both sides, so that the onset of shaking is not flagged
     background = np.maximum(np.median(windows[:, :NEIGHBOUR_STEPS], axis=1), np.median(windows[:, -NEIGHBOUR_STEPS:], axis=1))
     indices: list[int] = candidates[(surprise[candidates] >= largest) & (surprise[candidates] > SURPRISE_RATIO * background)].tolist()
     return indices

@@ -30,6 +30,7 @@ def as_readonly(values: ArrayLike) -> FloatArray:
     """Return `values` as a read-only, C-contiguous float64 array, copied only when it must be."""
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.flags.writeable:
+        # a view protects a fresh conversion; an array of the caller is copied before it is locked
         array = array.view() if array is not values else array.copy()
         array.flags.writeable = False
     return array

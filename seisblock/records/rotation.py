@@ -44,6 +44,7 @@ def azimuth_projection(pair: tuple[Component, Component], azimuth_deg: float) ->
             return component.acceleration.__getitem__
     a, b, t = (math.radians(angle or 0.0) for angle in (component_1.azimuth_deg, component_2.azimuth_deg, azimuth_deg))
     span = math.sin(b - a)
+    # the projection divides by the sine of the angle between the components
     if abs(span) < 1e-6:
         raise ComponentError("the two horizontal components are parallel and cannot be rotated")
 

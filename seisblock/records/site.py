@@ -183,6 +183,7 @@ def great_circle_km(start: tuple[float, float], end: tuple[float, float]) -> flo
     10008
     """
     (lat_1, lon_1), (lat_2, lon_2) = ([radians(degrees) for degrees in place] for place in (start, end))
+    # haversine formula: accurate for small distances, unlike the arc cosine
     haversine = sin((lat_2 - lat_1) / 2.0) ** 2 + cos(lat_1) * cos(lat_2) * sin((lon_2 - lon_1) / 2.0) ** 2
     return 2.0 * EARTH_RADIUS_KM * asin(min(sqrt(haversine), 1.0))
 

@@ -104,6 +104,7 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
         )
         if count and interval:
             stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
+            # contradicting values indicate concatenated or edited headers
             if any(len(values) > 1 for values in stated_values):
                 raise_line_error(
                     name,

@@ -135,6 +135,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
+    # unit code 3 marks pairs of time and acceleration
     if int(data[4]) == 3 or integer_values[UNIT] == 3:
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
     samples = parse_fixed_width(name, lines, line_index + 1, size, layout)
@@ -210,6 +211,7 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
 def _parse_direction(block: _ChannelBlock) -> tuple[Direction, str]:
     """Return direction and name of a channel from the integers, else the text, else the SEED code in the comments."""
     azimuth = block.integers[AZIMUTH]
+    # codes above 360 denote vertical, radial, transverse and other directions
     if 1 <= azimuth <= 360:
         return direction_from_azimuth(float(azimuth)), str(azimuth)
     channel_match = re.search(r"Chan?\s*\S*?:\s*(\d{1,3}\s*deg\b|[^\s(]+)", block.text[CHANNEL], re.IGNORECASE)
@@ -259,6 +261,7 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     peak_text = peak[1] if peak else ""
     flags = flag_peak_mismatch(code, peak_text, block.samples, _UNITS[block.integers[UNIT]][0], 2.0 * half_last_digit(peak_text))
     size, length = block.samples.size, float(block.reals[LENGTH])
+    # 1.5 intervals and the printed decimals: the length may count samples or intervals
     if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
         message = lazy_gettext(
             "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",

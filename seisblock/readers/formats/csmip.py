@@ -128,6 +128,7 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     """Return the samples described by the line at `line_index`."""
     text = lines[line_index] if line_index < len(lines) else ""
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
+    # bare numbers instead of the data line: volume 1 of film records
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     step = parse_number(interval[1]) if interval else None
@@ -163,6 +164,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     start, _ = parse_datetime(text[TRIGGER + line_shift])
     metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
     metadata |= {"channels": {direction.code: channel[1]}} | ({"place": parse_location(channel[3])} if parse_location(channel[3]) else {})
+    # without a trigger time, event and origin text identify the recording
     if start is None:
         metadata["event"] = " ".join(f"{text[EVENT + line_shift]} {text[ORIGIN + line_shift]}".split())
     return Record(

@@ -137,6 +137,7 @@ def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArra
     if rate is None or not rate > 0.0:
         raise_line_error(name, entry.line, lazy_gettext("expected the number of samples per second, found {text!r}", text=entry.value[:40]))
     dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
+    # the times have three decimals; the rate of the header is exact
     if abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
             "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged", name=name, rate=rate, dt=dt
@@ -174,6 +175,7 @@ def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterato
     if entry is None:
         return
     seconds = parse_number(entry.value)
+    # headers state the length as n or n - 1 intervals
     slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
         message = lazy_gettext(

@@ -133,6 +133,7 @@ def _metadata(header: Header) -> dict[str, object]:
         "epicentral_distance_km": "EPICENTRAL_DISTANCE_KM",
     }
     metadata |= {key: value for key, label in numbers.items() if (value := parse_number(header_value(label))) is not None}
+    # moment magnitude before local magnitude
     magnitude = next((value for key in ("MAGNITUDE_W", "MAGNITUDE_L") if (value := parse_number(header_value(key))) is not None), None)
     origin = _parse_time(header_value("EVENT_DATE_YYYYMMDD") + "_" + header_value("EVENT_TIME_HHMMSS"))
     metadata |= {"origin_time": origin} if origin else {}

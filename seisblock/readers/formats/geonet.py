@@ -90,6 +90,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock
     first = begin + TEXT + INTEGERS + REALS
     samples = parse_fixed_width(name, lines, first, counts[0], _FORM)
     end = first + count_lines(counts[0], _FORM)
+    # velocities and displacements are parsed for validity and skipped
     for count in filter(None, counts[1:]):
         parse_fixed_width(name, lines, end, count, _FORM)
         end += count_lines(count, _FORM)

@@ -87,6 +87,7 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int,
         match = _KEY.match(line)
         if match:
             header[" ".join(match[1].upper().split())] = (index + 1, match[2].strip())
+        # the header ends at the line with at least two component names
         elif len({component_code(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())

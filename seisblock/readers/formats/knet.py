@@ -194,6 +194,7 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
         message = lazy_gettext("header Duration Time {text!r} is not a number; number of samples not checked", text=text[:20])
         return (QCFlag("header", message),)
     promised_count = round(duration * rate)
+    # a short file is truncated and cannot be trusted; a longer one is flagged
     if count < promised_count:
         raise RecordFormatError(
             "{name}: file truncated: header states {promised} samples ({duration:g} s at {rate:g} Hz), file contains {count}; "

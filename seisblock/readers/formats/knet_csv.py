@@ -108,6 +108,7 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
         elapsed_s = (np.array(time_texts, dtype="datetime64[us]") - np.datetime64(time_texts[0], "us")) / np.timedelta64(1, "s")
     except ValueError:
         return (QCFlag("clock", lazy_gettext("unreadable time of day in the first column")),)
+    # half an interval: larger differences are a shifted or missing line
     mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
     if not mismatches.size:
         return ()

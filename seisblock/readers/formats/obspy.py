@@ -54,6 +54,7 @@ def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None)
         If the unit is missing or unknown.
     """
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
+        # keep the suffix, which format detection of obspy may use
         suffix = "".join(c for c in Path(blob.basename).suffix[:12] if c.isalnum() or c == ".")
         path = Path(directory) / f"record{suffix}"
         path.write_bytes(blob.data)

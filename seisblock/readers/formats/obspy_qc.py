@@ -64,6 +64,7 @@ def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
         stated_count = parse_number(words[0]) if words else None
         cells = body.split()
         has_times = any(field.upper() == "TSPAIR" for field in fields)
+        # TSPAIR lists pairs of time and value
         count = len(cells) // (2 if has_times else 1)
         total_count += count
         if stated_count is None or stated_count != count:

@@ -102,6 +102,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     has_time = any(column.code == TIME for column in columns.columns)
     flags = _qc_flags(lines, layout.body, has_time=has_time) + flag_missing_points(body, layout.body + 1, layout.separator)
     flags += flag_comment_mismatch(lines[: layout.body], columns.columns, rows[0].size, dt)
+    # one flag for a truncated end is enough
     if not any(flag.kind == "cut" for flag in flags):
         flags += flag_truncated_end(body, layout.separator)
     return Record(
@@ -189,6 +190,7 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
     steps = np.diff(first_column)
     has_time = len(rows) > 1 and first_column.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
     names = ["time" if has_time and i == 0 else f"C{i + 1}" for i in range(len(rows))]
+    # a single column is named ACC, several C1, C2, ...
     if len(rows) - has_time == 1:
         names[-1] = "ACC"
     if units is None:

@@ -138,6 +138,7 @@ def _check_title(name: str, title: str) -> None:
 def _parse_direction(lines: list[str], integers: list[int], missing_value: int) -> tuple[Direction, str]:
     """Return direction and name of the component; vertical sensors by their angle from the vertical."""
     direction_name = lines[5].partition("component")[2].lstrip("= ").strip()
+    # angle from the vertical: 0 up, 180 down
     if integers[VERTICAL] in (0, 180):
         return Direction("UD", sign=1.0 if integers[VERTICAL] == 0 else -1.0), direction_name
     if integers[AZIMUTH] != missing_value and 0 <= integers[AZIMUTH] <= 360:

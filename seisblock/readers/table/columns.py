@@ -96,6 +96,7 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
         if isinstance(entry, str)
     ]
     columns = [entry for entry in entries if not isinstance(entry, str)]
+    # D and T depend on the other columns and are resolved after all are classified
     columns = _resolve_transverse(name, names, _resolve_down(names, columns), units)
     _check_ambiguous(name, names, columns, units)
     _check_duplicates(name, names, columns)
@@ -168,6 +169,7 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     direction = parse_direction(bare_heading)
     if unit:
         return _acceleration_column(index, heading, direction or _unknown_direction(bare_heading), unit)
+    # acceleration units come first: 'T (gal)' is transverse, 'T (s)' is time
     if component_code(heading) == TIME or seconds:
         if unit_text and seconds is None and not is_clock_unit(unit_text):
             raise UnitError(

@@ -111,6 +111,7 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
         names.pop()
     sample = next((line for line in lines[layout.body :] if is_data_line(line)), "")
     separator = layout.separator
+    # the header may use another separator than the numbers
     if sample and separator is not None and separator not in sample and len(names) > 1:
         separator = find_separator(sample)
     return TableLayout(

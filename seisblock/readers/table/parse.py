@@ -83,6 +83,7 @@ def parse_columns(
         raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
     row_count = _count_rows(lines, separator)
     table = None if row_count is None else _parse_with_numpy(lines, columns, separator, row_count)
+    # slow path: locates the first invalid cell
     if table is None or not all(np.isfinite(column).all() for column in table):
         table = list(np.ascontiguousarray(_parse_cell_by_cell(name, lines, first_line, columns, width, separator).T))
     if not table or not table[0].size:
@@ -113,6 +114,7 @@ def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separato
         try:
             for piece in iter_chunks(lines):
                 if separator is None:
+                    # all columns, to check that every line has the same width
                     rows = np.loadtxt(piece, comments=None, ndmin=2)
                     widths.add(rows.shape[1])
                     rows = rows[:, indices]

@@ -34,6 +34,7 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
         Cell separator; None for any run of blanks.
     """
     count = sum(1 for line in lines if line.strip())
+    # the prefilter avoids splitting every line of a large table
     if count < MIN_LINES or not _may_miss_points(lines, count):
         return ()
     numbered_lines = [(first_line + i, line) for i, line in enumerate(lines) if line.strip()]

@@ -56,11 +56,13 @@ def sampling_interval(
     deviations += seconds[0]
     deviations -= seconds
     np.abs(deviations, out=deviations)
+    # 4 eps of the largest time: rounding of times far from zero
     if median_step > 0.0 and deviations.max() <= TIME_TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * max(
         seconds.max(), -seconds.min()
     ):
         return next((candidate for candidate in _round_intervals(dt) if abs(candidate - dt) * (count - 1) <= TIME_TOLERANCE), dt)
     if printed_times is not None and dt > 0.0:
+        # second attempt: even within the rounding of the printed times
         slack = unit * half_last_digits(printed_times())
         for candidate in _round_intervals(dt, digits=4):
             if _is_even_within_rounding(candidate, seconds, slack):
@@ -131,4 +133,5 @@ def _is_even_within_rounding(dt: float, seconds: FloatArray, slack: FloatArray) 
         return False
     slack = slack + 1e-9 + 4.0 * np.finfo(float).eps * np.abs(seconds)
     start_offsets = seconds - dt * np.arange(seconds.size)
+    # some start time lies within the rounding of every sample
     return bool((start_offsets - slack).max() <= (start_offsets + slack).min())

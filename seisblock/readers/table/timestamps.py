@@ -63,6 +63,7 @@ def parse_timestamp(cell: str) -> Timestamp | None:
     if hour > 23 or minute > 59 or second > 59:
         return None
     zone = _parse_zone(match[9])
+    # integer seconds: decimals stay in the printed digits of the fraction
     seconds = 3600 * hour + 60 * minute + second - (zone or 0)
     if match[1]:
         if not EPOCH.year < int(match[1]) < MAX_YEAR:

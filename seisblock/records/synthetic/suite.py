@@ -134,11 +134,13 @@ def parse_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
 def _envelope(source: PointSource) -> tuple[FloatArray, float]:
     """Return the envelope of the noise, (n,), with unit sum of squares, and its start, s."""
     tail_time = TAIL_TIME * source.duration_s
+    # envelope exponents from the position of its peak and its value at the tail time
     b = -ENVELOPE_PEAK * math.log(ENVELOPE_TAIL) / (1.0 + ENVELOPE_PEAK * (math.log(ENVELOPE_PEAK) - 1.0))
     # the zero-phase spectrum spreads the noise to times before the envelope begins
     onset = 1.0 + 1.0 / source.corner_hz
     seconds = math.ceil(2.0 * onset + CUTOFF_TIME * source.duration_s)
     t = (np.arange(round(seconds / DT)) * DT - onset) / tail_time
+    # zero outside the envelope, where t**b is undefined or negligible
     t[(t < 0.0) | (t > CUTOFF_TIME / TAIL_TIME)] = 0.0
     shape = t**b * np.exp(-b / ENVELOPE_PEAK * t)
     return np.asarray(shape / math.sqrt(float(shape @ shape))), onset
