@@ -64,8 +64,8 @@ _OTHER_NAMES = {
     N_("line number"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
     N_("remarks"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
-_QUANTITY_BY_UNIT = {spelling: what for what, spellings in _OTHER_UNITS.items() for spelling in spellings}
-_QUANTITY_BY_NAME = {spelling: what for what, spellings in _OTHER_NAMES.items() for spelling in spellings}
+_QUANTITY_BY_UNIT = {spelling: quantity for quantity, spellings in _OTHER_UNITS.items() for spelling in spellings}
+_QUANTITY_BY_NAME = {spelling: quantity for quantity, spellings in _OTHER_NAMES.items() for spelling in spellings}
 
 
 def normalize_cell(text: str) -> str:
