@@ -48,10 +48,10 @@ def left_out_versions(numbers: Sequence[int], completed: int) -> Message | None:
     if not numbers:
         return None
     text = N_("{count} of {all} samples stopped without a result and excluded (numbers {numbers})")
-    more = N_("{count} of {all} samples stopped without a result and excluded (numbers {numbers} and others)")
+    truncated_text = N_("{count} of {all} samples stopped without a result and excluded (numbers {numbers} and others)")
     listed_numbers = ", ".join(str(number) for number in numbers[:MAX_LISTED])
     return lazy_gettext(
-        text if len(numbers) <= MAX_LISTED else more, count=len(numbers), all=completed + len(numbers), numbers=listed_numbers
+        text if len(numbers) <= MAX_LISTED else truncated_text, count=len(numbers), all=completed + len(numbers), numbers=listed_numbers
     )
 
 

@@ -40,8 +40,8 @@ _NAMES = {
 """Columns, by their headings without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
-_HAPPENED_WORDS = TRUE_WORDS | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
-_NOT_HAPPENED_WORDS = FALSE_WORDS | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
+_EVENT_WORDS = TRUE_WORDS | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
+_NO_EVENT_WORDS = FALSE_WORDS | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
 
 MAX_REASONS = 3
 """Largest number of excluded rows with a reason."""
@@ -82,11 +82,11 @@ class OutcomeTable:
 
 @dataclass(frozen=True)
 class _Row:
-    """One row of the table; `happened` is None if unknown."""
+    """One row of the table; `event` is None if unknown."""
 
     line: int
     record: str
-    happened: bool | None
+    event: bool | None
     weight: float = 1.0
     component: str = ""
     scale: float = 1.0
@@ -146,7 +146,7 @@ def read_outcomes(
     for count, row in enumerate(rows, start=1):
         try:
             motion = files.motion(row.record, row.component or component or "")
-            observations.append(Observation(motion, bool(row.happened), row.weight, row.scale, row.record))
+            observations.append(Observation(motion, bool(row.event), row.weight, row.scale, row.record))
             lines.append(row.line)
         except SeisblockError as error:
             if strict:
@@ -193,7 +193,7 @@ def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], li
     if row_errors:
         (line_number, message), other_lines = row_errors[0], more_bad_rows([number for number, _ in row_errors[1:]])
         raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=line_number, what=message, others=other_lines)
-    known_rows = [row for row in rows if row.happened is not None]
+    known_rows = [row for row in rows if row.event is not None]
     if not known_rows:
         raise ParameterError("{source}: no outcome found; every cell of the column {column} is empty", source=source, column=outcome_kind)
     notes: list[str] = []
@@ -230,9 +230,9 @@ def _row(row: Mapping[str, str], kind: str, line: int) -> _Row:
     if not row.get("record"):
         raise ParameterError("outcome without a record; fill in the cell")
     text = row.get(kind, "")
-    if text and text.casefold() not in _HAPPENED_WORDS | _NOT_HAPPENED_WORDS:
+    if text and text.casefold() not in _EVENT_WORDS | _NO_EVENT_WORDS:
         raise ParameterError("{key} must be 0, 1, yes, no, true, false, 転倒 or 残存, found {text!r}", key=kind, text=text[:100])
-    result = _Row(line, row["record"], text.casefold() in _HAPPENED_WORDS if text else None, component=row.get("component", ""))
+    result = _Row(line, row["record"], text.casefold() in _EVENT_WORDS if text else None, component=row.get("component", ""))
     if row.get("weight"):
         result = replace(result, weight=checks.non_negative("weight", parse_number_cell(row["weight"], "weight")))
     if row.get("scale"):

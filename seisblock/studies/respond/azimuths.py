@@ -51,8 +51,8 @@ class RespondAzimuth:
 
 def left_out_directions(directions: Sequence[Any]) -> list[str]:
     """Return one sentence naming the directions without a result; an empty list if every direction has one."""
-    ordered = sorted(directions, key=lambda direction: direction.azimuth_deg)
-    azimuths = [f"{direction.azimuth_deg:g}" for direction in ordered if direction.gave_up]
+    sorted_directions = sorted(directions, key=lambda direction: direction.azimuth_deg)
+    azimuths = [f"{direction.azimuth_deg:g}" for direction in sorted_directions if direction.gave_up]
     if not azimuths:
         return []
     text = "no result in {count} of {all} directions (run stopped): {azimuths} deg"

@@ -177,7 +177,7 @@ def stack_probability(
     checks.instance(versions, PileVariation)
     checks.integer("the number of runs", runs, minimum=1)
     check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
-    checks.positive("the displacement that counts as moved", moved_m, "m")
+    checks.positive("the residual displacement that counts as moved", moved_m, "m")
     if (mu_kinetic := options.pop("mu_kinetic", None)) is not None:
         body = body.with_kinetic_friction(mu_kinetic)
     # wear that would tip a stone at rest is excluded before the draws, so that every sample starts from rest

@@ -171,7 +171,7 @@ def respond_probability(
     checks.integer("the number of runs", runs, minimum=1)
     check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
-        raise ParameterError("`moved_m`, the residual displacement that counts as moved, must be positive, found {found} m", found=moved_m)
+        raise ParameterError("the residual displacement that counts as moved must be positive, found {found} m", found=moved_m)
     # validates the nominal values: perturbed ones are clipped into their ranges
     respond_params(
         block,

@@ -214,8 +214,8 @@ def _check_grid(values: ArrayLike, label: str, unit: str, limit: float) -> Float
     good = np.isfinite(array) & (array > 0.0) & (array < limit)
     if array.size == 0 or not good.all():
         value_text = lazy_gettext("none") if array.size == 0 else str(array[~good][0])
-        text = "every {what} must be positive, in {unit}; found {found}"
-        bounded = "every {what} must be positive and below {limit:.4g}, in {unit}; found {found}"
+        text = N_("every {what} must be positive, in {unit}; found {found}")
+        bounded = N_("every {what} must be positive and below {limit:.4g}, in {unit}; found {found}")
         raise ParameterError(text if limit == math.inf else bounded, what=lazy_gettext(label), limit=limit, unit=unit, found=value_text)
     for end in (array.min(), array.max()):
         checks.positive(lazy_gettext(label), float(end), unit)

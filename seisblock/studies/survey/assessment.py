@@ -235,13 +235,13 @@ def cemetery_warnings(
     cemetery: Cemetery, shakings: Sequence[Shaking], method: AssessmentMethod, *, reinforced_cemetery: Cemetery | None = None
 ) -> list[str]:
     """Return warnings about rates, a sentence each, with the component of each ([Furukawa2009]_)."""
-    fitted = method.criterion == "furukawa"
+    uses_fit = method.criterion == "furukawa"
     messages = [
         lazy_gettext("{name}: {text}", name=shaking.component, text=text) if shaking.component else text
         for shaking in shakings
-        for text in rate_warnings(cemetery, shaking.pga, shaking.frequency, fitted=fitted)
+        for text in rate_warnings(cemetery, shaking.pga, shaking.frequency, uses_fit=uses_fit)
     ]
-    if fitted and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or reinforced_cemetery is not None):
+    if uses_fit and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or reinforced_cemetery is not None):
         messages.append(DOWELLED_NOTE)
     # without duplicates, in order
     return list(dict.fromkeys(messages))

@@ -201,16 +201,16 @@ def stones_saved(cemetery: Cemetery, pga: float, frequency: float, *, most_fragi
     return overturning_rate(cemetery, pga, frequency).fallen - overturning_rate(reinforced_cemetery, pga, frequency).fallen
 
 
-def rate_warnings(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = True) -> tuple[str, ...]:
+def rate_warnings(cemetery: Cemetery, pga: float, frequency: float, *, uses_fit: bool = True) -> tuple[str, ...]:
     """Return warnings about a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3)).
 
     Parameters
     ----------
     cemetery : Cemetery
     pga, frequency : float, m/s^2 and Hz
-    fitted : bool
+    uses_fit : bool
         True if the range of the fit applies.
     """
     if pga < MIN_PLAUSIBLE_PGA:
         return (lazy_gettext("PGA {pga:.3g} gal is too low to overturn any stone: check the unit (gal, not m/s^2)", pga=pga / GAL),)
-    return fit_range_warnings(pga, frequency, cemetery.ratios) if fitted else ()
+    return fit_range_warnings(pga, frequency, cemetery.ratios) if uses_fit else ()
