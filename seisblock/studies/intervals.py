@@ -59,6 +59,7 @@ def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     share = count / runs
     middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
     half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
+    # exact ends for counts of zero and of all, free of round-off
     return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0
 
 

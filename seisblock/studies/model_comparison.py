@@ -135,6 +135,7 @@ def compare_models(
     (3, 5)
     """
     pga = peak_acceleration(motion.horizontal)[0]
+    # no scale factor exists for a zero motion
     if pga == 0.0:
         return ModelComparison(tuple(extra_results), 0, len(extra_results), None)
     worn_block = block if block.inset else block.with_wear(wear_within(block, DEFAULT_WEAR.share))
@@ -173,6 +174,7 @@ def _closed_forms(block: Block, stone: Block, motion: Motion, pga: float, fit: G
     """Return the results of the closed forms: threshold over the motion's peak."""
     pgv = peak_velocity(ground_history(motion.horizontal, motion.dt), motion.dt)
     frequency = pga_pgv_frequency(pga, pgv)
+    # equivalent rectangle on the weaker side
     width, height = 2 * min(block.arms), 2 * block.centre
     results = []
     ratio, (low, high) = stone.height / stone.width, FITTED_RATIO

@@ -222,6 +222,7 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
     )
     points = []
     for (base, scale), row, final, mode, (highest, highest_time, lowest, lowest_time), first, slips, fell, flew in numbers:
+        # extrema of both signs; the larger one is the maximum slip
         slip, peak_time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
         rest = slip_at_rest(final, mode, row)
         slipped = first == first  # not NaN

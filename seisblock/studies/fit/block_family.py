@@ -93,6 +93,7 @@ class BlockFamily:
         if ALPHA in values:
             width_factor = np.tan(values[ALPHA]) / np.tan(base.slenderness)
         if ALPHA in values or FREQUENCY in values:
+            # alpha and p refer to the side of the smaller alpha
             weaker_side = base.slendernesses.index(base.slenderness)
             sharp_blocks = block_variants(base, size=np.ones(len(unit_points)), slenderness=width_factor, inset_share=zeros)
             target_p = values.get(FREQUENCY, base.frequency_parameter(self.gravity))

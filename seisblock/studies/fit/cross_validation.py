@@ -108,6 +108,7 @@ def _predictive_probability(sample: ImportanceSample, lapse: LapseRate, log_weig
     weights /= weights.sum()
     unique_shakings, inverse = np.unique(shakings, return_inverse=True)
     outcome_probability = lapse.outcome_probability
+    # outcomes under one shaking share their probability
     probabilities = np.array([(weights * outcome_probability[:, sample.shares[k]]).sum() for k in unique_shakings])
     return probabilities[inverse]
 
@@ -128,46 +129,47 @@ def score_predictions(
         Fold of each record.
     effective_blocks : float
     """
-    happened, weights = experiment.happened, experiment.weights
+    outcomes, weights = experiment.happened, experiment.weights
     share = weights / weights.sum()
     parts = folds[experiment.record]
-    rate, above_threshold = np.empty(happened.size), np.empty(happened.size, dtype=np.bool_)
+    rate, above_threshold = np.empty(outcomes.size), np.empty(outcomes.size, dtype=np.bool_)
     for part in range(int(parts.max()) + 1):
         test, train = parts == part, parts != part
         train_weight = weights[train].sum()
-        rate[test] = weights[train] @ happened[train] / train_weight if train_weight else 0.5
-        above_threshold[test] = velocities[test] >= _threshold(velocities[train], happened[train], weights[train])
-    correct = (probability > 0.5) == (happened > 0.5)
+        # baselines: constant rate and best velocity threshold of the training folds
+        rate[test] = weights[train] @ outcomes[train] / train_weight if train_weight else 0.5
+        above_threshold[test] = velocities[test] >= _threshold(velocities[train], outcomes[train], weights[train])
+    correct = (probability > 0.5) == (outcomes > 0.5)
     accuracy = float(share @ correct)
     count = max(round(float(weights.sum())), 1)
-    outcome_probability = np.where(happened > 0.5, probability, 1.0 - probability)
+    outcome_probability = np.where(outcomes > 0.5, probability, 1.0 - probability)
     return HeldOutScores(
         int(folds.max()) + 1,
         accuracy,
         wilson_interval(round(accuracy * count), count),
-        float(share @ (probability - happened) ** 2),
+        float(share @ (probability - outcomes) ** 2),
         float(-share @ np.log(outcome_probability)),
-        float(share @ ((rate > 0.5) == (happened > 0.5))),
-        float(share @ (rate - happened) ** 2),
-        float(share @ (above_threshold == (happened > 0.5))),
+        float(share @ ((rate > 0.5) == (outcomes > 0.5))),
+        float(share @ (rate - outcomes) ** 2),
+        float(share @ (above_threshold == (outcomes > 0.5))),
         effective_blocks,
-        calibration(probability, happened, weights),
+        calibration(probability, outcomes, weights),
     )
 
 
-def _threshold(values: FloatArray, happened: FloatArray, weights: FloatArray) -> float:
+def _threshold(values: FloatArray, outcomes: FloatArray, weights: FloatArray) -> float:
     """Return the threshold with the most correct classifications, midway between two values."""
     if not values.size:
         return np.inf
     order = np.argsort(values)
-    sorted_values, gain = values[order], (weights * (2.0 * happened - 1.0))[order]
+    sorted_values, gain = values[order], (weights * (2.0 * outcomes - 1.0))[order]
     # correct at threshold k: events from row k on, and non-events before it
     correct_weight = np.concatenate([[0.0], np.cumsum(-gain)]) + np.concatenate([np.cumsum(gain[::-1])[::-1], [0.0]])
     ends = np.concatenate([[-np.inf], 0.5 * (sorted_values[:-1] + sorted_values[1:]), [np.inf]])
     return float(ends[int(correct_weight.argmax())])
 
 
-def calibration(probability: FloatArray, happened: FloatArray, weights: FloatArray) -> tuple[CalibrationBin, ...]:
+def calibration(probability: FloatArray, outcomes: FloatArray, weights: FloatArray) -> tuple[CalibrationBin, ...]:
     """Return the observed shares within bins of predicted probability; (n,) arrays, 1."""
     bins = []
     bin_index = np.clip(np.searchsorted(CALIBRATION_BINS, probability, side="right") - 1, 0, len(CALIBRATION_BINS) - 2)
@@ -176,7 +178,7 @@ def calibration(probability: FloatArray, happened: FloatArray, weights: FloatArr
         weight = float(weights[in_bin].sum())
         if weight == 0.0:
             continue
-        share = float(weights[in_bin] @ happened[in_bin]) / weight
+        share = float(weights[in_bin] @ outcomes[in_bin]) / weight
         count = max(round(weight), 1)
         interval = wilson_interval(round(share * count), count)
         mean = float(weights[in_bin] @ probability[in_bin]) / weight

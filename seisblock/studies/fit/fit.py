@@ -208,6 +208,7 @@ def fit_block(
     )
     weights = np.exp(sample.log_weights(log_likelihood(sample.shares, *experiment.outcome_counts(), lapse_rate)))
     weights /= weights.sum()
+    # marginal over the lapse rate
     block_weights = weights.sum(axis=0)
     pga, pgv = ground_peaks(experiment)
     held_out_scores, held_out_probability = None, None

@@ -149,6 +149,7 @@ class _Sampler:
     def first(self) -> ImportanceSample:
         """Return quasi-random points over the whole cube."""
         d = len(self.family.axes)
+        # random offset of a low-discrepancy sequence: even, and unbiased
         unit_points = (self.rng.random(d) + quasi_random_points(self.initial_count, d)) % 1.0
         shares = self._simulate_shares(unit_points, np.full(len(self.experiment.shakings), SEARCH_RUNS))
         return ImportanceSample(unit_points, shares, np.zeros(self.initial_count))
@@ -177,6 +178,7 @@ class _Sampler:
 
         if effective_sample_size(weights(max_power)) >= MIN_EFFECTIVE:
             return max_power, weights(max_power)
+        # the effective sample size decreases with the power: bisection
         low, high = 0.0, max_power
         for _ in range(30):
             middle = 0.5 * (low + high)
@@ -189,6 +191,7 @@ class _Sampler:
         shares = sample.shares[:, weights > 1e-4 * weights.max()]
         is_unanimous = (shares == 0).all(axis=1) | (shares == SHARE_DENOMINATOR).all(axis=1)
         repetitions = np.maximum(sum(self.experiment.outcome_counts()), 1.0)
+        # the noise of a share matters where likely blocks disagree, and enters once per repetition
         run_counts = np.where(is_unanimous, SEARCH_RUNS, runs) * 2 ** np.ceil(np.log2(repetitions)).astype(np.int64)
         return np.minimum(run_counts, SHARE_DENOMINATOR)
 
@@ -212,5 +215,6 @@ def _log_mixture(unit_points: FloatArray, proposals: list[Proposal], initial_cou
     logs = [np.log(n) + proposal.log_density(unit_points) for n, proposal in zip(counts, proposals, strict=True)]
     if initial_count:
         logs.append(np.full(len(unit_points), np.log(initial_count)))
+    # deterministic mixture: every point is weighted by all proposals, not by its own
     log_density: FloatArray = np.logaddexp.reduce(logs, axis=0) - np.log(counts.sum() + initial_count)
     return log_density

@@ -80,6 +80,7 @@ def _share_weights(shares: IntArray, weights: FloatArray) -> FloatArray:
     count = shares.shape[1]
     totals = np.zeros((SHARE_DENOMINATOR + 1, count))
     columns = np.arange(count)
+    # logarithms are taken of 65 shares only, then weighted by the counts
     for k in np.flatnonzero(weights):
         totals[shares[k], columns] += weights[k]
     return totals
@@ -101,4 +102,5 @@ def log_likelihoods_held_out(
     total = log_likelihood(shares, *experiment.outcome_counts(), lapse)
     for part in range(int(parts.max()) + 1):
         rows = np.flatnonzero(parts == part)
+        # the log likelihood is additive: held-out outcomes are subtracted
         yield rows, total - log_likelihood(shares, *experiment.outcome_counts(rows), lapse)

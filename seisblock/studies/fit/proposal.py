@@ -68,7 +68,9 @@ def make_proposal(unit_points: FloatArray, weights: FloatArray, count: int, rng:
     effective_size = 1.0 / float((share**2).sum())
     middle = share @ unit_points
     spread = (unit_points - middle).T @ (share[:, None] * (unit_points - middle)) * (effective_size / max(effective_size - 1.0, 1.0))
+    # Silverman's factor for d dimensions
     bandwidth = (4.0 / ((d + 2.0) * effective_size)) ** (2.0 / (d + 4.0))
+    # a minimum width keeps the shape positive definite with few effective points
     shape = bandwidth * spread + MIN_WIDTH**2 * np.eye(d)
     root = np.linalg.cholesky(shape)
     # systematic resampling: one random offset, equal steps; each point is a centre in proportion to its weight

@@ -55,6 +55,7 @@ def outcome_shares(
         size = max(1, CHUNK_SIZE // (shaking.motion.samples * run_count))
         for first in range(0, len(unit_points), size):
             part = slice(first, first + size)
+            # blocks times samples in one batch; a share is the mean over the samples
             params, gains = family.versions(
                 np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
             )

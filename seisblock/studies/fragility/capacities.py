@@ -81,6 +81,7 @@ def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tupl
         mean = (weights * value).sum(axis=1) / observed_weight
         spread = (weights * observed * (value - mean[:, None]) ** 2).sum(axis=1)
         deviation = np.sqrt(spread / (observed_weight - 1.0))
+    # a spread of zero (all at one level) has no beta
     good = (observed_weight >= 2.0) & (spread > 1e-12)
     for row in np.flatnonzero(good & (censored > 0.0)):
         mean[row], deviation[row] = _censored(value[observed], weights[row, observed], float(censored[row]), top, mean[row], deviation[row])

@@ -43,6 +43,7 @@ def efficiency_of_capacities(
     logs = np.log(values)[:, None] + measure.power * np.where(observed, log_factors, np.nan)
     log_capacities = logs[observed]
     mean, beta = float(log_capacities.mean()), float(log_capacities.std(ddof=1))
+    # one residual per motion: samples of the body share its properties
     residuals = np.array([row[np.isfinite(row)].mean() if np.isfinite(row).any() else np.nan for row in logs]) - mean
     slopes = [slope for name, property_values in properties if (slope := _residual_slope(name, property_values, residuals)) is not None]
     return Efficiency(measure.name, measure.unit, math.exp(mean), beta, tuple(slopes))

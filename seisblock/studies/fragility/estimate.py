@@ -101,10 +101,12 @@ def estimate_curves(exceedances: Exceedances, suite: Suite, options: FitOptions)
         _problem(options.method, exceedances.levels, states[..., k], completed, display_unit) for k in range(len(exceedances.limits))
     ]
     good = [k for k, problem in enumerate(problems) if problem is None]
+    # fits by limit, beside the joint fit with one beta
     single_fits = [_fit_samples(options.method, exceedances.levels, states[..., [k]], completed, weights) for k in good]
     joint_fits = _fit_samples(options.method, exceedances.levels, states[..., good], completed, weights) if len(good) > 1 else None
     results: list[tuple[Fragility, Band]] = []
     for k, problem in enumerate(problems):
+        # capacities also serve the counts and the comparison of measures of the other methods
         capacities_by_run = _first_exceedances(states[..., k], completed, exceedances.levels)
         counts_only = _curve_without_fit(exceedances, suite, options, states[..., k], k, capacities_by_run)
         if problem is not None:
@@ -165,6 +167,7 @@ def _add_fit(counts_only: Fragility, samples: FloatArray, levels: FloatArray, co
     result = replace(counts_only, median=float(median), beta=float(beta), bootstrap_lost_count=int((~finite).sum()))
     if finite.sum() < 2:
         return result, None
+    # bootstrap samples without a curve are counted, not replaced
     finite_samples = np.array([medians, betas])[:, finite]
     (low, high), (beta_low, beta_high) = np.quantile(finite_samples, ends, axis=1).T.tolist()
     return replace(result, median_interval=(low, high), beta_interval=(beta_low, beta_high)), _band(
@@ -276,6 +279,7 @@ def _goodness(
     if method == IDA:
         mask: BoolArray = np.asarray(completed.any(axis=1))
         logs = np.where(mask, capacities_by_run.log_factor.reshape(-1, versions), 0.0)
+        # one capacity per motion, the mean over the samples of the body: samples of one motion are dependent
         means = (logs.sum(axis=1) / np.maximum(mask.sum(axis=1), 1))[mask.any(axis=1)]
         return goodness_of_capacities(curve, means, math.log(float(levels.max())), rng)
     if method == CLOUD:
@@ -320,6 +324,7 @@ def _band(medians: FloatArray, betas: FloatArray, levels: FloatArray, ends: list
 
     if medians.size < 2:
         return None
+    # pointwise quantiles of the bootstrap curves
     x = np.geomspace(float(levels.min()), float(levels.max()), 121)
     low, high = np.quantile(ndtr((np.log(x) - np.log(medians)[:, None]) / betas[:, None]), ends, axis=0)
     return tuple(zip(x.tolist(), low.tolist(), high.tolist(), strict=True))

@@ -37,6 +37,7 @@ def goodness_of_stripes(
     rng : numpy.random.Generator
     """
     samples = curve.median * np.exp(curve.beta * rng.standard_normal((SAMPLE_COUNT, motions)))
+    # one capacity decides a motion at all levels: counts at the levels are dependent, as in the data
     counts = (samples[:, :, None] <= levels).sum(axis=1).astype(np.float64)
     medians, betas = fit_lognormals(levels, counts, np.full((1, levels.size), float(motions)))
     good = np.isfinite(medians)
@@ -58,6 +59,7 @@ def goodness_of_capacities(curve: Lognormal, log_capacities: FloatArray, top: fl
     rng : numpy.random.Generator
     """
     samples = np.log(curve.median) + curve.beta * rng.standard_normal((SAMPLE_COUNT, log_capacities.size))
+    # censored at the highest level, as the data are
     samples = np.where(samples <= top, samples, np.inf)
     sample_distances = []
     for sample in samples:

@@ -61,6 +61,7 @@ def _extend_level(
     shares_at: Callable[[float], FloatArray], level: float, factor: float, shares: FloatArray, is_reached: Callable[[FloatArray], BoolArray]
 ) -> float:
     """Return the first level of a geometric sequence at which a condition holds for all shares; the last if none."""
+    # bounded: some limits are never, or always, exceeded
     for _ in range(MAX_DOUBLINGS):
         if is_reached(shares).all():
             break

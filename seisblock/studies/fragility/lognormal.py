@@ -179,8 +179,10 @@ def fit_lognormals(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) 
     x = np.log(levels)
     y, n = np.broadcast_arrays(exceeding, runs)
     medians, betas = np.full(len(y), np.nan), np.full(len(y), np.nan)
+    # separated counts have no finite maximum
     good = ~is_separated(x, y, n)
     if good.any():
+        # probit a + b ln x: median exp(-a/b), beta 1/b
         b, a = fit_probit(np.column_stack([x, np.ones_like(x)]), y[good], n[good]).coefficients.T
         medians[good], betas[good] = _medians_from_logs(-a / b), 1.0 / b
     return medians, betas
@@ -206,6 +208,7 @@ def fit_lognormals_shared_beta(levels: FloatArray, exceeding: FloatArray, runs: 
     y, n = exceeding.reshape(samples, -1), np.tile(runs, (1, limits))
     # one unseparated limit determines the slope
     all_separated = np.stack([is_separated(x, exceeding[:, k], runs) for k in range(limits)]).all(axis=0)
+    # a limit never or always exceeded has no median, whatever the common slope
     empty = ((exceeding.sum(axis=2) == 0.0) | (exceeding == runs[:, None]).all(axis=2)).any(axis=1)
     good = ~(all_separated | empty)
     medians, betas = np.full((samples, limits), np.nan), np.full(samples, np.nan)

@@ -63,6 +63,7 @@ def fit_probit(columns: FloatArray, exceeding: FloatArray, runs: FloatArray, *, 
     coefficients, value = _maximize(x, np.repeat(start, len(y), axis=0), y, n)
     coefficients[:, 0] /= scale
     coefficients[:, 1 : 1 + constants] -= middle * coefficients[:, :1]
+    # a decreasing probability is no fragility curve
     good = coefficients[:, 0] > 0.0
     return ProbitFits(np.where(good[:, None], coefficients, np.nan), np.where(good, value, np.nan))
 
@@ -81,6 +82,7 @@ def is_separated(x: FloatArray, exceeding: FloatArray, runs: FloatArray) -> Bool
         True also for samples without any exceedance, or with nothing else.
     """
     y, n = np.broadcast_arrays(exceeding, runs)
+    # separated: the highest level with a survivor does not exceed the lowest with an exceedance
     highest_not = np.where(y < n, x, -np.inf).max(axis=1)
     lowest = np.where(y > 0.0, x, np.inf).min(axis=1)
     return np.asarray(highest_not <= lowest)
@@ -130,6 +132,7 @@ def _line_search(
     for _ in range(MAX_HALVINGS):
         trial = c + length[:, None] * step
         trial_value = _log_likelihood(trial @ x.T, y, n)
+        # a tolerance of round-off: at the maximum no step improves the likelihood
         worse = trial_value < value - 1e-9 * np.abs(value)
         if not worse.any():
             break

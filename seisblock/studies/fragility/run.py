@@ -81,6 +81,7 @@ class StudyPlan:
                 exceeded &= ~stopped_mask[..., None]
                 gave_up |= stopped_mask
             result |= exceeded
+        # overturning in one direction decides the run, whatever the stopped ones would do
         completed = ~gave_up | result[..., -1]
         return result & completed[..., None], completed
 

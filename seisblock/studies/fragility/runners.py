@@ -78,6 +78,7 @@ def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
     results = respond_many(settings, motion, gains=gains, settle_s=settle)
+    # beyond every slip limit
     slip = np.where(results.overturned, np.inf, np.abs(results.final_displacement_m))
     return EndStates(results.overturned, results.max_rotation_rad / alphas, slip, results.gave_up)
 

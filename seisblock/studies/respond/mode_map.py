@@ -137,6 +137,7 @@ def mode_map(
         to_block_array(blocks)[kinds], friction_by_cell, friction_by_cell, np.full(cells, restitution), np.ones(cells), False, gravity, 0.0
     )
     alphas = settings.blocks.slendernesses.min(axis=1)
+    # Shenton's initiation limits use the same vertical motion as the runs
     up = vertical_gain(motion, vertical)
     ratio, time = peak_loading_ratio(motion, vertical=vertical, gravity=gravity)
     # free flight to a height h and back takes sqrt(8 h/g)
@@ -153,6 +154,7 @@ def mode_map(
     if gave_up == cells:
         raise no_answer(cells, cells, int(result.impacts.min()))
     worst, lean, path, end = table.T.reshape(4, len(blocks), mu.size)
+    # an infinite loading ratio means that the ground falls away: no friction is defined
     required_friction = [None if math.isinf(ratio) else friction_to_rock(block, ratio) for block in blocks]
     return ModeMap(
         np.array([math.hypot(block.width, block.height) for block in blocks]),

@@ -182,6 +182,7 @@ def stack_probability(
         body = body.with_kinetic_friction(mu_kinetic)
     # wear that would tip a stone at rest is excluded before the draws, so that every sample starts from rest
     versions = replace(versions, inset=widest_wear(body, versions.inset) if options.get("points", EDGE_POINTS) == EDGE_POINTS else 0.0)
+    # all draws before the runs: the samples do not depend on the number of threads
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
     def work(draw: FloatArray) -> StackOutcome | SolverError:
@@ -261,6 +262,7 @@ def perturb_motion(motion: Motion, versions: PileVariation, draw: FloatArray) ->
     [0.0, 1.5, 0.0]
     """
     factor = 1.0 + versions.amplitude * draw[AMPLITUDE]
+    # no rotation if the transverse motion is unknown (zero)
     angle = math.radians(versions.azimuth_deg * draw[AZIMUTH]) * bool(motion.transverse.any())
     c, s = factor * math.cos(angle), factor * math.sin(angle)
     # one copy of the motion per thread; released with its run

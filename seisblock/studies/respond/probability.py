@@ -203,6 +203,7 @@ def respond_probability(
         parts.append(respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s))
         if progress is not None:
             progress(min(first + CHUNK_SIZE, runs), runs)
+    # stopped samples leave the statistics: their outcome is unknown, not stable
     gave_up, fallen, shifts = (
         np.concatenate([getattr(fates, name) for fates in parts]) for name in ("gave_up", "overturned", "final_displacement_m")
     )
@@ -246,7 +247,9 @@ def perturbed_respond_params(
     draws : (m, 7) array
         In [-1, 1].
     """
+    # one factor on both coefficients keeps kinetic below static friction
     friction_factor = 1.0 + versions.mu * draws[:, MU]
+    # unmeasured friction: the prior of the kind, its median at the nominal value, replaces the relative width
     if versions.mu > 0.0 and block.ranges is not None and block.ranges.mu is not None:
         friction_factor = within(block.ranges.mu, mu, draws[:, MU]) / mu if mu > 0.0 else np.ones(len(draws))
     change = versions.restitution * draws[:, RESTITUTION]
@@ -276,5 +279,6 @@ def perturbed_respond_params(
 def _gains(motion: Motion, versions: ParameterVariation, draws: FloatArray, vertical: Gain | None) -> FloatArray:
     """Return the gains on the rows along, across and up that scale and rotate the shaking of each sample, (runs, 3)."""
     amplitude = 1.0 + versions.amplitude * draws[:, AMPLITUDE]
+    # no rotation if the transverse motion is unknown (zero): it would only reduce the amplitude
     angle = np.radians(versions.azimuth_deg) * draws[:, AZIMUTH] * bool(motion.transverse.any())
     return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * vertical_gain(motion, vertical)])

@@ -140,6 +140,7 @@ def _bisect_flips(block: RockParams, motion: Motion, factors: FloatArray, verdic
     """Return the factors at which the verdict changes; all brackets are bisected in one batch."""
     changes = np.flatnonzero(verdicts[1:] != verdicts[:-1])
     low, high, upper_verdicts = factors[changes], factors[changes + 1], verdicts[changes + 1]
+    # every bracket keeps its own verdict at the upper end, so one batch halves all of them
     while changes.size and (high - low).max() > FLIP_TOLERANCE:
         middle = 0.5 * (low + high)
         same = overturns_at(block, motion, middle) == upper_verdicts

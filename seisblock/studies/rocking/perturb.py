@@ -178,4 +178,5 @@ def perturbed_rock_params(
     larger = 1.0 + spread.size * size
     blocks = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
     params = rock_batch_params(blocks, motion, **options)
+    # a restitution above 1 would create energy
     return replace(params, restitutions=np.minimum(params.restitutions * (1.0 + spread.restitution * bounce[:, None]), 1.0))

@@ -158,6 +158,7 @@ def rocking_spectrum_all_azimuths(
         verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains[row], progress=advance)
         # order: overturning during the record, overturning after it, then peak tilt without overturning
         time = np.where(verdicts.overturned, np.nan_to_num(verdicts.overturning_time_s, nan=AFTER_RECORD_S), np.inf)
+        # ties in time: no overturning so far, or both after the record; the peak tilt decides
         worse = (time < first) | ((time == first) & (verdicts.max_rotation_ratio > ratio))
         ratio, worst, first = (
             np.where(worse, new, old) for new, old in ((verdicts.max_rotation_ratio, ratio), (azimuth, worst), (time, first))

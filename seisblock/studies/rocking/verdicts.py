@@ -38,6 +38,7 @@ def parallel_verdicts(
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     runs = max(len(blocks), len(rows))
+    # small enough for a progress report and for one part per core
     size = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(runs / cpu_count())))
 
     def solve_batch(part: slice) -> Verdicts:

@@ -77,6 +77,7 @@ class Assumptions:
         if self.frequency_error == 0.0:
             return [frequency], np.ones(1)
         steps = np.linspace(-FREQUENCY_SIGMAS, FREQUENCY_SIGMAS, FREQUENCY_STEPS)
+        # normal weights over ln f
         weights = np.exp(-0.5 * steps**2)
         return (frequency * np.exp(self.frequency_error * steps)).tolist(), weights / weights.sum()
 

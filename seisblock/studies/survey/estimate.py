@@ -129,6 +129,7 @@ def estimate_shaking(
         (pga[0], pga[2]),
         pgv[1],
         (pgv[0], pgv[2]),
+        # a higher PGA means a lower threshold H/B: the ends change places
         ratio[1],
         (ratio[2], ratio[0]),
         intensity[1],
@@ -165,6 +166,7 @@ def _average_likelihoods(parts: Sequence[Likelihood], shifts: Sequence[float], w
     ends = [part.log_pga[-1] - shift for part, shift in zip(parts, shifts, strict=True)]
     # parts share one step, so a common grid interpolates without loss
     step = float(parts[0].log_pga[1] - parts[0].log_pga[0])
+    # the union of the shifted grids
     grid = np.arange(min(starts), max(ends) + step, step)
     total = np.zeros(grid.size)
     for part, shift, weight in zip(parts, shifts, weights, strict=True):
@@ -180,6 +182,7 @@ def _summary(grid: FloatArray, value: FloatArray, bound: str | None, level: floa
         return None, None, float(np.exp(np.interp(-tail, -value, grid)))
     if bound == "lower":
         return float(np.exp(np.interp(tail, value, grid))), None, None
+    # trapezoidal posterior under the flat prior in ln PGA
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
     low, middle, high = (float(np.exp(np.interp(share * cumulative[-1], cumulative, grid))) for share in (tail, 0.5, 1.0 - tail))
     return low, middle, high

@@ -80,6 +80,7 @@ def joint_estimate(
     # errors are independent at one frequency; the frequency is common, so the product is averaged over it
     total, single = np.zeros(grid.size), np.zeros((len(surveys), grid.size))
     for f, weight in zip(band, weights, strict=True):
+        # each likelihood is scaled to a maximum of 1, against underflow of the product
         values = np.array([part.interpolate(grid) for _, survey in surveys for part in settings.likelihoods(survey, [f])])
         total += weight * np.prod(values / values.max(axis=1, keepdims=True), axis=0)
         single += weight * values

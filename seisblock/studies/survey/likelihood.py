@@ -265,6 +265,7 @@ def likelihood(
                 least=MIN_ERROR,
                 error=error,
             )
+    # relative to the lowest limit and rounded: frequencies with equal relative limits share a cached curve
     centres = np.log(limits(survey.rows, frequency))
     lowest = float(centres.min())
     grid, value = _likelihood_curve(survey, tuple(np.round(centres - lowest, 12).tolist()), common_error, stone_error)
@@ -279,6 +280,7 @@ def _likelihood_curve(
 
     The limits of all stones scale alike with frequency ([Furukawa2009]_ eqs. (8), (9)): one cached curve serves every frequency.
     """
+    # the step resolves the narrower of both errors
     spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
     reach = math.ceil(GRID_SIGMAS * spread / step)
     grid = step * np.arange(-reach, math.ceil(max(log_limits) / step) + reach + 1, dtype=np.float64)
@@ -286,5 +288,6 @@ def _likelihood_curve(
     # marginalisation over the normal common error is a convolution on the even grid
     half = math.ceil(GRID_SIGMAS * common_error / step)
     kernel = np.exp(-0.5 * (step * np.arange(-half, half + 1) / common_error) ** 2)
+    # the maximum is scaled to 1 against underflow; constant ends where none or all stones fall
     padded = np.pad(np.exp(stone_log_likelihood - stone_log_likelihood.max()), half, mode="edge")
     return grid, np.convolve(padded, kernel / kernel.sum(), mode="valid")

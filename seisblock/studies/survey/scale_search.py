@@ -146,6 +146,7 @@ def scale_factors(
     peak = float(np.abs(motion.horizontal).max())
     factors = []
     for i in range(1, len(grid)):
+        # a sign change brackets a factor; a step may bracket a discontinuity as well
         if (values[i - 1] < observed) != (values[i] < observed):
             factor = _bisect_factor(displacement, observed, grid[i - 1], grid[i], values[i] < observed)
             crossing = displacement(factor)

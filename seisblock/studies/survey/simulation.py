@@ -103,6 +103,7 @@ def simulated_overturns(
         If a stone is reinforced, or the inset leaves nothing of a base.
     """
     require_undowelled(cemetery)
+    # equal stones share one run
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     ratio, b = sizes.T
     stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, gravity=gravity)
