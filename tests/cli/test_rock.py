@@ -224,7 +224,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "above the height"),
         (["--width", "0.2", "--height", "1", "--azimuth", "north"], "degrees"),
         (["--width", "0.2", "--height", "1", "--margin", "--margin-limit", "-1"], "limit"),
-        (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "share"),
+        (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "relative spread of the size must lie in [0, 1)"),
     ],
 )
 def test_bad_input_is_one_sentence(run, pulse, words, says):
@@ -262,7 +262,7 @@ def test_fragile_verdict_is_said_everywhere(run):
     factor = found["results"][0]["flips_at_factor"]
     would = "stand" if found["results"][0]["overturned"] else "fall"
     assert f"it would {would} at {factor:.3f} times this record" in " ".join(shown.stdout.split())
-    assert f"2 %, to {factor:.3f} times itself" in shown.stderr
+    assert f"2 % of the record, at {factor:.3f} times its amplitude" in shown.stderr
 
 
 def test_animation_of_the_first_component(run, pulse, tmp_path):
