@@ -64,14 +64,14 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
     try:
         document = json.loads(data)
     except (ValueError, RecursionError) as error:
-        raise ParameterError("{name} is not a JSON document; expected the output of seisblock fragility --json", name=name) from error
+        raise ParameterError("{name} is not a JSON document; expected the JSON output of seisblock fragility", name=name) from error
     if not (isinstance(document, dict) and str(document.get("schema", "")).startswith(SCHEMA_PREFIX)):
-        raise ParameterError("{name} is not a fragility document; expected the output of seisblock fragility --json", name=name)
+        raise ParameterError("{name} is not a fragility document; expected the JSON output of seisblock fragility", name=name)
     try:
         curves = tuple(_curve_from_entry(entry) for entry in document["results"] if entry["median"] is not None)
     except (KeyError, TypeError, InputError) as error:
         raise ParameterError(
-            "{name} is a damaged fragility document; create it again with seisblock fragility --json", name=name
+            "{name} is a damaged fragility document; create it again with seisblock fragility", name=name
         ) from error
     if not curves:
         raise ParameterError("{name} contains no fragility curve (all fits failed)", name=name)

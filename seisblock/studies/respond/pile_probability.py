@@ -38,11 +38,11 @@ class PileVariation:
 
     Parameters
     ----------
-    size, amplitude : float
+    size, amplitude : float, 1
         Relative half widths: of all lengths of the pile, and of the shaking.
-    inset : float
+    inset : float, 1
         Relative half width of the insets, common to all stones: sharp edges stay sharp. No effect on a grid of contact points.
-    mu : float
+    mu : float, 1
         Relative half width of the friction under each stone, independent from stone to stone.
     azimuth_deg : float
         Half width of the direction of the shaking, degrees; no effect if the record's second horizontal is unknown.

@@ -48,9 +48,9 @@ class ParameterVariation:
 
     Parameters
     ----------
-    size, mu, amplitude : float
+    size, mu, amplitude : float, 1
         Relative half widths; size applies to the width and, independently, to the height.
-    inset : float
+    inset : float, 1
         Relative half width of a known inset, as far as a fifth of the base remains: sharp edges stay sharp. Unmeasured edges are
         drawn from the prior of the body's kind instead; 0 takes them as known exactly, and likewise for `mu`.
     restitution : float, 1
