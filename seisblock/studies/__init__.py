@@ -1,1 +1,1 @@
-"""Many runs: spectra, fragility, overturning rates, inverse estimates, batches."""
+"""Studies of many runs: probability, margin, spectrum, fragility, hazard, survey, fit, map and batch."""

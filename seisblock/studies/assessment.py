@@ -1,4 +1,4 @@
-"""Everything this package can say about one record and some bodies, for a report."""
+"""Assessment of some bodies under one record by every applicable model, for a report."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ from seisblock.studies.rocking.margin import Margin, find_margin, flag_near_flip
 
 @dataclass(frozen=True, eq=False)
 class ModelResponse:
-    """What one model says of one body under one component.
+    """Response of one body under one component by one model.
 
     Parameters
     ----------
     kind : "respond", "rock", "slide", "jump" or "uplift"
-        The first is the governing one, the others are idealised.
+        The first is the full model, the others are idealised.
     response : Response
     onset : float or None
-        Factor on the record at which it begins: to rock, to slide, to lift. None where the record does not tell.
+        Factor on the record at which rocking, sliding or uplift starts; None if undefined.
     margin : Margin or None
-        For rocking: the factors at which the verdict changes.
-    governing : Governing or None
-        For the governing answer: how sure it is, and whether the friction was known.
+        Of rocking: the factors at which the verdict changes.
+    governing : BestEstimate or None
+        Of the full model: its overturning probability, and a flag for a known friction.
     """
 
     kind: str
@@ -52,7 +52,7 @@ class ModelResponse:
 
 @dataclass(frozen=True, eq=False)
 class BodyAssessment:
-    """All effects on one body, and its criteria card for each component."""
+    """Responses of one body, and its criteria for each component."""
 
     subject: BodyModels
     effects: tuple[ModelResponse, ...]
@@ -61,7 +61,7 @@ class BodyAssessment:
 
 @dataclass(frozen=True, eq=False)
 class Assessment:
-    """One record and what it does to some bodies."""
+    """Assessment of some bodies under one record."""
 
     record: Record
     measures: RecordMeasures
@@ -70,7 +70,7 @@ class Assessment:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Everything that was warned of, once."""
+        """All warnings, without duplicates."""
         messages = [
             *self.measures.warnings,
             *(text for body in self.bodies for effect in body.effects for text in effect.response.warnings),
@@ -79,7 +79,7 @@ class Assessment:
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
         keys = [*self.measures.citations, *(key for body in self.bodies for effect in body.effects for key in effect.response.citations)]
         cards = find_citations(row.where for body in self.bodies for rows in body.cards.values() for row in rows)
         return tuple(dict.fromkeys([*keys, *cards]))
@@ -99,14 +99,14 @@ def assess(
     Parameters
     ----------
     record : Record
-    subjects : sequence of Subject
+    subjects : sequence of BodyModels
     components : sequence of str
-        Horizontal components or azimuths; all horizontals when left out.
+        Horizontal components or azimuths; default: all horizontals.
     drop : float, m
         Height of the floor above the ground, for the jump.
     gravity : float, m/s^2
     progress : callable
-        Told the number of bodies and components done and the number in all.
+        Called with the number of finished bodies and components and the total.
     """
     names = tuple(components or (component.code for component in record.horizontals))
     conventions = Conventions(gravity_m_s2=gravity)
@@ -128,7 +128,7 @@ def assess(
 
 
 def _model_responses(subject: BodyModels, motion: Motion, drop: float, gravity: float) -> Iterator[ModelResponse]:
-    """Yield what every model says of one body under one component."""
+    """Yield the response of one body under one component by every model."""
     peak = float(np.abs(motion.horizontal).max())
     estimate = best_estimate(subject.block, motion, mu=subject.mu, mu_kinetic=subject.mu_kinetic, gravity=gravity, runs=RUNS)
     yield ModelResponse("respond", estimate.response, None, governing=estimate)
@@ -152,5 +152,4 @@ def _ratio(threshold: float, peak: float) -> float | None:
 
 
 def _criteria_rows(subject: BodyModels, measures: ComponentMeasures, gravity: float) -> tuple[CriterionResult, ...]:
-    """Return the criteria of overturning for one body and one component."""
     return overturning_card(subject.block, measures.pga_m_s2, measures.pgv_m_s, asdict(measures.equivalent_frequency_hz), gravity)

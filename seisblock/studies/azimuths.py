@@ -1,4 +1,4 @@
-"""A body in every direction of a record: which ones there are, which block it is in each, and how the motion is turned."""
+"""Azimuth sweep: directions of a record, the block in each, and the gains that rotate the motion."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ from seisblock.records._validation import Gain, vertical_gain
 from seisblock.records.rotation import oriented_pair
 
 STEP_DEG = 5.0
-"""Between directions, unless told otherwise."""
+"""Default step between directions, degrees."""
 
 
 @dataclass(frozen=True, eq=False)
 class AzimuthSweep:
-    """The directions of a record, and a body in each.
+    """Directions of a record, and a body in each.
 
     Parameters
     ----------
     azimuths : (m,) array, degrees
         Of +x, clockwise from north.
     blocks : tuple of Block
-        One for each.
+        One per direction.
     motion : Motion
         Towards north.
     gains : (m, 3) array
-        Factors on its rows that turn it to each azimuth.
+        Factors on its rows that rotate it to each azimuth.
     """
 
     azimuths: FloatArray
@@ -45,7 +45,7 @@ class AzimuthSweep:
 
 
 def sweep_azimuths(body: object, step_deg: float = STEP_DEG) -> FloatArray:
-    """Return the directions in which a body is looked at, (m,), degrees: all of the circle where its two sides differ, else half of it.
+    """Return the directions of a sweep, (m,), degrees: the full circle for an asymmetric or one-way body, else half.
 
     Examples
     --------
@@ -63,9 +63,9 @@ def sweep_azimuths(body: object, step_deg: float = STEP_DEG) -> FloatArray:
 def make_azimuth_sweep(
     body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_DEG, vertical: Gain | None = None
 ) -> AzimuthSweep:
-    """Return the directions of a record, half the circle, or all of it where a block is turned whose two sides differ.
+    """Return the directions of a record: half a circle, or the full circle for an asymmetric block.
 
-    A scan stands where it stands: towards the opposite azimuth it is the same block seen from behind.
+    A scan keeps its orientation: towards the opposite azimuth it is the same block seen from behind.
 
     Parameters
     ----------
@@ -73,16 +73,16 @@ def make_azimuth_sweep(
     record : Record
         With two horizontal components of known azimuths.
     step_deg : float
-        Degrees between directions.
+        Step between directions, degrees.
     vertical : bool, float or None
-        Whether the vertical motion acts, or a factor on it; None: where the record has one.
+        True or a factor to apply the vertical motion; None: if the record has one.
 
     Raises
     ------
     ParameterError
-        If the step is not positive, or makes more directions than may be looked in.
+        If the step is not positive, or there are more directions than the limit.
     ComponentError
-        If the record has no two horizontals of known azimuths, or no vertical component where it is asked for.
+        If the record has no two horizontals of known azimuths, or lacks a required vertical component.
 
     Examples
     --------

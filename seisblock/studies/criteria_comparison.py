@@ -1,4 +1,4 @@
-"""Every criterion of overturning beside the simulated outcome, for one direction of a record."""
+"""Overturning criteria compared with the simulated outcome, for one direction of a record."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from seisblock.studies.rocking.margin import flag_near_flip
 
 @dataclass(frozen=True)
 class CriteriaComparison:
-    """The criteria of one component beside its simulated outcome.
+    """Criteria of one component and its simulated outcome.
 
     Parameters
     ----------
@@ -27,16 +27,16 @@ class CriteriaComparison:
     component : str
     block : Block
     measures : ComponentPeaks
-        What the criteria were given.
-    rows : tuple of Row
+        Arguments of the criteria.
+    rows : tuple of CriterionResult
     outcome : RockOutcome
     velocity_highpass_hz : float or None
-        Filter behind the PGV.
+        Filter of the PGV.
     warnings : tuple of str
-    agreement : Agreement or None
-        What a few of them, each counted once, and rocking blocks say, and how far apart they are; None where nobody asked.
-    governing : Governing or None
-        What the body does with all of its motions together; None where nobody asked.
+    agreement : ModelComparison or None
+        Comparison of independent models, and the spread of their scale factors; None if not computed.
+    governing : BestEstimate or None
+        Response by the full model; None if not computed.
     """
 
     record: Record
@@ -71,7 +71,7 @@ def compare_criteria(
     block : Block
     gravity : float, m/s^2
     mu, mu_kinetic : float or None, 1
-        Friction; None where nothing is known of it: feet that hold.
+        Friction; None if unknown: the no-slip friction is used.
     options
         ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.models.rock.solve.solve_rock`.
     """

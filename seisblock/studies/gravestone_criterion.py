@@ -1,7 +1,7 @@
-"""The criterion study of gravestones: which is the most squat upper stone that a sine overturns, and what fits through the answers.
+"""Study of the gravestone criterion: the smallest overturning H/B of the upper stone under sines, and the fit through the thresholds.
 
 [Furukawa2009]_ section 3(3): sine bases of 100 to 1300 gal, 0.5 to 3 Hz and 20 s, 29 heights of the upper stone. Runs are independent,
-use all cores, and can be taken up again where they were left.
+parallel, and resumable.
 """
 
 from __future__ import annotations
@@ -42,15 +42,15 @@ SAMPLING_S = 0.005
 
 @dataclass(frozen=True)
 class Threshold:
-    """The most squat upper stone that falls under one sine.
+    """Smallest overturning H/B of the upper stone under one sine.
 
     Parameters
     ----------
     frequency_hz, pga_m_s2 : float
     ratio : float or None
-        Its height over width; None when every stone stays.
+        Height over width; None without overturning.
     fallen : tuple of str
-        Which stones fell with it.
+        Names of all fallen stones.
     """
 
     frequency_hz: float
@@ -67,7 +67,7 @@ class CriterionStudy:
     ----------
     thresholds : tuple of Threshold
     levels : dict of float to float, Hz to m/s^2
-        Least squares of H/B = a(f)/PGA ([Furukawa2009]_ eq. (7)); frequencies at which nothing fell are missing.
+        Least squares of H/B = a(f)/PGA ([Furukawa2009]_ eq. (7)); without frequencies at which nothing fell.
     fit : GravestoneFit or None
         Least squares of eq. (8) through the levels; None with fewer than three.
     """
@@ -78,7 +78,7 @@ class CriterionStudy:
 
 
 def with_top(body: Pile, ratio: float) -> Pile:
-    """Return the pile with its last stone as high as `ratio` times its width ([Furukawa2009]_ table 1)."""
+    """Return the pile with an upper stone of height `ratio` times its width ([Furukawa2009]_ table 1)."""
     top = body.stones[-1]
     return replace(body, stones=(*body.stones[:-1], replace(top, height=ratio * top.width)))
 
@@ -104,23 +104,22 @@ def criterion_study(
     progress: Progress | None = None,
     workers: int | None = None,
 ) -> CriterionStudy:
-    """Find the threshold of every sine and fit it ([Furukawa2009]_ section 3(3)).
+    """Return the threshold of every sine and the fitted criterion ([Furukawa2009]_ section 3(3)).
 
-    Heights are tried from the most squat upwards until one falls, which is the paper's definition of the threshold and leaves the slender
-    ones unrun.
+    Heights are tried in rising order up to the first that falls, which is the paper's definition of the threshold.
 
     Parameters
     ----------
     body : Pile
-        Its last stone is the one whose height changes.
+        The height of its last stone varies.
     frequencies, pgas, ratios : sequences of float, Hz, m/s^2, 1
     law, points, contact, gravity
         As for :func:`~seisblock.models.stack.solve.solve_stack`.
     duration : float, s
     resume : path
-        File with one line per finished sine; read if it is there, and added to.
+        File with one line per finished sine; read if present, and extended.
     progress : callable
-        Told the number of sines done and the number in all.
+        Called with the number of finished sines and the total.
     workers : int
         Threads.
 
@@ -139,10 +138,11 @@ def criterion_study(
     """
     checks.instance(body, Pile)
     if not (frequencies and pgas and ratios):
-        raise ParameterError("the criterion study needs at least one frequency, one amplitude and one height")
+        raise ParameterError("the criterion study requires at least one frequency, one amplitude and one height")
     contact = PileContact() if contact is None and law == SPRINGS else contact
     cells = [(float(f), float(a)) for f in frequencies for a in pgas]
     sorted_ratios = sorted(float(ratio) for ratio in ratios)
+    # the digest identifies pile and settings, so that a file of another study is rejected
     settings = [asdict(body), sorted_ratios, points, RIGID if contact is None else asdict(contact), gravity, duration]
     digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
     finished = _read_finished(resume, digest)
@@ -165,7 +165,7 @@ def criterion_study(
 
 
 def study_frequencies(study: CriterionStudy) -> list[float]:
-    """Return the frequencies in their order."""
+    """Return the frequencies of a study, in order."""
     return list(dict.fromkeys(t.frequency_hz for t in study.thresholds))
 
 
@@ -198,7 +198,7 @@ def fit_criterion(levels: dict[float, float]) -> GravestoneFit | None:
 
 
 def _read_finished(path: Path | None, digest: str) -> dict[tuple[float, float], Threshold]:
-    """Return the sines that an earlier run has finished."""
+    """Return the finished sines of an earlier run."""
     finished: dict[tuple[float, float], Threshold] = {}
     for number, line in enumerate([] if path is None else read_complete_lines(path, '{"study": "'), start=1):
         try:
@@ -210,7 +210,7 @@ def _read_finished(path: Path | None, digest: str) -> dict[tuple[float, float], 
                 "{path}, line {number}: not a line of a criterion study; give another file", path=path, number=number
             ) from error
         if study != digest:
-            raise ParameterError("{path} belongs to a study of another pile or other settings: give another file", path=path)
+            raise ParameterError("{path} belongs to a study of another pile or other settings; give another file", path=path)
         finished[cell] = threshold
     return finished
 
@@ -227,9 +227,9 @@ def record_thresholds(
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
 ) -> tuple[Threshold, ...]:
-    """Find the threshold of a motion scaled to each amplitude, along +x alone ([Furukawa2009]_ section 3(5), fig. 10).
+    """Return the threshold of a motion scaled to each amplitude, along +x alone ([Furukawa2009]_ section 3(5), fig. 10).
 
-    The frequency of the answers is the equivalent one, PGA/(2 pi PGV). Parameters as for :func:`criterion_study`.
+    The frequency of the thresholds is the equivalent one, PGA/(2 pi PGV). Parameters as for :func:`criterion_study`.
 
     Raises
     ------
@@ -239,7 +239,7 @@ def record_thresholds(
     peak = float(np.abs(motion.horizontal).max())
     frequency = pga_pgv_frequency(peak, float(np.abs(ground_history(motion.horizontal, motion.dt).velocity).max()))
     if frequency is None:
-        raise ParameterError("the motion has no acceleration along its component: nothing can be scaled")
+        raise ParameterError("the motion has no acceleration along its component and cannot be scaled; choose another component")
 
     def work(pga: float) -> Threshold:
         scaled_motion = Motion.from_arrays(motion.horizontal * (pga / peak), motion.dt, name=motion.name)
@@ -261,7 +261,7 @@ def _find_threshold(
     contact: PileContact | None,
     gravity: float,
 ) -> Threshold:
-    """Return the most squat top stone that falls, trying them from below."""
+    """Return the threshold of one motion: the first ratio, in rising order, that falls."""
     for ratio in sorted_ratios:
         top = with_top(body, ratio)
         outcome = solve_stack(top, motion, law=law, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
@@ -271,11 +271,11 @@ def _find_threshold(
 
 
 def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
-    """Return a(f) of the top stone as one rigid block, over the study's sines ([Furukawa2009]_ eq. (7)); parameters as for the study."""
+    """Return a(f) of the top stone as one rigid block over the sines of a study ([Furukawa2009]_ eq. (7))."""
     blocks = [(ratio, rigid_top(with_top(body, ratio), points)) for ratio in RATIOS]
 
     def work(threshold: Threshold) -> Threshold:
-        """Return the most squat block that falls under the same sine."""
+        """Return the smallest overturning ratio under the same sine."""
         motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)
         falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=gravity).overturned)
         return Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None))

@@ -1,7 +1,7 @@
-"""Intervals of a share, from how often something happened in so many runs.
+"""Binomial confidence intervals of a share.
 
-The quantiles are those of :mod:`scipy.special`: `scipy.stats`, which holds both intervals, takes half a second to load and a thousand times
-as long for each.
+Quantiles are those of :mod:`scipy.special`: `scipy.stats`, which has both intervals, takes half a second to load and a thousand times as
+long per call.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 
 CONFIDENCE = 0.95
-"""Level of an interval unless another is asked for."""
+"""Default confidence level."""
 
 
 def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
@@ -28,7 +28,7 @@ def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     Raises
     ------
     ParameterError
-        If the counts or the level make no sense.
+        If a count or the level is out of range.
 
     Examples
     --------
@@ -59,11 +59,14 @@ def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tu
     share = count / runs
     middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
     half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
+    # exact ends for counts of zero and of all, free of round-off
     return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0
 
 
 def _check_counts(count: int, runs: int, confidence: float) -> float:
-    """Return the level, or refuse counts and levels that make no sense."""
+    """Return the confidence level after a check of counts and level."""
     if not (0 <= count <= runs and runs > 0):
-        raise ParameterError("a share needs 0 <= count <= runs and at least one run, found {count} of {runs}", count=count, runs=runs)
+        raise ParameterError(
+            "an interval requires 0 <= `count` <= `runs` and at least one run, found {count} of {runs}", count=count, runs=runs
+        )
     return checks.in_interval("the confidence", confidence, "(0, 1)")

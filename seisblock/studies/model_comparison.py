@@ -1,7 +1,7 @@
-"""Where the models of one object disagree: each says whether it falls, and from which strength of the shaking on.
+"""Comparison of the models of one object: overturning verdict and scale factor to overturning by each.
 
-A stone has one fate and several models: a rigid block with sharp edges or worn ones, the fit to whole gravestones, a pulse of the
-record's own frequency, a lower limit from experiments. They differ by more than their own scatter, and no one of them says so by itself.
+Rigid block with sharp or worn edges, criterion fitted to gravestones, half-sine pulse of the record's equivalent frequency, lower
+limits from experiments. The difference between models exceeds the parameter variation of each, and no single model shows it.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from seisblock.records import Motion
 
 SHARP_BLOCK = N_("rigid block with sharp edges")
 WORN_BLOCK = N_("rigid block with worn edges")
-GRAVESTONES = N_("criterion of gravestones")
-PULSE = N_("half sine of that frequency")
+GRAVESTONES = N_("gravestone criterion")
+PULSE = N_("half-sine pulse")
 PILE = N_("pile of stones")
 ISHIYAMA = N_("Ishiyama's limits of acceleration and velocity")
 
@@ -40,30 +40,30 @@ SAO = "sao"
 """Name of the upper stone of a grave in a pile."""
 
 MAX_FACTOR, FACTOR_STEP = 4.0, 1.05
-"""A first fall is looked for at factors up to the first, each greater than the one before by the second."""
+"""Largest factor of the search for the first overturning, and ratio of consecutive factors."""
 
 GRAVESTONE_WIDTH_RANGE = (0.5, 2.0)
-"""Widths, over the 8 sun behind the criterion, at which a block is taken for a stone it was made for ([Furukawa2009]_ table 1)."""
+"""Range of widths, over the 8 sun of the criterion, of blocks treated as gravestones ([Furukawa2009]_ table 1)."""
 
 
 @dataclass(frozen=True)
 class ModelResult:
-    """What one model says.
+    """Verdict and scale factor to overturning by one model.
 
     Parameters
     ----------
     model : str
     falls : bool
-        Under the motion as it is.
+        Under the unscaled motion.
     factor : float or None
-        On the motion, from which on it falls: the first one found, for a block that is simulated. None where it never falls up to 4
-        times, or where nobody looked.
+        Scale factor to overturning: the first one of the search, for a simulated block. None up to a factor of 4, or without a
+        search.
     made_for_it : bool
-        Whether the model was made for objects like this one.
+        True for a model fitted to objects like this one.
     frequency_hz : float or None
         Of the half sine: PGA/(2 pi PGV) of the motion.
     worn : bool or None
-        Of a closed form for blocks, whether it was asked about worn edges, or about those of the drawing.
+        For a closed form for blocks: True with worn edges, False with sharp ones.
     """
 
     model: str
@@ -76,15 +76,15 @@ class ModelResult:
 
 @dataclass(frozen=True)
 class ModelComparison:
-    """What all models of one object say.
+    """Results of all models of one object.
 
     Parameters
     ----------
-    opinions : tuple of Opinion
+    opinions : tuple of ModelResult
     falls, models : int
-        In how many of how many models it falls.
+        Models that predict overturning, and all models.
     spread : float or None
-        The largest of their factors over the smallest, a factor on the shaking; None where fewer than two have one.
+        Ratio of the largest to the smallest scale factor; None with fewer than two.
     """
 
     opinions: tuple[ModelResult, ...]
@@ -94,7 +94,7 @@ class ModelComparison:
 
     @property
     def unanimous(self) -> bool:
-        """Whether all models say the same of the motion as it is."""
+        """True if all models agree on the unscaled motion."""
         return self.falls in (0, self.models)
 
 
@@ -108,19 +108,20 @@ def compare_models(
     gravity: float = STANDARD_GRAVITY,
     **options: Any,
 ) -> ModelComparison:
-    """Return what the models of a block say under a motion, and how far they are apart.
+    """Return the results of the models of a block under a motion, and the spread of their scale factors.
 
     Parameters
     ----------
     block : Block
-        Its own inset counts as its worn edges; 0.05 of the width where it has none.
+        With its own edge wear; 0.05 of the width if it has none.
     motion : Motion
     stone : Block
-        The upper stone alone, where the block is more than that: its proportions are those that the criterion of gravestones asks for.
+        The upper stone alone, for a block of several stones: the gravestone criterion uses its proportions.
     fit : GravestoneFit or None
-        Of that criterion, which is asked only about stones of its width and proportions ([Furukawa2009]_ eqs. (9), (10)); None: not asked.
-    extra_results : sequence of Opinion
-        Of models that were asked elsewhere.
+        Gravestone criterion, applied to stones of its range of width and proportions ([Furukawa2009]_ eqs. (9), (10)); None: not
+        applied.
+    extra_results : sequence of ModelResult
+        Results of other models.
     gravity : float, m/s^2
     options
         ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.models.rock.solve.rock_verdict`.
@@ -129,11 +130,12 @@ def compare_models(
     --------
     >>> import numpy as np
     >>> sine = Motion.from_arrays(4.0 * np.sin(2 * np.pi * 0.01 * np.arange(1001)), 0.01)
-    >>> found = compare_models(Block(0.2424, 0.63), sine)
-    >>> found.falls, found.models
+    >>> comparison = compare_models(Block(0.2424, 0.63), sine)
+    >>> comparison.falls, comparison.models
     (3, 5)
     """
     pga = peak_acceleration(motion.horizontal)[0]
+    # no scale factor exists for a zero motion
     if pga == 0.0:
         return ModelComparison(tuple(extra_results), 0, len(extra_results), None)
     worn_block = block if block.inset else block.with_wear(wear_within(block, DEFAULT_WEAR.share))
@@ -149,18 +151,19 @@ def compare_models(
 
 
 def _simulate(model: str, block: Block, motion: Motion, pga: float, gravity: float, options: dict[str, Any]) -> ModelResult:
-    """Return the verdict of a rocking block, and the first factor at which it was found to fall."""
+    """Return the verdict of a rocking block, and the first overturning factor of a geometric search."""
 
     def falls(factor: float) -> bool:
         return rock_verdict(block, motion, scale=factor, gravity=gravity, **options).overturned
 
-    # below the threshold of rocking nothing can fall, unless the ground falls away under it
+    # no overturning below the rocking threshold, unless a vertical motion reduces the effective gravity
     factor = min(block.rocking_threshold(gravity) / pga, MAX_FACTOR) if not options.get("vertical") else 0.1
     while factor <= MAX_FACTOR and not falls(factor):
         factor *= FACTOR_STEP
     if factor > MAX_FACTOR:
         return ModelResult(model, falls(1.0), None)
     low, high = factor / FACTOR_STEP, factor
+    # six halvings of a step of 5 % locate the factor to 0.1 %
     for _ in range(6):
         middle = (low * high) ** 0.5
         low, high = (low, middle) if falls(middle) else (middle, high)
@@ -168,9 +171,10 @@ def _simulate(model: str, block: Block, motion: Motion, pga: float, gravity: flo
 
 
 def _closed_forms(block: Block, stone: Block, motion: Motion, pga: float, fit: GravestoneFit | None, gravity: float) -> list[ModelResult]:
-    """Return what the closed forms say: their threshold over the motion's peak."""
+    """Return the results of the closed forms: threshold over the motion's peak."""
     pgv = peak_velocity(ground_history(motion.horizontal, motion.dt), motion.dt)
     frequency = pga_pgv_frequency(pga, pgv)
+    # equivalent rectangle on the weaker side
     width, height = 2 * min(block.arms), 2 * block.centre
     results = []
     ratio, (low, high) = stone.height / stone.width, FITTED_RATIO
@@ -188,10 +192,10 @@ def _closed_forms(block: Block, stone: Block, motion: Motion, pga: float, fit: G
 
 
 def compare_pile_models(response: Response[StackOutcome]) -> ModelComparison | None:
-    """Return what the models of a pile's top stone say beside the pile itself, None where that stone is held ([Furukawa2009]_).
+    """Return the results of the models of a pile's top stone beside the pile itself, None for a fixed top stone ([Furukawa2009]_).
 
-    The top stone, with those it is dowelled to, is taken as one block with the edges of its drawing. The criterion of gravestones is asked
-    where the top stone is a sao, and that of dowelled ones where it has a dowel.
+    The top stone, with those dowelled to it, is one block with its nominal edges. The gravestone criterion applies to a sao, that of
+    dowelled stones to one with a dowel.
     """
     pile: Pile = response.body
     if pile.names[-1] in pile.fixed:

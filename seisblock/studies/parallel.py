@@ -1,4 +1,4 @@
-"""Many independent runs: in threads, in order, with bounded memory."""
+"""Parallel runs in threads: ordered results, bounded memory, cancellation."""
 
 from __future__ import annotations
 
@@ -18,44 +18,45 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 BATCH_SIZE = 32
-"""Runs that one thread takes at a time where an ensemble does several."""
+"""Default number of runs per batch."""
 
 MAX_PENDING = 128
-"""Runs that are under way, or done and not yet asked for, at a time."""
+"""Largest number of runs in progress or with unread results."""
 
 MAX_PENDING_RECORDS = 16
-"""The same of runs that hold a record each."""
+"""The same for runs with a record each."""
+
+MAX_LISTED = 5
+"""Largest number of stopped samples listed by number."""
 
 
-MOST_NAMED = 5
-"""Versions without an answer that are named, at most."""
-
-
-def left_out_versions(numbers: Sequence[int], answered: int) -> Message | None:
-    """Return a sentence on the versions of a body that were given up, None where there are none.
+def left_out_versions(numbers: Sequence[int], completed: int) -> Message | None:
+    """Return a note on stopped samples of a body, None without any.
 
     Parameters
     ----------
     numbers : sequence of int
-        Of those versions, from 1.
-    answered : int
-        Versions that have an answer.
+        Of the stopped samples, from 1.
+    completed : int
+        Number of samples with a result.
 
     Examples
     --------
     >>> print(left_out_versions((3, 17), 198))
-    2 of 200 versions were given up and are left out: numbers 3, 17
+    2 of 200 samples stopped without a result and excluded (numbers 3, 17)
     """
     if not numbers:
         return None
-    text = N_("{count} of {all} versions were given up and are left out: numbers {numbers}")
-    more = N_("{count} of {all} versions were given up and are left out: numbers {numbers} and others")
-    named = ", ".join(str(number) for number in numbers[:MOST_NAMED])
-    return lazy_gettext(text if len(numbers) <= MOST_NAMED else more, count=len(numbers), all=answered + len(numbers), numbers=named)
+    text = N_("{count} of {all} samples stopped without a result and excluded (numbers {numbers})")
+    truncated_text = N_("{count} of {all} samples stopped without a result and excluded (numbers {numbers} and others)")
+    listed_numbers = ", ".join(str(number) for number in numbers[:MAX_LISTED])
+    return lazy_gettext(
+        text if len(numbers) <= MAX_LISTED else truncated_text, count=len(numbers), all=completed + len(numbers), numbers=listed_numbers
+    )
 
 
 def cpu_count() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores available to this process."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:
@@ -70,7 +71,7 @@ def map_threads(
     workers: int | None = None,
     max_pending: int = MAX_PENDING,
 ) -> Generator[Result, None, None]:
-    """Yield the answers of many runs, in the order of their items.
+    """Yield the results of many runs, in the order of their items.
 
     Kernels release the GIL, so threads use all cores.
 
@@ -79,31 +80,31 @@ def map_threads(
     work : callable
         One run.
     items : iterable
-        What each run is given; taken as they are needed.
+        Argument of each run; consumed on demand.
     progress : callable
-        Told the number of runs done and the number in all, where the items are a sequence.
+        Called with the number of finished runs and the total, if the items are a sequence.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: the number of cores.
     max_pending : int
-        Items that are taken before the first of their answers is: as many are held, and at least one for each thread and one to follow.
+        Largest number of items consumed before the first unread result, at least two per thread.
     """
     count = workers or cpu_count()
     max_pending = max(max_pending, 2 * count)
     pool = ThreadPoolExecutor(count)
-    stopped = Event()
-    events = (*current_events(), stopped)
+    stop_event = Event()
+    events = (*current_events(), stop_event)
 
     def run(item: Item) -> Result:
-        """Do one run, as long as anybody waits for it."""
+        """Do one run within the cancellation scope."""
         with cancel_scope(events):
             return work(item)
 
     def run_in_context(item: Item) -> Result:
-        """Do one run in the language, and whatever else holds, where the answers are asked for: threads begin with nothing of it."""
+        """Do one run in the caller's context variables (language and others), which threads do not inherit."""
         return context.copy().run(run, item)
 
     def iter_results() -> Iterator[Result]:
-        """Yield one answer after the other, and begin a run for each that is taken."""
+        """Yield results in order; submit one run per consumed result."""
         pending: deque[Future[Result]] = deque()
         for item in items:
             pending.append(pool.submit(run_in_context, item))
@@ -119,22 +120,22 @@ def map_threads(
             if progress is not None and isinstance(items, Sequence):
                 progress(finished, len(items))
     finally:
-        # after an interruption no run begins, and those under way end at the next pause of their kernels
-        stopped.set()
+        # after an interruption no run starts, and those in progress end at the next cancellation check of their kernels
+        stop_event.set()
         pool.shutdown(cancel_futures=True)
 
 
 def map_batches(
     work: Callable[[slice], Result], runs: int, *, size: int = BATCH_SIZE, progress: Progress | None = None, workers: int | None = None
 ) -> Iterator[Result]:
-    """Yield the answers for one stretch of runs after another, in their order: for work that does several runs at once.
+    """Yield the results of consecutive batches of runs, in order, for work that does several runs at once.
 
     Parameters
     ----------
     work : callable
         Some runs, as a slice of all of them.
     runs, size : int
-        How many there are, and how many a stretch holds.
+        Number of runs, and runs per batch.
     progress, workers
         As for :func:`map_threads`.
     """

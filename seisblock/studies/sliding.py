@@ -1,4 +1,4 @@
-"""The parameter studies of [Fujino1978]_: slip against friction, friction ratio, slope and vertical motion (figs. 7, 9, 10, 15, 16)."""
+"""Parameter studies of sliding ([Fujino1978]_ figs. 7, 9, 10, 15, 16): slip against friction, friction ratio, slope and vertical motion."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ from seisblock.studies.parallel import cpu_count, map_threads
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
 
 CHUNK_SIZE = 4_000_000
-"""Samples times runs that one thread takes before it says how far it is."""
+"""Samples times runs per thread between two progress reports."""
 
 
 @dataclass(frozen=True)
 class SlidePoint:
-    """One run of a study: where it stands in the space of parameters, and how far the object slid.
+    """One run of a study: its parameters and its slip.
 
     Parameters
     ----------
     component : str
     mu, mu_kinetic, kappa, slope_deg, vertical : float, 1
     holds_at_rest : bool
-        Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
+        True if static friction holds without shaking; otherwise there is no run, and the following fields are None.
     slips : bool
     slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
         As in :class:`seisblock.models.slide.solve.SlideOutcome`.
     beta : float or None, 1
-        Largest slip over that of the horizontal motion alone; None without vertical motion, or when nothing slips without it.
+        Maximum slip over that of the horizontal motion alone; None without vertical motion, or if the latter is zero.
     """
 
     component: str
@@ -86,14 +86,13 @@ def slide_study(
     Parameters
     ----------
     mu, mu_kinetic, kappa, slope_deg, vertical : float or sequence, 1
-        As of :func:`seisblock.bodies.sliding_base.sliding_base`, and the factor on the vertical ground motion; every combination is
-        computed. A combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed with
-        nothing computed.
+        As in :func:`seisblock.bodies.sliding_base.sliding_base`, and the factor on the vertical ground motion; all combinations. A
+        combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed without a run.
     motions : Motion or several
     slope_length, one_way, gravity
-        The same in all runs.
+        Common to all runs.
     progress : callable or None
-        Told how many runs are done, of how many.
+        Called with the number of finished runs and the total.
     workers : int or None
         Threads; None: one per core.
 
@@ -130,7 +129,7 @@ def slide_study(
         for m, d, k, slope in itertools.product(_values(mu), _values(mu_kinetic), _values(kappa), _values(slope_deg))
     ]
     if not any(isinstance(base, SlidingBase) for base in bases) or (slope_length is not None and not any(_values(slope_deg))):
-        # nothing can be computed, or the slope's length means nothing: the first combination says why
+        # no run is possible, or the slope length has no effect: the first combination raises the error
         sliding_base(
             _values(mu)[0],
             mu_kinetic=_values(mu_kinetic)[0],
@@ -139,14 +138,14 @@ def slide_study(
             slope_length=slope_length,
             one_way=one_way,
         )
-    # the horizontal motion alone is what beta compares with
-    computed = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
-    rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in computed]
+    # beta is relative to the horizontal motion alone, so scale 0 is added
+    run_scales = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
+    rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in run_scales]
     computed_points = _run_all(motion_list, rows, gravity, progress, workers or cpu_count())
     points = []
     for motion, base in itertools.product(motion_list, bases):
         if isinstance(base, SlidingBase):
-            by_scale = {scale: next(computed_points) for scale in computed}
+            by_scale = {scale: next(computed_points) for scale in run_scales}
             points += [_with_beta(by_scale[scale], by_scale[0.0]) if any(scales) else by_scale[scale] for scale in scales]
         else:
             points += [SlidePoint(motion.name, **base, vertical=scale, holds_at_rest=False) for scale in scales]
@@ -154,7 +153,7 @@ def slide_study(
 
 
 def worst_directions(points: Sequence[SlidePoint]) -> list[SlidePoint]:
-    """Return, for each combination of parameters, the point of the direction with the largest slip, in the order of the study."""
+    """Return the point of the direction with the largest slip for each combination of parameters, in the order of the study."""
     worst: dict[tuple[float, ...], SlidePoint] = {}
     for point in points:
         key = (point.mu, point.mu_kinetic, point.slope_deg, point.vertical)
@@ -164,19 +163,19 @@ def worst_directions(points: Sequence[SlidePoint]) -> list[SlidePoint]:
 
 
 def _values(parameter: float | Sequence[float] | None) -> tuple[Any, ...]:
-    """Return one or several values as a tuple without repetition; None is one value."""
+    """Return one or several values as a tuple without duplicates; None is one value."""
     if parameter is None or isinstance(parameter, (int, float)):
         return (parameter,)
     values = tuple(dict.fromkeys(float(value) for value in parameter))
     if not values:
-        raise ParameterError("a parameter of a study needs at least one value")
+        raise ParameterError("a parameter of a study requires at least one value")
     return values
 
 
 def _base(
     mu: float, mu_kinetic: float | None, kappa: float | None, slope_deg: float, slope_length: float | None, one_way: bool
 ) -> SlidingBase | dict[str, Any]:
-    """Return a base, or the parameters of one that cannot be: too steep, or with more kinetic than static friction."""
+    """Return a base, or the parameters of an impossible one: too steep, or with more kinetic than static friction."""
     level = sliding_base(mu, kappa=kappa)
     kinetic = level.kinetic if mu_kinetic is None else mu_kinetic
     if kinetic > mu or not holds_at_rest(mu, slope_deg):
@@ -187,7 +186,7 @@ def _base(
 def _run_all(
     motions: Sequence[Motion], rows: Sequence[tuple[SlidingBase, float]], gravity: float, progress: Progress | None, workers: int
 ) -> Iterator[SlidePoint]:
-    """Compute all rows for all motions on several threads; yield the points motion by motion, row by row."""
+    """Yield the points of all rows for all motions, motion by motion, row by row; computed in threads."""
     jobs = []
     for motion in motions:
         share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(rows) / workers)))
@@ -202,13 +201,13 @@ def _run_all(
 
 
 def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: float) -> list[SlidePoint]:
-    """Compute some rows for one motion."""
+    """Return the points of some rows for one motion."""
     p = [parameters(base, gravity) for base, _ in rows]
     gains = [motion_gains(motion, scale, gravity) for _, scale in rows]
     runs = integrate_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     for row in np.flatnonzero(runs.final_mode == UNDEFINED)[:1]:
         raise_lift_off(motion, float(runs.end_time[row]))
-    entered = runs.transition_counts.sum(axis=1) - runs.transition_counts[:, FOOT]
+    mode_entries = runs.transition_counts.sum(axis=1) - runs.transition_counts[:, FOOT]
     numbers = zip(
         rows,
         p,
@@ -216,13 +215,14 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
         runs.final_mode.tolist(),
         runs.extrema[:, 0].tolist(),
         runs.first_event_time.tolist(),
-        entered[:, SLIDING_MODES].sum(axis=1).tolist(),
+        mode_entries[:, SLIDING_MODES].sum(axis=1).tolist(),
         (runs.transition_counts[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
         (runs.transition_counts[:, :, [FLIGHT, LEVEL + FLIGHT]].sum(axis=(1, 2)) > 0).tolist(),
         strict=True,
     )
     points = []
     for (base, scale), row, final, mode, (highest, highest_time, lowest, lowest_time), first, slips, fell, flew in numbers:
+        # extrema of both signs; the larger one is the maximum slip
         slip, peak_time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
         rest = slip_at_rest(final, mode, row)
         slipped = first == first  # not NaN
@@ -251,7 +251,7 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
 
 
 def _with_beta(point: SlidePoint, horizontal_point: SlidePoint) -> SlidePoint:
-    """Add the ratio of the largest slip to that of the horizontal motion alone."""
+    """Return a point with the ratio of its maximum slip to that of the horizontal motion alone."""
     if not horizontal_point.max_slip_m or point.max_slip_m is None:
         return point
     return replace(point, beta=point.max_slip_m / horizontal_point.max_slip_m)

@@ -1,4 +1,4 @@
-"""Parameter studies of harmonic uplift: one region per combination of block and direction, as in the paper's figures."""
+"""Parameter studies of harmonic uplift: one region per combination of block and direction ([Okumura1987]_ figs. 3 to 11)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PAPER_RATIOS: dict[str, tuple[float, ...]] = {
     "phi": (0.0,),
     "rho": (90.0,),
 }
-"""The block and the direction that figs. 6 to 11 of [Okumura1987]_ vary from: square, shaken along x."""
+"""Reference block and direction of figs. 6 to 11 of [Okumura1987]_: square, shaken along x."""
 
 DEFAULT_RATIOS = tuple(i / 100.0 for i in range(1, 601))
 """theta/omega_1 of a curve, on the paper's grid of 0.01."""
@@ -44,12 +44,12 @@ PAPER_FIGURES: dict[int, dict[str, tuple[float, ...]]] = {
     10: {"rho": (0.0, 30.0, 60.0, 75.0, 90.0)},
     11: {"phi": (45.0,), "rho": (0.0, 30.0, 60.0, 75.0, 90.0)},
 }
-"""What each figure of [Okumura1987]_ varies; figs. 3, 4, 9 to 11 do not print their values, which are chosen here."""
+"""Varied parameters of each figure of [Okumura1987]_; values of figs. 3, 4, 9 to 11 are not printed, and chosen here."""
 
 
 @dataclass(frozen=True, eq=False)
 class UpliftRegion:
-    """How hard harmonic shaking must be to lift one block.
+    """Uplift region of one block: acceleration of harmonic shaking at uplift against frequency.
 
     Parameters
     ----------
@@ -57,14 +57,14 @@ class UpliftRegion:
     phi_deg, rho_deg : float, degrees
         Direction of the shaking: azimuth from x towards y, angle from the vertical.
     corner : int or None
-        The corner looked at; None is whichever of the four lifts first.
+        The corner considered; None for the first of the four to lift.
     modes : Modes
     frequency_ratio, acceleration_ratio : (n,) arrays
-        theta/omega_1, and the least A/g that lifts.
+        theta/omega_1, and the smallest A/g with uplift.
     minimum : UpliftMinimum
-        The least A/g of all.
+        Global minimum of A/g.
     minima : tuple of UpliftMinimum
-        Every local minimum.
+        All local minima.
     """
 
     body: SpringBlock
@@ -79,7 +79,7 @@ class UpliftRegion:
 
     @property
     def ratios(self) -> dict[str, float]:
-        """The paper's parameters of this region, by name."""
+        """Parameters of the paper of this region, by name."""
         body = self.body
         return {
             "alpha": body.alpha,
@@ -100,18 +100,18 @@ def uplift_region(
     corner: int | None = None,
     between: tuple[float, float] | None = None,
 ) -> UpliftRegion:
-    """Return the uplift region of one block and direction, [Okumura1987]_ section 5.
+    """Return the uplift region of one block and direction ([Okumura1987]_ section 5).
 
     Parameters
     ----------
     body : SpringBlock
     frequency_ratio : (n,) array
-        theta/omega_1 at which the curve is evaluated.
+        theta/omega_1 of the curve.
     phi_deg, rho_deg : float, degrees
     corner : int or None
-        One corner alone (the paper's figures: 4), or whichever lifts first.
+        One corner alone (4 in the paper's figures), or the first to lift.
     between : (low, high) or None
-        Range of theta/omega_1 in which minima are sought.
+        Range of theta/omega_1 of the minima.
 
     Returns
     -------
@@ -146,16 +146,16 @@ def uplift_regions(
     Parameters
     ----------
     blocks : iterable of (SpringBlock, phi, rho)
-        As :func:`harmonic_blocks` yields them, degrees.
+        As from :func:`harmonic_blocks`, degrees.
     frequency_ratio, corner, between
-        The same for all.
+        Common to all.
     progress : callable
-        Told the number of regions done and the number in all.
+        Called with the number of finished regions and the total.
 
     Raises
     ------
     ParameterError
-        If their curves have more points than may be computed at once.
+        If the curves have more points than the limit.
 
     Examples
     --------
@@ -164,7 +164,7 @@ def uplift_regions(
     [0.087, 0.047]
     """
     block_list, ratio = list(blocks), np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
-    check_limit(N_("points of curves"), len(block_list) * ratio.size, "SEISBLOCK_CELLS")
+    check_limit(N_("curve points"), len(block_list) * ratio.size, "SEISBLOCK_CELLS")
     regions = []
     for body, phi, rho in block_list:
         regions.append(uplift_region(body, ratio, phi_deg=phi, rho_deg=rho, corner=corner, between=between))
@@ -181,16 +181,16 @@ def harmonic_blocks(
     frequency_vertical: float = 1.0,
     mass: float = REFERENCE_MASS,
 ) -> Iterator[tuple[SpringBlock, float, float]]:
-    """Yield each combination of block, phi and rho, degrees, that lists of the paper's parameters make.
+    """Yield each combination of block, phi and rho, degrees, of lists of the paper's parameters.
 
     Parameters
     ----------
     ratios : mapping
-        Values of ``alpha``, ``gamma``, ``beta``, ``damping``, ``phi`` and ``rho``; what is missing or None is as in the paper.
+        Values of ``alpha``, ``gamma``, ``beta``, ``damping``, ``phi`` and ``rho``; missing or None: as in the paper.
     sizes : mapping
         Arguments of :func:`seisblock.bodies.spring_factory.spring_block`, instead of alpha and gamma.
     figure : int or None
-        Take the missing from this figure of [Okumura1987]_.
+        Figure of [Okumura1987]_ for the missing parameters.
     frequency_vertical, mass : float, Hz, kg
         Of blocks given by ratios.
 
@@ -199,13 +199,13 @@ def harmonic_blocks(
     BodyError
         If sizes come together with alpha or gamma, or a block is not possible.
     ParameterError
-        If there are more combinations than may be computed at once.
+        If there are more combinations than the limit.
     """
     overrides = {name: values for name, values in ratios.items() if values is not None}
     grid = {**PAPER_RATIOS, **(PAPER_FIGURES[figure] if figure is not None else {}), **overrides}
     if sizes:
         if "alpha" in overrides or "gamma" in overrides:
-            raise BodyError("alpha and gamma are ratios of the sizes: give sizes or ratios, not both")
+            raise BodyError("`alpha` and `gamma` are ratios of the sizes; give sizes or ratios, not both")
         grid["alpha"] = grid["gamma"] = (float("nan"),)
     check_limit(N_("combinations"), math.prod(len(values) for values in grid.values()), "SEISBLOCK_CELLS")
     for values in itertools.product(*grid.values()):
@@ -219,12 +219,12 @@ def harmonic_blocks(
 
 
 def modal_frequencies_against(name: str, values: ArrayLike, *, alpha: float, beta: float, gamma: float = 1.0) -> dict[str, FloatArray]:
-    """Return omega_i / omega_V of each mode against `alpha` or `beta`, as [Okumura1987]_ figs. 3 and 4 show them.
+    """Return omega_i / omega_V of each mode against `alpha` or `beta` ([Okumura1987]_ figs. 3, 4).
 
     Parameters
     ----------
     name : "alpha" or "beta"
-        What varies over `values`, (n,).
+        Parameter that varies over `values`, (n,).
     alpha, beta, gamma : float
         The others.
 

@@ -48,7 +48,7 @@ def test_the_median_comes_first(folder):
     answer = run(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
     assert answer.exit_code == 0, answer.stderr
     first = answer.stdout.splitlines()[0]
-    assert first.startswith("block 0.3 x 1.2 m, overturns: median PGV ") and "kine, beta 0." in first
+    assert first.startswith("block 0.3 x 1.2 m, overturning: median PGV ") and "kine, beta 0." in first
     assert "12 records, 12 motions" in answer.stdout
     assert "times the median compared with, 40.0 kine" in answer.stdout
     told = document(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
@@ -82,14 +82,14 @@ def test_files_are_written(folder, tmp_path):
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (("FOLDER/S00.csv", *SHELF), "one record says nothing of how records differ"),
+        (("FOLDER/S00.csv", *SHELF), "a fragility requires several records"),
         (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
         (("FOLDER", *SHELF, "--bodies", "gravestone"), "not both"),
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
-        (("FOLDER", *SHELF, "--levels", "1,2"), "at no level, up to 2 kine: ask for higher levels"),
-        (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine on: ask for lower levels"),
+        (("FOLDER", *SHELF, "--levels", "1,2"), "not exceeded at any level up to 2 kine; use higher levels"),
+        (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine; use lower levels"),
         (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "leave --levels out"),
-        (("FOLDER", *SHELF, "--limit", "slip=5cm"), "knows no answer to the limit 'slip=0.05m'"),
+        (("FOLDER", *SHELF, "--limit", "slip=5cm"), "does not compute the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are one file"),
         (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "how rough is it under the body?"),
@@ -106,7 +106,7 @@ def test_a_file_that_cannot_be_read_is_left_out_and_told(folder, tmp_path):
     """The others answer; with --strict it is refused."""
     (tmp_path / "list.txt").write_text("\n".join([*(str(path) for path in sorted(folder.glob("S0*.csv"))), "gone.csv"]))
     answer = run(f"@{tmp_path / 'list.txt'}", *SHELF, "--levels", "10:150:20")
-    assert answer.exit_code == 0 and "left out: " in answer.stderr and "gone.csv" in answer.stderr
+    assert answer.exit_code == 0 and "excluded: " in answer.stderr and "gone.csv" in answer.stderr
     assert run(f"@{tmp_path / 'list.txt'}", *SHELF, "--strict").exit_code == 3
 
 

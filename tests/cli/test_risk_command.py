@@ -70,7 +70,7 @@ def test_files(run, tmp_path):
         ((*LINE, "--years", "0"), "must be positive"),
         ((*LINE, "--stood", "-5"), "must be positive"),
         ((*LINE, "--im", "pga"), "synthetic_hazard.csv: its levels are of pgv, and pga is asked for: give a hazard in pga, or"),
-        ((*LINE, "--im", "sa"), "needs its period"),
+        ((*LINE, "--im", "sa"), "requires a period"),
         (("--median", "0.6", "--beta", "0", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
         ((*LINE[:4], "--hazard", "."), "cannot read"),
         ((*LINE, "--csv", "synthetic_hazard.csv", "--plot", "synthetic_hazard.csv"), "synthetic_hazard.csv"),

@@ -133,7 +133,7 @@ def test_margin_and_perturbation(run, pulse):
     assert low <= found["perturbation"]["probability"] <= high
     assert found["perturbation"]["runs"] == 50
     assert found["margin"]["first_fall"] == found["margin"]["flips"][0]
-    assert found["perturbation"]["interval_of"] == "this model's own scatter"
+    assert found["perturbation"]["interval_of"] == "parameter variation only"
 
 
 def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
@@ -141,7 +141,7 @@ def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
     shown = " ".join(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin").stdout.split())
     assert "falls from 1.13 times this record on (first found, looked at every 0.002 up to 3)" in shown
     assert shown.index("falls from 1.13") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
-    assert "is the 95 % interval of this model's own scatter, no more" in shown
+    assert "is the 95 % interval of parameter variation only, no more" in shown
     assert "varied: size ±5 %" in shown
 
 
@@ -173,9 +173,9 @@ def test_models_that_disagree_are_named(run):
     """One sentence: in how many models it falls, which, and by what factor they are apart (N15)."""
     answer = run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm")
     shown = " ".join(answer.stdout.split())
-    assert "NS: falls in 2 of 5 models: criterion of gravestones (0.90), Ishiyama's limits of acceleration and velocity with " in shown
+    assert "NS: falls in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in shown
     assert "velocity with sharp edges (0.95); stands in the others:" in shown
-    assert "the largest is 2.0 times the smallest. The criterion of gravestones, made for this, says that it falls." in shown
+    assert "the largest is 2.0 times the smallest. The gravestone criterion, made for this, says that it falls." in shown
     (found,) = json.loads(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--json").stdout)["results"]
     assert (found["agreement"]["falls"], found["agreement"]["models"]) == (2, 5)
     assert found["agreement"]["spread"] == pytest.approx(1.98, abs=0.01)
@@ -224,7 +224,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "above the height"),
         (["--width", "0.2", "--height", "1", "--azimuth", "north"], "degrees"),
         (["--width", "0.2", "--height", "1", "--margin", "--margin-limit", "-1"], "limit"),
-        (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "share"),
+        (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "relative spread of the size must lie in [0, 1)"),
     ],
 )
 def test_bad_input_is_one_sentence(run, pulse, words, says):
@@ -262,7 +262,7 @@ def test_fragile_verdict_is_said_everywhere(run):
     factor = found["results"][0]["flips_at_factor"]
     would = "stand" if found["results"][0]["overturned"] else "fall"
     assert f"it would {would} at {factor:.3f} times this record" in " ".join(shown.stdout.split())
-    assert f"2 %, to {factor:.3f} times itself" in shown.stderr
+    assert f"2 % of the record, at {factor:.3f} times its amplitude" in shown.stderr
 
 
 def test_animation_of_the_first_component(run, pulse, tmp_path):

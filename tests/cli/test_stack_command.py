@@ -82,7 +82,7 @@ def test_the_models_of_the_top_stone_are_told(pulse):
     dowelled = answer(pulse, "--reinforced")["results"][0]["agreement"]
     factors = {opinion["model"]: opinion["factor"] for opinion in dowelled["opinions"]}
     plain = {opinion["model"]: opinion["factor"] for opinion in found["agreement"]["opinions"]}
-    assert factors["criterion of gravestones"] > 1.3 * plain["criterion of gravestones"]
+    assert factors["gravestone criterion"] > 1.3 * plain["gravestone criterion"]
 
 
 def test_each_component_asked_for_is_a_run():

@@ -81,7 +81,7 @@ def test_a_weight_is_so_many_outcomes(experiment):
 
 def test_all_fell_or_none():
     """One side is bounded, and what was thought before decides the other: it is said."""
-    for happened, strength, said in ((False, 1.0, "never fell"), (True, 40.0, "always fell")):
+    for happened, strength, said in ((False, 1.0, "no fall among"), (True, 40.0, "only falls among")):
         seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
         found = fit_block(seen, free=["alpha"], **KNOWN)
         assert any(said in text for text in found.warnings)
@@ -94,7 +94,7 @@ def test_one_record_alone():
     seen = [Observation(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
     found = fit_block(seen, free=["alpha"], **KNOWN)
     assert found.held_out is None and found.probability_held_out is None
-    assert any("all outcomes are of one record" in text for text in found.warnings)
+    assert any("outcomes of a single record" in text for text in found.warnings)
     assert found.probability[0] < 0.5 < found.probability[-1]
 
 
@@ -105,8 +105,8 @@ def test_what_moved_tells_how_slender_it_is():
     found = fit_block(seen, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
     assert found["alpha"].median == pytest.approx(0.25, rel=0.05)
     assert found["p"].narrowed > 0.8 and not found["p"].identified
-    assert any("hardly told" in text and "p" in text for text in found.warnings)
-    assert any("rocked tells how slender" in text for text in found.warnings)
+    assert any("hardly constrained" in text and "p" in text for text in found.warnings)
+    assert any("determine the slenderness only" in text for text in found.warnings)
 
 
 @pytest.mark.slow
@@ -115,7 +115,7 @@ def test_what_cannot_be_told_apart_is_said():
     found = fit_block(shaken(30, 2), free=["alpha", "inset"], **KNOWN)
     pair = next(each for each in found.correlations if {each.first, each.second} == {"alpha", "inset"})
     assert pair.coefficient > 0.9
-    assert any("cannot be told apart" in text for text in found.warnings)
+    assert any("cannot be separated" in text for text in found.warnings)
 
 
 @pytest.mark.slow
@@ -129,26 +129,26 @@ def test_outcomes_by_chance_are_recognised():
 
 
 WRONG = {
-    "no outcome": ({"outcomes": []}, "no outcome to learn from"),
-    "no weight": ({"outcomes": [Observation(pulse(1.0, 1.0), True, weight=0.0)]}, "none has a weight"),
-    "a parameter": ({"free": ["mu"]}, "'mu' cannot be looked for; what can are alpha, p, restitution, inset"),
-    "a parameter twice": ({"free": ["p", "p"]}, "named twice"),
-    "nothing": ({"free": [], "scatter": 0.05, "block": TRUTH}, "nothing to look for"),
-    "neither free nor given": ({"free": ["alpha"]}, "p must be looked for"),
-    "both": ({"free": ["restitution"], "restitution": 0.9, "block": TRUTH}, "given at once"),
-    "bounds": ({"bounds": {"alpha": (0.5, 0.1)}}, "bounds of alpha must rise"),
-    "bounds of nothing": ({"free": ["alpha"], "block": TRUTH, "bounds": {"p": (1.0, 2.0)}}, "not looked for"),
+    "no outcome": ({"outcomes": []}, "requires an outcome with a positive weight"),
+    "no weight": ({"outcomes": [Observation(pulse(1.0, 1.0), True, weight=0.0)]}, "none with a weight"),
+    "a parameter": ({"free": ["mu"]}, "'mu' cannot be fitted; available: alpha, p, restitution, inset"),
+    "a parameter twice": ({"free": ["p", "p"]}, "duplicate parameter"),
+    "nothing": ({"free": [], "scatter": 0.05, "block": TRUTH}, "no free parameter"),
+    "neither free nor given": ({"free": ["alpha"]}, "p must be free or known"),
+    "both": ({"free": ["restitution"], "restitution": 0.9, "block": TRUTH}, "both in `free` and given"),
+    "bounds": ({"bounds": {"alpha": (0.5, 0.1)}}, "bounds of alpha must be increasing"),
+    "bounds of nothing": ({"free": ["alpha"], "block": TRUTH, "bounds": {"p": (1.0, 2.0)}}, "not free; free: alpha"),
     "bounds beyond": ({"bounds": {"alpha": (0.1, 2.0)}}, "below 1.571"),
-    "folds": ({"folds": 41}, "41 folds need as many records, and there are 40"),
+    "folds": ({"folds": 41}, "41 folds require at least as many records, found 40"),
     "a fold": ({"folds": 1}, "2 or more"),
     "runs": ({"runs": 12}, "one of 1, 2, 4, 8, 16, 32, 64; found 12"),
     "a level": ({"level": 90.0}, r"must lie in \[0.001, 1\)"),
     "a level of nothing": ({"level": 1e-300}, r"must lie in \[0.001, 1\)"),
     "a scatter": ({"scatter": 1.5}, "scatter"),
-    "lapses": ({"lapse": -0.1}, "lapses"),
+    "lapses": ({"lapse": -0.1}, "lapse rate"),
     "a restitution": ({"restitution": 1.2}, "restitution"),
     "a kind": ({"kind": "slid"}, "'slid'"),
-    "an inset of a length": ({"inset": __import__("seisblock").EdgeWear(length_m=0.01)}, "needs a `block`"),
+    "an inset of a length": ({"inset": __import__("seisblock").EdgeWear(length_m=0.01)}, "requires a `block`"),
 }
 
 

@@ -87,13 +87,13 @@ def test_rows_without_a_record_are_left_out_and_told(folder):
     table(folder, "record,fell", *lines, "gone.csv,1", "synthetic_jma.csv,0")
     answer = run(f"fit seen.csv {QUICK}")
     told = " ".join(answer.stderr.split())
-    assert answer.exit_code == 0 and "2 of 8 rows are left out" in told
+    assert answer.exit_code == 0 and "2 of 8 rows excluded" in told
     assert "line 8: gone.csv: no such file" in told and "line 9: synthetic_jma.csv has the horizontal components NS, EW" in told
     strict = run(f"fit seen.csv {QUICK} --strict")
     assert strict.exit_code == 3 and "seen.csv, line 8" in strict.stderr
-    assert run(f"fit seen.csv {QUICK} --component EW").stderr.count("left out") == 1
+    assert run(f"fit seen.csv {QUICK} --component EW").stderr.count("excluded") == 1
     table(folder, "record,fell", "gone.csv,1")
-    with pytest.raises(ParameterError, match=r"no record of it can be read; line 2: gone\.csv"):
+    with pytest.raises(ParameterError, match=r"none of its records can be read; line 2: gone\.csv"):
         read_outcomes("seen.csv")
 
 
@@ -101,7 +101,7 @@ def test_the_one_that_is_asked_for_counts(folder):
     """Both columns: fell, and it is said; or the other."""
     table(folder, "record,fell,moved", *(f"p{k}.csv,0,1" for k in range(3)))
     found = read_outcomes("seen.csv")
-    assert found.kind == "fell" and any("column fell counts" in note for note in found.notes)
+    assert found.kind == "fell" and any("column fell used" in note for note in found.notes)
     assert [each.happened for each in read_outcomes("seen.csv", kind="moved")] == [True] * 3
 
 
@@ -113,9 +113,9 @@ WRONG = {
     "a weight": (["record,fell,weight", "p0.csv,1,nan"], "line 2: weight must be zero or more, found nan"),
     "a weight in words": (["record,fell,weight", "p0.csv,1,two"], "weight must be a number, found 'two'"),
     "a scale": (["record,fell,scale", "p0.csv,1,inf"], "line 2: scale must be a finite number, found inf"),
-    "no record": (["record,fell", ",1"], "an outcome without a record"),
-    "nothing known": (["record,fell", "p0.csv,"], "no outcome is known"),
-    "no row": (["record,fell"], "there is no outcome in it"),
+    "no record": (["record,fell", ",1"], "outcome without a record"),
+    "nothing known": (["record,fell", "p0.csv,"], "no outcome found; every cell"),
+    "no row": (["record,fell"], "no outcome found; expected a header line"),
     "too many cells": (["record,fell", "p0.csv,1,2"], "expected 2 cells"),
 }
 
@@ -133,13 +133,13 @@ def test_a_table_that_is_wrong_is_refused(what, folder):
 @pytest.mark.parametrize(
     ("options", "code", "said"),
     [
-        ("--free mu", 3, "'mu' cannot be looked for"),
-        ("--free alpha", 3, "p must be looked for (--free) or given: give the --width and --height"),
-        ("--folds 7", 3, "7 folds need as many records, and there are 6"),
+        ("--free mu", 3, "'mu' cannot be fitted"),
+        ("--free alpha", 3, "p must be free or known; add to --free, or give the --width and --height"),
+        ("--folds 7", 3, "7 folds require at least as many records, found 6; reduce --folds"),
         ("--folds 1", 2, "1 is not in the range x>=2"),
         ("--runs 3", 3, "one of 1, 2, 4, 8"),
         ("--bounds alpha", 2, "is not NAME=LOW:HIGH"),
-        ("--bounds p=9:2", 3, "bounds of p must rise"),
+        ("--bounds p=9:2", 3, "bounds of p must be increasing"),
         ("--width 20cm", 3, "--height missing"),
         ("--component EW --component NS", 3, "one component is shaken"),
         ("--window 0:1 --window 1:2", 3, "one --window"),
@@ -155,7 +155,7 @@ def test_options_that_make_no_sense_are_refused(options, code, said, folder):
 
 def test_a_table_that_is_not_there_is_refused(folder):
     """Nor a directory, nor the name of another sample."""
-    for name, said in (("gone.csv", "bundled are shaken_block.csv"), (".", "is a directory"), ("aoyama.csv", "no file of outcomes")):
+    for name, said in (("gone.csv", "bundled: shaken_block.csv"), (".", "is a folder"), ("aoyama.csv", "no file of outcomes")):
         assert said in run(f"fit {name}").stderr
     with pytest.raises(RecordNotFoundError):
         sample_path("gone.csv")

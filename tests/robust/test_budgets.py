@@ -53,7 +53,7 @@ ASKED = {
         3,
         "1623602 combinations",
     ),
-    "points of regions": (["uplift", "--harmonic", "--phi", "0:90:0.1", "--alpha", "1,2"], 3, "1081200 points of curves, and 1000000"),
+    "points of regions": (["uplift", "--harmonic", "--phi", "0:90:0.1", "--alpha", "1,2"], 3, "1081200 curve points, and 1000000"),
     "shakings": (["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"], 3, "8100000 shakings"),
     "points of a joint": (["stack", "--contact", "grid=1000000000"], 2, "1000000000 points along each side of a joint, and 25 are allowed"),
     "steps of a pile": (["stack", "--step", "1e-12"], 3, "will not do for the rigid stones"),

@@ -132,11 +132,11 @@ class TestFits:
     @pytest.mark.parametrize(
         ("happened", "says"),
         [
-            ([0, 0, 0, 0], "at no level, up to 8: ask for higher"),
-            ([10, 10, 10, 10], "at all levels, from 1 on: ask for lower"),
-            ([0, 0, 10, 10], "never happens up to 2 and always from 4 on: ask for levels between"),
-            ([0, 4, 10, 10], "never happens below 2 and always above"),
-            ([6, 5, 4, 3], "does not happen more often at higher levels"),
+            ([0, 0, 0, 0], "not exceeded at any level up to 8; use higher"),
+            ([10, 10, 10, 10], "at all levels from 1; use lower"),
+            ([0, 0, 10, 10], "never exceeded up to 2, always from 4; use levels between"),
+            ([0, 4, 10, 10], "never exceeded below 2, always above"),
+            ([6, 5, 4, 3], "do not increase with the level"),
         ],
     )
     def test_nothing_is_drawn_through_nothing(self, happened, says):
@@ -147,7 +147,7 @@ class TestFits:
     @pytest.mark.parametrize(
         ("levels", "happened", "runs", "says"),
         [
-            ([1.0], [1], 2, "two levels or more"),
+            ([1.0], [1], 2, "at least two levels"),
             ([1.0, -2.0], [1, 1], 2, "must be positive"),
             ([1.0, 2.0], [1, 3], 2, "between 0 and the number of runs"),
             ([1.0, 2.0], [1], 2, "as many counts"),
@@ -185,7 +185,7 @@ class TestIntensity:
         shares = [IM["p*pgv"].share(Block(0.3 * k, 1.2 * k), STANDARD_GRAVITY) for k in (1.0, 2.0)]
         assert shares[0] == pytest.approx(SHELF.frequency_parameter() / STANDARD_GRAVITY)
         assert shares[0] / shares[1] == pytest.approx(np.sqrt(2.0))
-        with pytest.raises(ParameterError, match="take pgv"):
+        with pytest.raises(ParameterError, match="use pgv"):
             IM["p*pgv"].share(0.3, STANDARD_GRAVITY)
 
     @pytest.mark.parametrize("text", ["pgx", "sa", "sa=x", "sa=-1", "pga=2"])
@@ -207,7 +207,7 @@ class TestRuns:
     def test_no_curve_lies_beyond_any_shaking(self, records):
         """Records of a ten-thousandth of their strength, scaled back, are no records: what a body does under them is no fragility."""
         faint = [process.scale(record, 1e-4) for record in records]
-        with pytest.raises(ParameterError, match="half of the runs do it only where the records are scaled by"):
+        with pytest.raises(ParameterError, match="the median requires half of the records to be scaled by"):
             run_fragility(faint, SHELF, "rock", levels=np.linspace(1.0, 16.0, 12), bootstrap=2)
 
     def test_many_factors_are_single_runs(self, records):
@@ -288,7 +288,7 @@ class TestRuns:
         assert curve.beta == pytest.approx(exact.std(ddof=1), abs=half_a_step)
         assert curve.non_monotone_records == 0
         # over PGA there is nothing but a step, and no curve
-        with pytest.raises(ParameterError, match=r"never happens up to 2[34].* gal and always from 2[45]"):
+        with pytest.raises(ParameterError, match=r"never exceeded up to 2[34].* gal, always from 2[45]"):
             run_fragility(records, SHELF, "rock", limits="rock", im="pga", levels=[2.3, 2.4, 2.5, 2.6], bootstrap=2)
 
     def test_three_methods_agree_on_what_is_monotone(self, records):
@@ -353,15 +353,15 @@ class TestRuns:
     @pytest.mark.parametrize(
         ("change", "says"),
         [
-            ({"records": 1}, "one record says nothing"),
-            ({"levels": [0.001, 0.002]}, "at no level, up to 0.2 kine: ask for higher"),
-            ({"levels": [90.0, 100.0]}, "from 9000 kine on: ask for lower"),
-            ({"method": "ida", "levels": [1.0]}, "two levels or more"),
-            ({"method": "cloud", "levels": [1.0, 2.0]}, "takes the records as they are"),
-            ({"method": "mean"}, "no method 'mean'"),
-            ({"solver": "jump"}, "no solver 'jump'"),
-            ({"solver": "slide", "limits": "slip=1cm", "perturb": 3}, "no versions"),
-            ({"limits": ()}, "no limit is given"),
+            ({"records": 1}, "requires several records"),
+            ({"levels": [0.001, 0.002]}, "not exceeded at any level up to 0.2 kine; use higher"),
+            ({"levels": [90.0, 100.0]}, "from 9000 kine; use lower"),
+            ({"method": "ida", "levels": [1.0]}, "at least two levels"),
+            ({"method": "cloud", "levels": [1.0, 2.0]}, "uses unscaled records"),
+            ({"method": "mean"}, "unknown method 'mean'"),
+            ({"solver": "jump"}, "unknown solver 'jump'"),
+            ({"solver": "slide", "limits": "slip=1cm", "perturb": 3}, "has no effect with slide"),
+            ({"limits": ()}, "no limit given"),
             ({"im": ()}, "no intensity measure"),
             ({"confidence": 1.5}, r"must lie in \(0, 1\)"),
         ],
@@ -377,7 +377,7 @@ class TestRuns:
     def test_a_record_without_shaking_is_named(self, records):
         """No factor brings stillness to a level."""
         still = Record(station="Q", start=None, dt=0.02, components=(Component("EW", np.zeros(100), 90.0),), source="still.csv")
-        with pytest.raises(ParameterError, match=r"still.csv, EW: there is no shaking"):
+        with pytest.raises(ParameterError, match=r"still.csv, EW: the motion is zero"):
             run_fragility([*records, still], SHELF, "rock")
 
 
@@ -475,7 +475,7 @@ def test_every_direction_counts_where_they_are_asked_for():
         study = run_fragility(few, body, "rock", im="pga", levels=[4.0, 8.0, 12.0, 18.0], components="all-azimuths", bootstrap=20)
         (curve,) = study.curves
         assert (curve.records, curve.motions) == (3, 3)
-        assert any("in any direction" in note for note in study.notes)
+        assert any("all azimuths in steps of 5 degrees" in note for note in study.notes)
         for level in curve.levels:
             falls = 0
             for record in few:
@@ -504,7 +504,7 @@ def test_on_a_storey_the_intensity_is_that_of_the_ground():
                     Block(0.3, 1.2), motion_of(floor_motion(process.scale(record, factor), storey), component.code)
                 ).overturned
         assert count.exceeding == fell
-    assert any("those of the ground" in note for note in on_it.notes)
+    assert any("intensities of the ground motion" in note for note in on_it.notes)
     assert pelicun_rows(on_it)[1][0][2] == "Peak Ground Velocity"
 
 
@@ -533,7 +533,7 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
     motions = curve.motions
     assert [level.runs for level in curve.levels] == [motions, motions - 1, motions, motions]
     assert curve.median == pytest.approx(whole.curves[0].median, rel=0.1)
-    assert any("1 of" in note and "given up" in note and calls[0].name in note for note in partial.notes)
+    assert any("1 of" in note and "stopped without a result" in note and calls[0].name in note for note in partial.notes)
 
 
 def test_capacities_leave_out_levels_without_an_answer():

@@ -133,7 +133,7 @@ def test_an_impossible_survey_is_named():
     """N10: squat stones fell and slender ones stand; a survey that follows the criterion, with its scatter, is not named."""
     upside_down = marked_survey(marked(AOYAMA.ratios < np.median(AOYAMA.ratios)))
     assert check_consistency(upside_down).is_inconsistent
-    assert "no shaking of the ground explains" in consistency_warning("Aoyama", upside_down)
+    assert "survey inconsistent with the criterion" in consistency_warning("Aoyama", upside_down)
     rng = np.random.default_rng(2)
     limits = np.log(fitted_limits(AOYAMA, 1.5))
     for _ in range(20):

@@ -30,5 +30,5 @@ def test_the_exact_interval_is_of_the_binomial_tails():
 @pytest.mark.parametrize(("count", "runs", "level"), [(3, 2, 0.9), (-1, 2, 0.9), (0, 0, 0.9), (1, 2, 1.0)])
 def test_impossible_counts_are_refused(count, runs, level, interval):
     """Counts that make no share, and a level outside (0, 1), are one sentence."""
-    with pytest.raises(ParameterError, match=r"a share needs|the confidence must"):
+    with pytest.raises(ParameterError, match=r"an interval requires|the confidence must"):
         interval(count, runs, level)

@@ -97,7 +97,7 @@ def test_a_margin_knows_the_flips_near_the_record():
 @pytest.mark.parametrize(("limit", "step"), [(0.0, 0.1), (-1.0, 0.1), (1.0, 2.0), (math.inf, 0.1), (math.nan, 0.1)])
 def test_impossible_scans_are_refused(limit, step):
     """The scan needs 0 < step <= limit."""
-    with pytest.raises(ParameterError, match="0 < step <= limit"):
+    with pytest.raises(ParameterError, match="0 < `step` <= `limit`"):
         find_margin(BLOCK, one_sine(1.0), limit=limit, step=step)
 
 
@@ -130,7 +130,7 @@ def test_changes_are_uniform_within_their_half_width(above, share):
 
 def test_what_the_interval_is_of():
     """The share is one among versions of the model, and says so; it is not the chance of the stone (N12)."""
-    assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "this model's own scatter"
+    assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "parameter variation only"
 
 
 def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():

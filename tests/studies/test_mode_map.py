@@ -89,7 +89,7 @@ def test_rows_may_be_sizes_of_one_shape_and_progress_is_told():
         ([0.1, -0.2], 1.0, 0.3, "friction"),
         ([0.1], [1.0, -1.0], 0.3, "size 2R must be positive"),
         ([0.1], 1.0, [0.3, 2.0], "slenderness alpha"),
-        ([0.1], [1.0, 2.0], [0.2, 0.3, 0.4], "not of both"),
+        ([0.1], [1.0, 2.0], [0.2, 0.3, 0.4], "must have the same length"),
         ([], 1.0, 0.3, "at least one cell"),
     ],
 )

@@ -67,7 +67,7 @@ def test_simulated_curves_and_the_formula_are_close_at_low_frequency():
 
 def test_what_cannot_be_simulated_is_refused():
     """A dowel, an inset that leaves no base and a sine without a frequency are one sentence."""
-    with pytest.raises(ParameterError, match="knows no dowel"):
+    with pytest.raises(ParameterError, match="does not model dowels"):
         simulated_overturns(AOYAMA.with_dowels(), sine_motion(1.0, 1.0))
     with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side leaves nothing"):
         sao(2.0, inset=EdgeWear(share=0.5))

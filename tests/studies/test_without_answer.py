@@ -57,7 +57,7 @@ def test_run_batch_names_versions_without_an_answer(lossy):
     lossy(probability, [0])
     table = run_batch("synthetic_jma.csv", BLOCK, "respond", components="EW", runs=10, mu=0.5)
     assert table["runs"] == [9]
-    assert "1 of 10 versions were given up and are left out: numbers 1" in table["warnings"][0]
+    assert "1 of 10 samples stopped without a result and excluded (numbers 1)" in table["warnings"][0]
     assert "left_out" not in table.columns
 
 
@@ -70,7 +70,7 @@ def test_survey_stations_leaves_out_a_direction_without_an_answer(lossy):
     answer = survey_stations(record, subject).answers[0]
     assert answer.failure is None
     assert answer.effect.azimuth_deg != worst
-    assert any(text.startswith("1 of ") and text.endswith(f"given up: {worst:g} deg") for text in answer.doubts)
+    assert any(text.startswith("no result in 1 of ") and text.endswith(f"(run stopped): {worst:g} deg") for text in answer.doubts)
 
 
 def test_mode_map_marks_a_cell_without_an_answer(lossy):

@@ -67,7 +67,7 @@ def model_label(opinion: ModelResult | ModelRate) -> str:
 
     Examples
     --------
-    >>> model_label(ModelResult("half sine of that frequency", True, 0.9, frequency_hz=0.75, worn=True))
+    >>> model_label(ModelResult("half-sine pulse", True, 0.9, frequency_hz=0.75, worn=True))
     'half sine of 0.75 Hz with worn edges'
     """
     name = gettext(opinion.model)

@@ -1,1 +1,1 @@
-"""The block that explains what fell: outcomes of many shakings, read back as the body's parameters."""
+"""Bayesian estimation of block parameters from outcomes of shaking tests."""

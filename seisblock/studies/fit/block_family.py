@@ -1,4 +1,4 @@
-"""The blocks that points of the unit cube stand for, and their versions: what differs from one run of an experiment to the next."""
+"""Family of blocks over the unit cube of free parameters, and their run-to-run perturbations."""
 
 from __future__ import annotations
 
@@ -17,39 +17,39 @@ from seisblock.studies.fit.priors import ALPHA, INSET, RESTITUTION, SCATTER, Pri
 from seisblock.studies.fit.priors import P as FREQUENCY
 
 PERTURBATION_COUNT = 5
-"""What changes from run to run: size, slenderness, restitution, amplitude and azimuth."""
+"""Perturbed quantities: size, slenderness, restitution, amplitude and azimuth."""
 
 PRIMES = (2, 3, 5, 7, 11)
-"""As many as there are directions of a cube at most, of blocks and of changes."""
+"""At least as many as dimensions of a cube of blocks or of perturbations."""
 
 AZIMUTH_DEG = 100.0
-"""How far the azimuth turns at most, degrees, over the other changes, shares: 5 degrees beside 5 per cent, as in `rock`."""
+"""Half width of the azimuth, degrees, per relative half width of the others: 5 degrees beside 5 per cent, as in `rock`."""
 
 MAX_RESTITUTION = 0.9999
-"""No version loses less at an impact: it would rock on for ever."""
+"""Upper limit of a sampled restitution: at 1 a block would rock for ever."""
 
 _BASE_BLOCK = from_slenderness(0.3, 5.0)
-"""The rectangle that is made wider and larger where no block is given: whichever it is, its versions are the same."""
+"""Rectangle scaled to alpha and p if no block is given; its own size is irrelevant."""
 
 
 @dataclass(frozen=True)
 class BlockFamily:
-    """Blocks that differ in what is looked for, all else as given.
+    """Blocks that differ in the free parameters only.
 
     Parameters
     ----------
-    axes : tuple of Axis
-        What is looked for.
+    axes : tuple of Prior
+        Free parameters.
     block : Block or None
-        The drawing; None: a homogeneous rectangle, of which alpha and p are looked for.
+        Nominal block; None: a homogeneous rectangle with free alpha and p.
     restitution : float or None
-        Of every impact; None: what angular momentum leaves.
+        Of every impact; None: conservation of angular momentum.
     inset : float, 1
-        How far the edges are worn, a share of the width per side, where that is not looked for.
+        Edge wear, a share of the width per side, unless free.
     scatter : float, 1
-        Half width of the changes, a share, where that is not looked for.
+        Relative half width of the run-to-run changes, unless free.
     vertical : bool or float
-        Whether the vertical component acts, or a factor on it.
+        True or a factor to apply the vertical component.
     gravity : float, m/s^2
     """
 
@@ -63,28 +63,28 @@ class BlockFamily:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of what is looked for."""
+        """Names of the free parameters."""
         return tuple(axis.name for axis in self.axes)
 
     @property
     def is_worn(self) -> bool:
-        """Whether blocks turn about other edges than those of the drawing."""
+        """True if blocks rock about worn edges."""
         return INSET in self.names or self.inset > 0.0
 
     @property
     def sharp_block(self) -> Block:
-        """The block with sharp edges from which the others are made."""
+        """Block with sharp edges, base of the family."""
         return replace(self.block or _BASE_BLOCK, inset=0.0)
 
     def values(self, unit_points: FloatArray) -> dict[str, FloatArray]:
-        """Return the values of each parameter that is looked for at points of the unit cube, (n, d), by its name."""
+        """Return the values of each free parameter at points of the unit cube, (n, d), by name."""
         return {axis.name: axis.value(unit_points[:, k]) for k, axis in enumerate(self.axes)}
 
     def blocks(self, unit_points: FloatArray, *, size: FloatArray | float = 1.0, slenderness: FloatArray | float = 1.0) -> BlockArray:
-        """Return the blocks at some points, (n, d), their sizes and slendernesses times some factors.
+        """Return the blocks at some points, (n, d), with factors on their sizes and slendernesses.
 
-        The base of the drawing is made wider until tan(alpha) is what is asked for, then all of it larger until p is, which goes as one
-        over the root of the size ([Furukawa2009]_ eq. (3)); both are of sharp edges.
+        The nominal base is widened to the required tan(alpha), then the block is scaled to the required p, which is inversely
+        proportional to the root of the size ([Furukawa2009]_ eq. (3)); both refer to sharp edges.
         """
         values = self.values(unit_points)
         zeros = np.zeros(len(unit_points))
@@ -93,6 +93,7 @@ class BlockFamily:
         if ALPHA in values:
             width_factor = np.tan(values[ALPHA]) / np.tan(base.slenderness)
         if ALPHA in values or FREQUENCY in values:
+            # alpha and p refer to the side of the smaller alpha
             weaker_side = base.slendernesses.index(base.slenderness)
             sharp_blocks = block_variants(base, size=np.ones(len(unit_points)), slenderness=width_factor, inset_share=zeros)
             target_p = values.get(FREQUENCY, base.frequency_parameter(self.gravity))
@@ -101,14 +102,14 @@ class BlockFamily:
         return block_variants(base, size=size_factor * size, slenderness=width_factor * slenderness, inset_share=inset_share)
 
     def rocking_parameters(self, unit_points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return alpha, rad, and p, rad/s, of the blocks as they turn, edges worn, to the side of the smaller alpha."""
+        """Return alpha, rad, and p, rad/s, of the worn blocks, on the side of the smaller alpha."""
         blocks = self.blocks(unit_points)
         weaker_side = blocks.slendernesses.argmin(axis=1)
         rows = np.arange(len(blocks))
         return blocks.slendernesses[rows, weaker_side], np.sqrt(self.gravity * blocks.lever_ratios[rows, weaker_side])
 
     def block_at(self, unit_point: FloatArray) -> Block:
-        """Return the block at one point, (1, d), as a drawing with its inset."""
+        """Return the block at one point, (1, d), with its nominal sizes and inset."""
         base = self.sharp_block
         sharp_family = replace(self, axes=tuple(axis for axis in self.axes if axis.name != INSET), inset=0.0)
         sharp_blocks = sharp_family.blocks(unit_point[:, [k for k, name in enumerate(self.names) if name != INSET]])
@@ -117,14 +118,14 @@ class BlockFamily:
         return block.with_wear(float(self.values(unit_point)[INSET][0]) if INSET in self.names else self.inset)
 
     def versions(self, unit_points: FloatArray, shifts: FloatArray, motion: Motion, scale: float) -> tuple[RockBatchParams, FloatArray]:
-        """Return versions of blocks as they rock under a motion, and the factors on its rows, (n, 3).
+        """Return samples of blocks as rocking parameters under a motion, and the gains on its rows, (n, 3).
 
         Parameters
         ----------
         unit_points : (n, d) array, 1
             Points of the unit cube.
         shifts : (n, 5) array, 1
-            How far each of the changes goes, -1 to 1.
+            Relative perturbations, -1 to 1.
         motion : Motion
         scale : float
             Factor on the ground acceleration.
@@ -135,26 +136,26 @@ class BlockFamily:
         params = rock_batch_params(
             self.blocks(unit_points, size=1.0 + size, slenderness=1.0 + slenderness), motion, vertical=self.vertical, gravity=self.gravity
         )
-        onto = params.restitutions
+        restitutions = params.restitutions
         if RESTITUTION in values:
-            onto = np.repeat(values[RESTITUTION][:, None], 2, axis=1)
+            restitutions = np.repeat(values[RESTITUTION][:, None], 2, axis=1)
         elif self.restitution is not None:
-            onto = np.full(onto.shape, self.restitution)
-        params = replace(params, restitutions=np.minimum(onto * (1.0 + restitution_shift[:, None]), MAX_RESTITUTION))
+            restitutions = np.full(restitutions.shape, self.restitution)
+        params = replace(params, restitutions=np.minimum(restitutions * (1.0 + restitution_shift[:, None]), MAX_RESTITUTION))
         angle = np.radians(AZIMUTH_DEG * azimuth_shift) * bool(motion.transverse.any())
         factor = scale * (1.0 + amplitude)
-        # +x turned clockwise, seen from above
+        # +x rotated clockwise, seen from above
         return params, np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * params.vertical])
 
 
 def quasi_random_points(count: int, dimensions: int) -> FloatArray:
-    """Return points that fill a unit cube evenly, (count, dimensions): fractions of multiples of roots ([Richtmyer1951]_ method)."""
+    """Return low-discrepancy points of a unit cube, (count, dimensions): fractions of multiples of roots ([Richtmyer1951]_ method)."""
     roots = np.sqrt(np.array(PRIMES[:dimensions], dtype=np.float64))
     return np.arange(count, dtype=np.float64)[:, None] * roots % 1.0
 
 
 def fixed_values(family: BlockFamily) -> Mapping[str, float | None]:
-    """Return the parameters that are not looked for, as they are; a restitution of None is that of angular momentum."""
+    """Return the values of the fixed parameters; a restitution of None is that of angular momentum."""
     sharp_block = family.sharp_block
     fixed = {
         ALPHA: sharp_block.slenderness,

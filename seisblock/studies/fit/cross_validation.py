@@ -1,4 +1,4 @@
-"""What a fit is worth: each record foretold by blocks that were found without it, and compared with what it did."""
+"""Cross-validation of a fit: each record predicted from the others, with scores and calibration."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_like
 from seisblock.studies.intervals import wilson_interval
 
 CALIBRATION_BINS = (0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0)
-"""Ends of the ranges of probability in which what was foretold is compared with what happened."""
+"""Edges of the calibration bins, probability."""
 
 
 @dataclass(frozen=True)
 class CalibrationBin:
-    """What happened where a probability within a range was foretold.
+    """Observed share of outcomes within a bin of predicted probability.
 
     Parameters
     ----------
     low, high : float, 1
-        Ends of the range of probability.
+        Ends of the bin.
     outcomes : int
     mean_probability : float, 1
-        Of those that were foretold.
+        Mean prediction in the bin.
     share : float, 1
-        Of the outcomes in which it happened.
+        Observed share of the event.
     share_interval : (float, float), 1
-        Wilson's at 95 %.
+        Wilson, 95 %.
     """
 
     low: float
@@ -43,28 +43,28 @@ class CalibrationBin:
 
 @dataclass(frozen=True)
 class HeldOutScores:
-    """How well outcomes are foretold by blocks that were found without their record.
+    """Scores of cross-validated predictions.
 
     Parameters
     ----------
     folds : int
-        Parts into which the records are dealt, each of which is held out once.
+        Folds of the records, each held out once.
     accuracy : float, 1
-        Share of the outcomes that a probability on the right side of one half foretold; a weight counts as so many.
+        Weighted share of the outcomes with a prediction on the right side of one half.
     accuracy_interval : (float, float), 1
-        Wilson's at 95 %.
+        Wilson, 95 %.
     brier : float, 1
-        Mean square of the probability less the outcome ([Brier1950]_ eq. (2)); 0 at best.
+        Mean square of the probability minus the outcome ([Brier1950]_ eq. (2)); 0 at best.
     log_score : float, 1
-        Mean of minus the natural logarithm of the probability of what happened; 0 at best.
+        Mean of minus the natural logarithm of the probability of the outcome; 0 at best.
     rate_accuracy, rate_brier : float, 1
-        The same where the share of the others that fell is foretold for each.
+        The same for a constant prediction: the share of the event in the other folds.
     threshold_accuracy : float, 1
-        The same where it falls above the peak velocity of the ground, whichever is right most often among the others.
+        The same for a threshold of the peak ground velocity, the best one in the other folds.
     effective_blocks : float
-        How many equally good blocks the fewest of the parts rest on.
-    calibration : tuple of CalibrationStep
-        Ranges in which nothing was foretold are left out.
+        Smallest effective sample size over the folds.
+    calibration : tuple of CalibrationBin
+        Without empty bins.
     """
 
     folds: int
@@ -80,19 +80,19 @@ class HeldOutScores:
 
 
 def predict(experiment: Experiment, sample: ImportanceSample, lapse: LapseRate) -> FloatArray:
-    """Return the probability of each outcome by all of them, (n,)."""
+    """Return the predictive probability of each outcome from all of them, (n,)."""
     logs = log_likelihood(sample.shares, *experiment.outcome_counts(), lapse)
     return _predictive_probability(sample, lapse, sample.log_weights(logs), experiment.shaking)
 
 
 def predict_held_out(experiment: Experiment, sample: ImportanceSample, lapse: LapseRate, folds: IntArray) -> tuple[FloatArray, float]:
-    """Return the probability of each outcome by those of other folds, (n,), and the fewest blocks that any part of it rests on.
+    """Return the probability of each outcome from those of other folds, (n,), and the smallest effective sample size.
 
     Parameters
     ----------
-    experiment, sampled, lapse
+    experiment, sample, lapse
     folds : (records,) array of int
-        Which fold each record is in.
+        Fold of each record.
     """
     probability, min_effective = np.empty(len(experiment.outcomes)), np.inf
     for rows, logs in log_likelihoods_held_out(sample.shares, experiment, folds[experiment.record], lapse):
@@ -103,11 +103,12 @@ def predict_held_out(experiment: Experiment, sample: ImportanceSample, lapse: La
 
 
 def _predictive_probability(sample: ImportanceSample, lapse: LapseRate, log_weights: FloatArray, shakings: IntArray) -> FloatArray:
-    """Return the probability that some shakings make it happen, over all blocks and lambdas by their weights."""
+    """Return the predictive probability of the event under some shakings, over all blocks and lambdas by weight."""
     weights = np.exp(log_weights)
     weights /= weights.sum()
     unique_shakings, inverse = np.unique(shakings, return_inverse=True)
     outcome_probability = lapse.outcome_probability
+    # outcomes under one shaking share their probability
     probabilities = np.array([(weights * outcome_probability[:, sample.shares[k]]).sum() for k in unique_shakings])
     return probabilities[inverse]
 
@@ -115,60 +116,61 @@ def _predictive_probability(sample: ImportanceSample, lapse: LapseRate, log_weig
 def score_predictions(
     experiment: Experiment, probability: FloatArray, velocities: FloatArray, folds: IntArray, effective_blocks: float
 ) -> HeldOutScores:
-    """Return how good probabilities of outcomes are ([Brier1950]_ eq. (2)).
+    """Return the scores of predicted probabilities ([Brier1950]_ eq. (2)).
 
     Parameters
     ----------
     experiment : Experiment
     probability : (n,) array, 1
-        Of each outcome, without its record.
+        Prediction of each outcome without its record.
     velocities : (n,) array, m/s
-        Peak velocity of the ground.
+        Peak ground velocity.
     folds : (records,) array of int
-        Which fold each record is in.
+        Fold of each record.
     effective_blocks : float
     """
-    happened, weights = experiment.happened, experiment.weights
+    outcomes, weights = experiment.happened, experiment.weights
     share = weights / weights.sum()
     parts = folds[experiment.record]
-    rate, above_threshold = np.empty(happened.size), np.empty(happened.size, dtype=np.bool_)
+    rate, above_threshold = np.empty(outcomes.size), np.empty(outcomes.size, dtype=np.bool_)
     for part in range(int(parts.max()) + 1):
         test, train = parts == part, parts != part
         train_weight = weights[train].sum()
-        rate[test] = weights[train] @ happened[train] / train_weight if train_weight else 0.5
-        above_threshold[test] = velocities[test] >= _threshold(velocities[train], happened[train], weights[train])
-    correct = (probability > 0.5) == (happened > 0.5)
+        # baselines: constant rate and best velocity threshold of the training folds
+        rate[test] = weights[train] @ outcomes[train] / train_weight if train_weight else 0.5
+        above_threshold[test] = velocities[test] >= _threshold(velocities[train], outcomes[train], weights[train])
+    correct = (probability > 0.5) == (outcomes > 0.5)
     accuracy = float(share @ correct)
     count = max(round(float(weights.sum())), 1)
-    outcome_probability = np.where(happened > 0.5, probability, 1.0 - probability)
+    outcome_probability = np.where(outcomes > 0.5, probability, 1.0 - probability)
     return HeldOutScores(
         int(folds.max()) + 1,
         accuracy,
         wilson_interval(round(accuracy * count), count),
-        float(share @ (probability - happened) ** 2),
+        float(share @ (probability - outcomes) ** 2),
         float(-share @ np.log(outcome_probability)),
-        float(share @ ((rate > 0.5) == (happened > 0.5))),
-        float(share @ (rate - happened) ** 2),
-        float(share @ (above_threshold == (happened > 0.5))),
+        float(share @ ((rate > 0.5) == (outcomes > 0.5))),
+        float(share @ (rate - outcomes) ** 2),
+        float(share @ (above_threshold == (outcomes > 0.5))),
         effective_blocks,
-        calibration(probability, happened, weights),
+        calibration(probability, outcomes, weights),
     )
 
 
-def _threshold(values: FloatArray, happened: FloatArray, weights: FloatArray) -> float:
-    """Return the value from which on it happens that is right most often, in the middle between two."""
+def _threshold(values: FloatArray, outcomes: FloatArray, weights: FloatArray) -> float:
+    """Return the threshold with the most correct classifications, midway between two values."""
     if not values.size:
         return np.inf
     order = np.argsort(values)
-    sorted_values, gain = values[order], (weights * (2.0 * happened - 1.0))[order]
-    # right where it happens from row k on and does not before
-    right = np.concatenate([[0.0], np.cumsum(-gain)]) + np.concatenate([np.cumsum(gain[::-1])[::-1], [0.0]])
+    sorted_values, gain = values[order], (weights * (2.0 * outcomes - 1.0))[order]
+    # correct at threshold k: events from row k on, and non-events before it
+    correct_weight = np.concatenate([[0.0], np.cumsum(-gain)]) + np.concatenate([np.cumsum(gain[::-1])[::-1], [0.0]])
     ends = np.concatenate([[-np.inf], 0.5 * (sorted_values[:-1] + sorted_values[1:]), [np.inf]])
-    return float(ends[int(right.argmax())])
+    return float(ends[int(correct_weight.argmax())])
 
 
-def calibration(probability: FloatArray, happened: FloatArray, weights: FloatArray) -> tuple[CalibrationBin, ...]:
-    """Return what happened where probabilities within each range were foretold; (n,) arrays, 1."""
+def calibration(probability: FloatArray, outcomes: FloatArray, weights: FloatArray) -> tuple[CalibrationBin, ...]:
+    """Return the observed shares within bins of predicted probability; (n,) arrays, 1."""
     bins = []
     bin_index = np.clip(np.searchsorted(CALIBRATION_BINS, probability, side="right") - 1, 0, len(CALIBRATION_BINS) - 2)
     for k in range(len(CALIBRATION_BINS) - 1):
@@ -176,7 +178,7 @@ def calibration(probability: FloatArray, happened: FloatArray, weights: FloatArr
         weight = float(weights[in_bin].sum())
         if weight == 0.0:
             continue
-        share = float(weights[in_bin] @ happened[in_bin]) / weight
+        share = float(weights[in_bin] @ outcomes[in_bin]) / weight
         count = max(round(weight), 1)
         interval = wilson_interval(round(share * count), count)
         mean = float(weights[in_bin] @ probability[in_bin]) / weight

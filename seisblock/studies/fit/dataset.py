@@ -1,4 +1,4 @@
-"""What was seen: a block stood on the ground, the ground shook, and the block fell or stood; again and again, under many shakings."""
+"""Dataset of a fit: outcomes of shaking tests, grouped by shaking and by record."""
 
 from __future__ import annotations
 
@@ -21,18 +21,19 @@ FELL, MOVED = N_("fell"), N_("moved")
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """One outcome: what shook, and whether the block fell, or moved.
+    """One outcome: the motion, and whether the block fell or moved.
 
     Parameters
     ----------
     motion : Motion
     happened : bool
+        True if the block fell, or moved.
     weight : float, 1
-        How often the outcome counts.
+        Weight of the outcome.
     scale : float, 1
         Factor on the motion.
     record : str
-        Outcomes of one record are held out together; each is one of its own where this is empty.
+        Outcomes of one record are held out together; an empty name makes its own record.
     """
 
     motion: Motion
@@ -49,19 +50,19 @@ class Observation:
 
 @dataclass(frozen=True, eq=False)
 class Experiment:
-    """Outcomes, and the different shakings among them: each is followed once, however often it was repeated.
+    """Outcomes and their distinct shakings: each shaking is simulated once, however often it was repeated.
 
     Parameters
     ----------
-    outcomes : tuple of Observed
+    outcomes : tuple of Observation
     kind : str
         ``fell`` or ``moved``.
-    shakings : tuple of Observed
+    shakings : tuple of Observation
         One of each motion at each factor.
     shaking : (n,) array of int
-        Which of them each outcome is of.
+        Index of the shaking of each outcome.
     record : (n,) array of int
-        Which record each outcome is of.
+        Index of the record of each outcome.
     """
 
     outcomes: tuple[Observation, ...]
@@ -72,44 +73,46 @@ class Experiment:
 
     @property
     def happened(self) -> FloatArray:
-        """1 where it fell, or moved, else 0, (n,)."""
+        """1 if the block fell, or moved, else 0, (n,)."""
         return np.array([float(outcome.happened) for outcome in self.outcomes])
 
     @property
     def weights(self) -> FloatArray:
-        """How often each outcome counts, (n,)."""
+        """Weights of the outcomes, (n,)."""
         return np.array([outcome.weight for outcome in self.outcomes])
 
     @property
     def records(self) -> int:
-        """How many records there are."""
+        """Number of records."""
         return int(self.record.max()) + 1
 
     def outcome_counts(self, rows: slice | IntArray = slice(None)) -> tuple[FloatArray, FloatArray]:
-        """Return how often each shaking made it happen, and how often it did not, (shakings,) each, among some outcomes."""
+        """Return the weights of the positive and of the negative outcomes of each shaking, (shakings,) each, among some outcomes."""
         size, shaking_rows = len(self.shakings), self.shaking[rows]
-        happened, weights = self.happened[rows], self.weights[rows]
+        occurrences, weights = self.happened[rows], self.weights[rows]
         counts = [
             np.bincount(shaking_rows, row_weights, size).astype(np.float64)
-            for row_weights in (weights * happened, weights * (1.0 - happened))
+            for row_weights in (weights * occurrences, weights * (1.0 - occurrences))
         ]
         return counts[0], counts[1]
 
 
 def make_experiment(outcomes: Iterable[Observation], kind: str = FELL) -> Experiment:
-    """Return the experiment that some outcomes make.
+    """Return the experiment of some outcomes.
 
     Raises
     ------
     KindError, ParameterError
-        If there are none of them, or none counts, or they are of another kind.
+        If there is no outcome with a weight, or one of another kind.
     """
     observations = tuple(checks.instance(outcome, Observation) for outcome in outcomes)
     if kind not in (FELL, MOVED):
-        raise ParameterError("an outcome is that a block fell or moved, not {kind!r}", kind=str(kind)[:100])
+        raise ParameterError("unknown kind of outcome {kind!r}; expected fell or moved", kind=str(kind)[:100])
     if not any(outcome.weight for outcome in observations):
-        raise ParameterError("there is no outcome to learn from: {count} were given, and none has a weight", count=len(observations))
-    # not by equality: a motion is told from another by what it is, not by its numbers
+        raise ParameterError(
+            "the fit requires an outcome with a positive weight; {count} outcomes given, none with a weight", count=len(observations)
+        )
+    # by identity: comparing all samples of all motions would be slow
     distinct: dict[tuple[int, float], Observation] = {}
     for outcome in observations:
         distinct.setdefault((id(outcome.motion), outcome.scale), replace(outcome, weight=1.0))
@@ -122,7 +125,7 @@ def make_experiment(outcomes: Iterable[Observation], kind: str = FELL) -> Experi
 
 
 def trim_zeros(motion: Motion) -> Motion:
-    """Return a motion without the samples of exactly nothing before and after it: what stands waits, what still rocks is known."""
+    """Return a motion without leading and trailing zeros: the block rests before, and free rocking after it is known."""
     nonzero = np.flatnonzero(motion.acceleration.any(axis=0))
     first, last = (max(int(nonzero[0]) - 1, 0), int(nonzero[-1]) + 2) if nonzero.size else (0, 2)
     if first == 0 and last >= motion.samples:
@@ -131,13 +134,13 @@ def trim_zeros(motion: Motion) -> Motion:
 
 
 def outcome_weights(experiment: Experiment) -> tuple[float, float]:
-    """Return the weight of the outcomes that happened, and of those that did not."""
-    happened, not_happened = experiment.outcome_counts()
-    return float(happened.sum()), float(not_happened.sum())
+    """Return the weights of the positive and of the negative outcomes."""
+    positive, negative = experiment.outcome_counts()
+    return float(positive.sum()), float(negative.sum())
 
 
 def ground_peaks(experiment: Experiment) -> tuple[FloatArray, FloatArray]:
-    """Return the peak acceleration, m/s^2, and velocity, m/s, of the ground of each outcome, (n,)."""
+    """Return the peak ground acceleration, m/s^2, and velocity, m/s, of each outcome, (n,)."""
     peaks: dict[int, tuple[float, float]] = {}
     for outcome in experiment.outcomes:
         if id(outcome.motion) not in peaks:
@@ -149,11 +152,11 @@ def ground_peaks(experiment: Experiment) -> tuple[FloatArray, FloatArray]:
 
 
 def check_folds(folds: int, experiment: Experiment) -> int:
-    """Return into how many parts the records are dealt, or refuse it."""
+    """Return the number of folds of the records, at most one per record."""
     count = checks.integer("the number of folds", folds, minimum=2)
     if count > experiment.records:
         raise ParameterError(
-            "{folds} folds need as many records, and there are {records}: ask for at most that many",
+            "{folds} folds require at least as many records, found {records}; reduce `folds`",
             folds=count,
             records=experiment.records,
         )
@@ -161,6 +164,6 @@ def check_folds(folds: int, experiment: Experiment) -> int:
 
 
 def assign_folds(records: int, folds: int, seed: int) -> IntArray:
-    """Return which fold each record is in, (records,): dealt like cards, so that folds differ by one at most."""
+    """Return the fold of each record, (records,): a random permutation, so that sizes differ by at most one."""
     order: IntArray = np.random.default_rng(seed).permutation(records)
     return order % folds

@@ -1,4 +1,4 @@
-"""The block that explains which shakings made it fall: its parameters with their intervals, and how well it foretells the others."""
+"""Bayesian fit of a block to outcomes: parameters with credible intervals, and cross-validated predictions."""
 
 from __future__ import annotations
 
@@ -28,54 +28,54 @@ from seisblock.studies.fit.simulate import SHARE_DENOMINATOR
 from seisblock.studies.fit.warnings import fit_warnings
 
 DEFAULT_LEVEL = 0.9
-"""Of the intervals, unless another is asked for."""
+"""Default level of the intervals."""
 
 RUNS = 16
-"""Versions of each block under each shaking."""
+"""Default number of samples of each block under each shaking."""
 
 FOLDS = 5
-"""Parts into which records are dealt, where there are as many."""
+"""Default number of folds of the records, at most one per record."""
 
 POSTERIOR_DRAWS = 2000
-"""Blocks that stand for all that explain what was seen."""
+"""Equally weighted posterior draws for figures and further use."""
 
 
 @dataclass(frozen=True, eq=False)
 class BlockFit:
-    """Which blocks explain what was seen.
+    """Posterior of a block fitted to outcomes.
 
     Parameters
     ----------
     experiment : Experiment
-    axes : tuple of Axis
-        What was looked for, and between which bounds.
+    axes : tuple of Prior
+        Free parameters with their bounds.
     fixed : mapping of str to float or None
-        What was not: alpha in rad, p in rad/s, else shares; a restitution of None is that of angular momentum.
+        Fixed parameters: alpha in rad, p in rad/s, else shares; a restitution of None is that of angular momentum.
     level : float, 1
-        Of the intervals.
+        Level of the intervals.
     marginals : tuple of Marginal
-        What is known of each parameter, of alpha and p as it turns where its edges are worn, and of the share of lapses.
+        Marginal posterior of each parameter, of alpha and p of the worn block, and of the lapse rate.
     correlations : tuple of Correlation
-        Of each two parameters.
+        Of each pair of parameters.
     block : Block
-        That of the medians.
+        Block of the posterior medians.
     restitution : float or None, 1
         Of that block; None: that of angular momentum.
     probability : (n,) array, 1
-        That each outcome happens, by all of them.
+        Predictive probability of each outcome.
     probability_held_out : (n,) array or None, 1
-        The same by the outcomes of other folds; None where there is one record only.
-    held_out : HeldOut or None
+        The same from the outcomes of other folds; None with a single record.
+    held_out : HeldOutScores or None
     pga_m_s2, pgv_m_s : (n,) arrays, m/s^2 and m/s
         Peaks of each shaking, the velocity's on the baseline of `measure`.
     draws : mapping of str to (k,) arrays
-        Parameters of blocks that are equally good, for figures and further use; in rad, rad/s or shares.
+        Equally weighted posterior draws of the parameters, in rad, rad/s or shares.
     blocks : int
-        How many blocks were looked at closely.
+        Number of blocks of the sample.
     effective_blocks : float, 1
-        How many equally good ones they amount to.
+        Effective sample size.
     runs : int
-        Versions of each under each shaking.
+        Samples of each block under each shaking.
     seed : int
     warnings : tuple of str
     """
@@ -101,17 +101,15 @@ class BlockFit:
     warnings: tuple[str, ...]
 
     def __getitem__(self, name: str) -> Marginal:
-        """Return what is known of a parameter."""
+        """Return the marginal posterior of a parameter."""
         for marginal in self.marginals:
             if marginal.name == name:
                 return marginal
-        raise ParameterError(
-            "nothing was looked for that is called {name!r}; what was: {known}", name=str(name)[:100], known=self.parameter_names
-        )
+        raise ParameterError("{name!r} is not a fitted parameter; fitted: {known}", name=str(name)[:100], known=self.parameter_names)
 
     @property
     def parameter_names(self) -> list[str]:
-        """The names of what was looked for."""
+        """Names of the fitted parameters."""
         return [marginal.name for marginal in self.marginals]
 
 
@@ -134,44 +132,43 @@ def fit_block(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> BlockFit:
-    """Return which blocks explain under which shakings one fell and under which it stood ([Housner1963]_ block; likelihood derived here).
+    """Return the posterior of the blocks consistent with observed falls and survivals ([Housner1963]_ block; likelihood derived here).
 
-    A planar block that rocks about two edges, alike every time but for small changes of size, slenderness, restitution, amplitude and
-    azimuth of as yet unknown width; an outcome in so many follows no model. See :mod:`seisblock.studies.fit.likelihood`.
+    A planar block that rocks about two edges, with run-to-run changes of size, slenderness, restitution, amplitude and azimuth of a
+    common unknown half width; a share of outcomes (lapse rate) follows no model. See :mod:`seisblock.studies.fit.likelihood`.
 
     Parameters
     ----------
-    outcomes : sequence of Observed
+    outcomes : sequence of Observation
     kind : "fell" or "moved"
-        What happened or not; a block has moved when it rocked. That tells of alpha and the inset alone.
+        Observed event; a block has moved if it rocked, which determines alpha and the inset alone.
     free : sequence of str
-        What is looked for, of ``alpha``, ``p``, ``restitution`` and ``inset``. Left out: what is not given, alpha and p without a block,
-        the inset with one, and the restitution. alpha and p are those of sharp edges; without an inset, of the block as it turns.
+        Free parameters, of ``alpha``, ``p``, ``restitution`` and ``inset``. Default: those not given, alpha and p without a block,
+        the inset with one, and the restitution. alpha and p are those of sharp edges; without an inset, of the worn block.
     block : Block
-        The drawing; needed unless alpha and p are both looked for.
+        Nominal block; required unless alpha and p are both free.
     restitution : float, 1
-        Of every impact, [0, 1]; left out and not looked for, what angular momentum leaves.
-    inset : float or Inset
-        How far the edges are worn, per side, a share of the width or with its length; the block's own when left out.
+        Of every impact, [0, 1]; default if not free: conservation of angular momentum.
+    inset : float or EdgeWear
+        Edge wear per side, a share of the width or with its length; default: that of the block.
     bounds : mapping of str to (float, float)
-        Between which a parameter is looked for; alpha in rad, p in rad/s, else shares. Everything between is equally likely before (p: its
-        logarithm).
+        Bounds of free parameters; alpha in rad, p in rad/s, else shares. The prior is uniform in between (p: in its logarithm).
     scatter : float, 1
-        Half width of the changes, a share, and 100 times as many degrees; looked for, between 0.01 and 0.2, when left out.
+        Relative half width of the run-to-run changes, and 100 times as many degrees; default: free, between 0.01 and 0.2.
     lapse : float, 1
-        Share of outcomes that follow no model; looked for, 0.1 in the mean before, when left out.
+        Share of outcomes that follow no model; default: free, with a prior mean of 0.1.
     vertical : bool or float
-        Whether the vertical component acts, or a factor on it.
+        True or a factor to apply the vertical component.
     gravity : float, m/s^2
     folds : int
-        Parts into which the records are dealt, each of which is foretold by the others; 5, or as many as there are records, when left out.
+        Folds of the records, each predicted from the others; default: 5, at most one per record.
     level : float, 1
-        Of the intervals, between 0 and 1.
+        Level of the intervals, between 0 and 1.
     runs : int
-        Versions of each block under each shaking: 1, 2, 4 ... 64.
+        Samples of each block under each shaking: 1, 2, 4 ... 64.
     seed : int
     progress : callable
-        Told the number of shakings followed and the number in all, as far as that can be known.
+        Called with the number of simulated shakings and an estimate of the total.
 
     Returns
     -------
@@ -180,7 +177,7 @@ def fit_block(
     Raises
     ------
     KindError, ParameterError
-        If there is no outcome, a parameter is unknown, neither looked for nor given, or a number is out of range.
+        If there is no outcome, a parameter is unknown, neither free nor given, or a number is out of range.
 
     Examples
     --------
@@ -188,9 +185,9 @@ def fit_block(
     >>> from seisblock import Motion
     >>> time = np.linspace(0.0, 1.0, 101)
     >>> pulses = [Motion.from_arrays(peak * np.sin(2.0 * np.pi * time), 0.01) for peak in (2.0, 3.0, 4.0, 5.0, 6.0, 7.0)]
-    >>> seen = [Observation(pulse, fell) for pulse, fell in zip(pulses, [False, False, False, True, True, True])]
-    >>> found = fit_block(seen, block=Block(0.24, 0.8), free=["inset"], folds=3)
-    >>> found["inset"].interval[0] < 0.2, found.held_out.folds
+    >>> outcomes = [Observation(pulse, fell) for pulse, fell in zip(pulses, [False, False, False, True, True, True])]
+    >>> fit = fit_block(outcomes, block=Block(0.24, 0.8), free=["inset"], folds=3)
+    >>> fit["inset"].interval[0] < 0.2, fit.held_out.folds
     (True, 3)
     """
     experiment = make_experiment(outcomes, kind)
@@ -201,7 +198,7 @@ def fit_block(
     family = _family(free, base_block, share, restitution, inset is not None, bounds or {}, scatter, vertical, gravity)
     checks.in_interval("the level of the intervals", level, "[0.001, 1)")
     if lapse is not None:
-        checks.in_interval("the share of lapses", lapse, "[0, 1)")
+        checks.in_interval("the lapse rate", lapse, "[0, 1)")
     _check_runs(runs)
     parts = min(FOLDS, experiment.records) if folds is None else check_folds(folds, experiment)
     lapse_rate = make_lapse_rate(lapse)
@@ -211,6 +208,7 @@ def fit_block(
     )
     weights = np.exp(sample.log_weights(log_likelihood(sample.shares, *experiment.outcome_counts(), lapse_rate)))
     weights /= weights.sum()
+    # marginal over the lapse rate
     block_weights = weights.sum(axis=0)
     pga, pgv = ground_peaks(experiment)
     held_out_scores, held_out_probability = None, None
@@ -245,12 +243,12 @@ def fit_block(
 
 
 def _wear_share(block: Block | None, inset: float | EdgeWear | None) -> float:
-    """Return how far edges are worn, a share of the width per side."""
+    """Return the edge wear as a share of the width per side."""
     if block is not None:
         return block.inset / block.width
     wear = inset if isinstance(inset, EdgeWear) else EdgeWear(share=0.0 if inset is None else inset)
     if wear.length_m:
-        raise ParameterError("an inset of a length needs a `block` with a width; give a share of the width, such as 0.1")
+        raise ParameterError("`inset` as a length requires a `block` with a width; give a share of the width, such as 0.1")
     wear.inset(1.0)
     return wear.share
 
@@ -266,7 +264,7 @@ def _family(
     vertical: Gain,
     gravity: float,
 ) -> BlockFamily:
-    """Return the blocks among which one is looked for, or refuse what cannot be."""
+    """Return the family of blocks of the fit after a check of its parameters."""
     if free is None:
         unknown = {
             ALPHA: block is None,
@@ -278,23 +276,23 @@ def _family(
     names = [free] if isinstance(free, str) else list(free)
     axes = make_priors(names, bounds, scatter=scatter, block=block)
     if not axes:
-        raise ParameterError("there is nothing to look for: name one of {known} as `free`", known=list(FREE_PARAMETERS))
+        raise ParameterError("no free parameter; give at least one of {known} in `free`", known=list(FREE_PARAMETERS))
     if block is None and not {ALPHA, FREQUENCY} <= set(names):
         missing = [name for name in (ALPHA, FREQUENCY) if name not in names]
-        raise ParameterError("{missing} must be looked for (`free`) or given: give the `width` and `height` of a block", missing=missing)
+        raise ParameterError("{missing} must be free or known; add to `free`, or give the `width` and `height` of a block", missing=missing)
     for name, is_given in ((RESTITUTION, restitution is not None), (INSET, is_wear_given)):
         if name in names and is_given:
-            raise ParameterError("the {name} is looked for (`free`) and given at once: leave one out", name=name)
+            raise ParameterError("{name} is both in `free` and given; leave one out", name=name)
     if restitution is not None:
-        checks.fraction("the restitution, a ratio of angular velocities,", restitution)
+        checks.fraction("the restitution (ratio of angular velocities)", restitution)
     if scatter is not None:
-        checks.in_interval("the scatter, a share,", scatter, "[0, 1)")
+        checks.in_interval("the relative scatter", scatter, "[0, 1)")
     return BlockFamily(axes, block, restitution, inset, scatter or 0.0, vertical, checks.gravity(gravity))
 
 
 def _check_runs(runs: int) -> None:
-    """Refuse a number of versions that shares are not kept of."""
+    """Check the number of samples per block: a power of two that divides ``SHARE_DENOMINATOR``."""
     count = checks.integer("the number of runs", runs, minimum=1)
     if count > SHARE_DENOMINATOR or count & (count - 1):
-        raise ParameterError("the number of runs must be one of 1, 2, 4, 8, 16, 32, 64; found {found}", found=count)
-    check_limit(N_("versions"), count, "SEISBLOCK_RUNS")
+        raise ParameterError("`runs` must be one of 1, 2, 4, 8, 16, 32, 64; found {found}", found=count)
+    check_limit(N_("Monte Carlo samples"), count, "SEISBLOCK_RUNS")

@@ -1,9 +1,9 @@
-"""Which blocks explain what was seen, and how well each: blocks with their weights, found where they are and not on a grid.
+"""Adaptive importance sampling of the posterior of block parameters.
 
-Blocks are points of a unit cube, in which everything is equally likely before (:mod:`seisblock.studies.fit.priors`). Points are drawn from
-clouds, each around those that explained most before it; the weight of a point is its likelihood over the density of all clouds together at
-that point ([Cornuet2012]_ section 3), so that it does not matter how good a cloud was. While the points are few, likelihoods are taken
-to a power below one, as large as leaves enough points with a weight.
+Blocks are points of a unit cube with a uniform prior (:mod:`seisblock.studies.fit.priors`). Points are drawn from proposals, each
+around the best points of the previous ones; the weight of a point is its likelihood over the density of the mixture of all
+proposals at that point ([Cornuet2012]_ section 3), which is unbiased for any proposal. While the points are few, the likelihood is
+tempered: raised to the largest power below one that leaves enough effective points.
 """
 
 from __future__ import annotations
@@ -20,36 +20,36 @@ from seisblock.studies.fit.proposal import Proposal, make_proposal
 from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
 
 INITIAL_BLOCKS = 64
-"""Blocks that are looked at first, all over the cube, times two for each of its directions."""
+"""Initial points, uniform over the cube, times two per dimension."""
 
 SEARCH_BLOCKS, PROPOSAL_BLOCKS = 128, 256
-"""Blocks of each later search, and of each look."""
+"""Points of each proposal of the search, and of the posterior sample."""
 
 SEARCH_RUNS = 4
-"""Versions of each while blocks are only looked for."""
+"""Samples of each block during the search."""
 
 MIN_EFFECTIVE, TARGET_EFFECTIVE, MIN_EFFECTIVE_WITHOUT = 50.0, 200.0, 30.0
-"""Blocks that weights must amount to: to draw others around them, to be what is answered, and where outcomes are left out."""
+"""Effective sample sizes: of a proposal, of the posterior sample, and with outcomes held out."""
 
 PROPOSAL_POWER = 0.8
-"""Power of the likelihood for which blocks are drawn that are looked at: wide enough for what fewer outcomes would leave open, too."""
+"""Power of the likelihood of a proposal: wide enough for the posterior with outcomes held out."""
 
 MAX_SEARCHES, MAX_PROPOSALS = 12, 12
-"""Looks for the blocks, and at them."""
+"""Largest number of proposals of the search, and of the posterior sample."""
 
 
 @dataclass(frozen=True, eq=False)
 class ImportanceSample:
-    """Blocks, how often their versions fell, and how densely they lie.
+    """Weighted points of the posterior, with the simulated shares of their samples.
 
     Parameters
     ----------
     unit_points : (n, d) array, 1
         Points of the unit cube.
     shares : (shakings, n) array of int
-        Of 64 versions, those that fell.
+        Falls of 64 samples.
     log_density : (n,) array
-        Logarithm of the density from which they were drawn.
+        Logarithm of the proposal density.
     """
 
     unit_points: FloatArray
@@ -57,19 +57,19 @@ class ImportanceSample:
     log_density: FloatArray
 
     def log_weights(self, log_likelihoods: FloatArray) -> FloatArray:
-        """Return logarithms of the weights of each lambda and each block, (l, n), their largest zero."""
+        """Return the log weights of each lapse rate and each block, (l, n), with a maximum of zero."""
         logs = log_likelihoods - self.log_density
         shifted: FloatArray = logs - logs.max()
         return shifted
 
 
 def effective_sample_size(weights: FloatArray) -> float:
-    """Return how many equal ones some weights are worth."""
+    """Return the effective sample size of some weights (Kish: squared sum over sum of squares)."""
     return float(weights.sum() ** 2 / (weights**2).sum())
 
 
 def min_effective_without(sample: ImportanceSample, experiment: Experiment, parts: IntArray, lapse: LapseRate) -> float:
-    """Return how many blocks the weights amount to, at the fewest, when one of the parts of the outcomes is left out."""
+    """Return the smallest effective sample size when one of the parts of the outcomes is held out."""
     if not parts.any():
         return np.inf
     held_out_logs = log_likelihoods_held_out(sample.shares, experiment, parts, lapse)
@@ -86,19 +86,20 @@ def sample_posterior(
     seed: int,
     progress: Progress | None = None,
 ) -> tuple[ImportanceSample, float]:
-    """Return blocks that explain an experiment, and how many equally good ones they amount to.
+    """Return a posterior sample of blocks, and its effective sample size.
 
     Parameters
     ----------
     experiment, family, lapse
     parts : (outcomes,) array of int
-        Which outcomes are left out together: enough blocks are looked at for what the others say alone, too.
+        Outcomes that are held out together: the sample is large enough for the posterior of the others, too.
     runs : int
-        Versions of each block under each shaking, a power of two.
+        Samples of each block under each shaking, a power of two.
     seed : int
     progress : callable
-        Told the number of shakings followed and the number in all, as far as that can be known.
+        Called with the number of simulated shakings and an estimate of the total.
     """
+    # search: temper until a proposal suits the likelihood at PROPOSAL_POWER
     search = _Sampler(experiment, family, lapse, seed, progress)
     sample = search.first()
     for _ in range(MAX_SEARCHES):
@@ -107,6 +108,7 @@ def sample_posterior(
         if power == PROPOSAL_POWER:
             break
         sample = search.add_proposal(sample, proposal, np.full(len(experiment.shakings), SEARCH_RUNS))
+    # posterior: the search's points are dropped, as few samples per block made their shares coarse
     posterior, proposals = None, []
     for iteration in range(MAX_PROPOSALS):
         proposals.append(proposal)
@@ -126,7 +128,7 @@ def sample_posterior(
 
 @dataclass(eq=False)
 class _Sampler:
-    """What all looks have in common, and how far they are."""
+    """State of the sampler: experiment, proposals so far and progress."""
 
     experiment: Experiment
     family: BlockFamily
@@ -141,32 +143,33 @@ class _Sampler:
         self.initial_count = INITIAL_BLOCKS * 2 ** len(self.family.axes)
 
     def log_likelihoods(self, sample: ImportanceSample) -> FloatArray:
-        """Return ln L of each lambda and each block."""
+        """Return the log likelihood of each lapse rate and each block, (l, n)."""
         return log_likelihood(sample.shares, *self.experiment.outcome_counts(), self.lapse)
 
     def first(self) -> ImportanceSample:
-        """Return blocks all over the cube."""
+        """Return quasi-random points over the whole cube."""
         d = len(self.family.axes)
+        # random offset of a low-discrepancy sequence: even, and unbiased
         unit_points = (self.rng.random(d) + quasi_random_points(self.initial_count, d)) % 1.0
         shares = self._simulate_shares(unit_points, np.full(len(self.experiment.shakings), SEARCH_RUNS))
         return ImportanceSample(unit_points, shares, np.zeros(self.initial_count))
 
     def add_proposal(self, sample: ImportanceSample, proposal: Proposal, runs: IntArray) -> ImportanceSample:
-        """Return blocks with those of another cloud."""
+        """Return a sample extended by the points of a proposal."""
         self.proposals.append(proposal)
         unit_points = np.concatenate([sample.unit_points, proposal.points])
         shares = np.concatenate([sample.shares, self._simulate_shares(proposal.points, runs)], axis=1)
         return ImportanceSample(unit_points, shares, _log_mixture(unit_points, self.proposals, self.initial_count))
 
     def extend_sample(self, sample: ImportanceSample | None, proposals: list[Proposal], runs: IntArray) -> ImportanceSample:
-        """Return blocks of some clouds, the last of which are new."""
+        """Return a sample extended by the points of the last of several proposals."""
         unit_points, shares = proposals[-1].points, self._simulate_shares(proposals[-1].points, runs)
         if sample is not None:
             unit_points, shares = np.concatenate([sample.unit_points, unit_points]), np.concatenate([sample.shares, shares], axis=1)
         return ImportanceSample(unit_points, shares, _log_mixture(unit_points, proposals, 0))
 
     def temper(self, sample: ImportanceSample, max_power: float = 1.0) -> tuple[float, FloatArray]:
-        """Return the largest power of the likelihood, up to `most`, that leaves enough blocks with a weight, and the weights."""
+        """Return the largest power of the likelihood, up to `max_power`, with enough effective points, and the weights."""
         likelihoods = self.log_likelihoods(sample)
 
         def weights(power: float) -> FloatArray:
@@ -175,6 +178,7 @@ class _Sampler:
 
         if effective_sample_size(weights(max_power)) >= MIN_EFFECTIVE:
             return max_power, weights(max_power)
+        # the effective sample size decreases with the power: bisection
         low, high = 0.0, max_power
         for _ in range(30):
             middle = 0.5 * (low + high)
@@ -182,19 +186,20 @@ class _Sampler:
         return low, weights(low)
 
     def runs_per_shaking(self, sample: ImportanceSample, runs: int) -> IntArray:
-        """Return how many versions of each block a shaking is worth: few where all blocks that count agree, more where it is repeated."""
+        """Return the samples per block of each shaking: few if all likely blocks agree, more if it is repeated."""
         weights = self.temper(sample)[1]
         shares = sample.shares[:, weights > 1e-4 * weights.max()]
         is_unanimous = (shares == 0).all(axis=1) | (shares == SHARE_DENOMINATOR).all(axis=1)
         repetitions = np.maximum(sum(self.experiment.outcome_counts()), 1.0)
+        # the noise of a share matters where likely blocks disagree, and enters once per repetition
         run_counts = np.where(is_unanimous, SEARCH_RUNS, runs) * 2 ** np.ceil(np.log2(repetitions)).astype(np.int64)
         return np.minimum(run_counts, SHARE_DENOMINATOR)
 
     def _simulate_shares(self, unit_points: FloatArray, runs: IntArray) -> IntArray:
-        """Return how often the versions of some blocks fall under each shaking."""
+        """Return the shares of falls of some blocks under each shaking, in 64ths."""
         shaking_count, run_index = len(self.experiment.shakings), self.run_count
         self.run_count += 1
-        # nobody knows how many looks are to come: half of what there may be, at least one
+        # the number of further proposals is unknown: assume half of the maximum, at least one
         total = shaking_count * (self.run_count + max((MAX_SEARCHES + MAX_PROPOSALS) // 2 - self.run_count, 1))
 
         def report(count: int, _: int) -> None:
@@ -205,10 +210,11 @@ class _Sampler:
 
 
 def _log_mixture(unit_points: FloatArray, proposals: list[Proposal], initial_count: int) -> FloatArray:
-    """Return the logarithm of the density of all clouds together, as many points as each has, and of points all over the cube."""
+    """Return the log density of the mixture of all proposals and the initial points, weighted by their numbers."""
     counts = np.array([len(proposal.points) for proposal in proposals], dtype=np.float64)
     logs = [np.log(n) + proposal.log_density(unit_points) for n, proposal in zip(counts, proposals, strict=True)]
     if initial_count:
         logs.append(np.full(len(unit_points), np.log(initial_count)))
+    # deterministic mixture: every point is weighted by all proposals, not by its own
     log_density: FloatArray = np.logaddexp.reduce(logs, axis=0) - np.log(counts.sum() + initial_count)
     return log_density

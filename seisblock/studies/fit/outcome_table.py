@@ -1,4 +1,4 @@
-"""A table of outcomes: which record shook, and whether the block fell, as somebody keeps it in a spreadsheet."""
+"""Reader of tables of outcomes: records and falls of shaking tests in a CSV file."""
 
 from __future__ import annotations
 
@@ -40,31 +40,31 @@ _NAMES = {
 """Columns, by their headings without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
-_HAPPENED_WORDS = TRUE_WORDS | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
-_NOT_HAPPENED_WORDS = FALSE_WORDS | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
+_EVENT_WORDS = TRUE_WORDS | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
+_NO_EVENT_WORDS = FALSE_WORDS | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
 
 MAX_REASONS = 3
-"""Rows left out of which the reason is told."""
+"""Largest number of excluded rows with a reason."""
 
 NO_PROCESSING = Preparation()
-"""Nothing is done to a record but what its format needs."""
+"""Default processing: none beyond that required by the format."""
 
 
 @dataclass(frozen=True, eq=False)
 class OutcomeTable:
-    """The rows of a table of outcomes whose records could be read.
+    """Rows of a table of outcomes with a readable record.
 
     Parameters
     ----------
-    observed : tuple of Observed
+    observed : tuple of Observation
     lines : tuple of int
-        The line of each.
+        Line of each row.
     kind : str
         ``fell`` or ``moved``.
     notes : tuple of str
-        What is to be known of the table, and of the rows that are left out.
+        Notes on the table, and on excluded rows.
     records : tuple of Record
-        Each once, as they were prepared.
+        Each once, with its processing applied.
     """
 
     observed: tuple[Observation, ...]
@@ -82,11 +82,11 @@ class OutcomeTable:
 
 @dataclass(frozen=True)
 class _Row:
-    """What one row says."""
+    """One row of the table; `event` is None if unknown."""
 
     line: int
     record: str
-    happened: bool | None
+    event: bool | None
     weight: float = 1.0
     component: str = ""
     scale: float = 1.0
@@ -104,31 +104,31 @@ def read_outcomes(
 ) -> OutcomeTable:
     """Return the outcomes of a table, with their records.
 
-    The header names the columns: ``record``, a file beside the table, or as it is found otherwise, or a bundled sample; ``fell`` or
-    ``moved`` (1, yes, true, 転倒; 0, no, false, 残存; an empty cell: nobody knows); and where needed ``weight``, ``component`` and
-    ``scale``, a factor on the record. Japanese names (記録, 転倒, 重み, 成分, 倍率) do as well; other columns are passed over.
+    The header names the columns: ``record``, a file beside the table, another path, or a bundled sample; ``fell`` or ``moved``
+    (1, yes, true, 転倒; 0, no, false, 残存; empty if unknown); optional ``weight``, ``component`` and ``scale``, a factor on the
+    record. Japanese names (記録, 転倒, 重み, 成分, 倍率) are equivalent; other columns are ignored.
 
     Parameters
     ----------
     name : path
         A CSV file, or the name of a bundled one.
     kind : "fell", "moved" or None
-        Which column counts, where there are both; None: the one there is, else ``fell``.
+        Column in use if there are both; None: the only one, else ``fell``.
     component : str or None
-        Component or azimuth of rows that name none; None: the only horizontal there is.
+        Component or azimuth of rows without one; None: the only horizontal.
     preparation : Preparation
-        What is done to each record before.
-    read_options : Options
-        What is said of files that do not say it themselves.
+        Processing of each record.
+    read_options : ReadOptions
+        Format, units and other properties missing in the files.
     strict : bool
-        Whether a row whose record cannot be read, or is doubtful, refuses the table, instead of being left out.
+        True to reject a table with an unreadable or doubtful record, instead of excluding the row.
     progress : callable
-        Told the number of rows read and the number in all.
+        Called with the number of rows read and the total.
 
     Raises
     ------
     ParameterError
-        If the table cannot be read, a column is missing, a cell is wrong (rows are named by their lines), or no record can be read.
+        If the table cannot be read, a column is missing, a cell is wrong (with its line), or no record can be read.
 
     Examples
     --------
@@ -139,14 +139,14 @@ def read_outcomes(
     path, source = _path(name), str(name)
     try:
         outcome_kind, rows, notes = _rows(read_text(path, source), source, kind)
-    except BodyError as error:  # what all tables share is said of bodies
+    except BodyError as error:  # raised by the table reader shared with bodies
         raise ParameterError(error.message) from error
     files = RecordCache(path.parent, preparation, read_options or ReadOptions(), strict)
-    observed, lines, skipped = [], [], []
+    observations, lines, skipped = [], [], []
     for count, row in enumerate(rows, start=1):
         try:
             motion = files.motion(row.record, row.component or component or "")
-            observed.append(Observation(motion, bool(row.happened), row.weight, row.scale, row.record))
+            observations.append(Observation(motion, bool(row.event), row.weight, row.scale, row.record))
             lines.append(row.line)
         except SeisblockError as error:
             if strict:
@@ -154,32 +154,31 @@ def read_outcomes(
             skipped.append((row.line, error.message))
         if progress is not None:
             progress(count, len(rows))
-    if not observed:
+    if not observations:
         line, reason = skipped[0]
-        text = "{source}: no record of it can be read; line {line}: {why}"
+        text = "{source}: none of its records can be read; line {line}: {why}"
         raise ParameterError(text, source=source, line=line, why=reason)
     return OutcomeTable(
-        tuple(observed), tuple(lines), outcome_kind, (*notes, *_skipped_row_notes(skipped, len(rows)), *files.doubts()), files.records
+        tuple(observations), tuple(lines), outcome_kind, (*notes, *_skipped_row_notes(skipped, len(rows)), *files.doubts()), files.records
     )
 
 
 def _path(name: Location) -> Path:
-    """Return the file that a name means: a path, else a bundled table of outcomes."""
     path = Path(checks.path(name))
     if path.is_dir():
-        raise ParameterError("{name} is a directory: give the CSV file of outcomes", name=str(name))
+        raise ParameterError("{name} is a folder; expected a CSV file of outcomes", name=str(name))
     file = resolve_file_or_sample(path, "outcomes")
     if file is None:
-        text = "no file of outcomes {name}, and no bundled one of that name; bundled are {known}"
+        text = "no file of outcomes {name}, and no bundled file of that name; bundled: {known}"
         raise ParameterError(text, name=str(name), known=sample_names("outcomes"))
     return file
 
 
 def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], list[str]]:
-    """Return which column counts, the rows of which the outcome is known, and what is to be known of the table."""
+    """Return the column in use, the rows with an outcome, and notes on the table."""
     lines = data_lines(text)
     if len(lines) < 2:
-        raise ParameterError("{source}: there is no outcome in it: expected a header, and one outcome on each line below it", source=source)
+        raise ParameterError("{source}: no outcome found; expected a header line, then one outcome per line", source=source)
     (header_line, header), body = lines[0], lines[1:]
     separator = find_separator(header)
     cells = split_cells(header, separator)
@@ -194,21 +193,19 @@ def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], li
     if row_errors:
         (line_number, message), other_lines = row_errors[0], more_bad_rows([number for number, _ in row_errors[1:]])
         raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=line_number, what=message, others=other_lines)
-    known_rows = [row for row in rows if row.happened is not None]
+    known_rows = [row for row in rows if row.event is not None]
     if not known_rows:
-        raise ParameterError(
-            "{source}: no outcome is known: every cell of the column {column} is empty", source=source, column=outcome_kind
-        )
+        raise ParameterError("{source}: no outcome found; every cell of the column {column} is empty", source=source, column=outcome_kind)
     notes: list[str] = []
     if len(known_rows) < len(rows):
-        notes.append(lazy_gettext("{count} rows without an outcome are passed over", count=len(rows) - len(known_rows)))
+        notes.append(lazy_gettext("{count} rows without an outcome ignored", count=len(rows) - len(known_rows)))
     if kind is None and {FELL, MOVED} <= set(columns):
-        notes.append(lazy_gettext("the column {column} counts; the other one is passed over", column=outcome_kind))
+        notes.append(lazy_gettext("column {column} used; the other outcome column ignored", column=outcome_kind))
     return outcome_kind, known_rows, notes
 
 
 def _outcome_column(columns: Sequence[str], cells: Sequence[str], source: str, line: int, kind: str | None) -> str:
-    """Return the column that counts, or refuse a header."""
+    """Return the outcome column in use after a check of the header."""
     for name in _NAMES:
         if columns.count(name) > 1:
             raise ParameterError(
@@ -230,13 +227,12 @@ def _outcome_column(columns: Sequence[str], cells: Sequence[str], source: str, l
 
 
 def _row(row: Mapping[str, str], kind: str, line: int) -> _Row:
-    """Return what one row says."""
     if not row.get("record"):
-        raise ParameterError("an outcome without a record: fill the cell")
+        raise ParameterError("outcome without a record; fill in the cell")
     text = row.get(kind, "")
-    if text and text.casefold() not in _HAPPENED_WORDS | _NOT_HAPPENED_WORDS:
+    if text and text.casefold() not in _EVENT_WORDS | _NO_EVENT_WORDS:
         raise ParameterError("{key} must be 0, 1, yes, no, true, false, 転倒 or 残存, found {text!r}", key=kind, text=text[:100])
-    result = _Row(line, row["record"], text.casefold() in _HAPPENED_WORDS if text else None, component=row.get("component", ""))
+    result = _Row(line, row["record"], text.casefold() in _EVENT_WORDS if text else None, component=row.get("component", ""))
     if row.get("weight"):
         result = replace(result, weight=checks.non_negative("weight", parse_number_cell(row["weight"], "weight")))
     if row.get("scale"):
@@ -245,8 +241,8 @@ def _row(row: Mapping[str, str], kind: str, line: int) -> _Row:
 
 
 def _skipped_row_notes(skipped: Sequence[tuple[int, str]], rows: int) -> list[str]:
-    """Return why rows are left out: the first reasons, and how many there are."""
+    """Return notes on excluded rows: their number, and the first reasons."""
     if not skipped:
         return []
-    summary = lazy_gettext("{count} of {rows} rows are left out, because their records cannot be used", count=len(skipped), rows=rows)
+    summary = lazy_gettext("{count} of {rows} rows excluded: record not usable", count=len(skipped), rows=rows)
     return [summary, *(lazy_gettext("line {line}: {why}", line=line, why=reason) for line, reason in skipped[:MAX_REASONS])]

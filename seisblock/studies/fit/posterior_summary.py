@@ -1,4 +1,4 @@
-"""What weighted blocks say of each parameter: its middle, its interval, and how much more is known of it than before."""
+"""Posterior summaries: medians, credible intervals, narrowing against the prior, and correlations."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from seisblock.studies.fit.likelihood import LAPSE_STEPS, LapseRate
 from seisblock.studies.fit.priors import ALPHA, INSET, LAPSE, RESTITUTION, SCATTER, P
 
 TURNING_ALPHA, TURNING_P = "turning_alpha", "turning_p"
-"""alpha and p as the block turns, its edges worn, where alpha and p themselves are of sharp edges."""
+"""alpha and p of the worn block, as against those of sharp edges."""
 
 PARAMETER_LABELS = {
     ALPHA: N_("alpha"),
     P: N_("p"),
     RESTITUTION: N_("restitution"),
-    INSET: N_("inset"),
-    TURNING_ALPHA: N_("alpha as it turns"),
-    TURNING_P: N_("p as it turns"),
+    INSET: N_("edge wear"),
+    TURNING_ALPHA: N_("alpha (worn)"),
+    TURNING_P: N_("p (worn)"),
     SCATTER: N_("scatter"),
     LAPSE: N_("lapses"),
 }
-"""Parameters as sentences call them."""
+"""Labels of the parameters in sentences and figures."""
 
 PRIOR_SAMPLES = 20_000
-"""Blocks that stand for what was thought before."""
+"""Number of samples of the prior."""
 
 IDENTIFIED_RATIO = 0.5
-"""An interval that is less narrow than this, of what it was before, was hardly told by the outcomes."""
+"""Largest ratio of the widths of posterior and prior interval of an identified parameter."""
 
 HIGH_CORRELATION = 0.9
-"""Parameters that are correlated by more than this cannot be told apart."""
+"""Correlation above which two parameters cannot be separated."""
 
 
 @dataclass(frozen=True)
 class Marginal:
-    """What is known of one parameter.
+    """Marginal posterior of one parameter.
 
     Parameters
     ----------
@@ -48,9 +48,9 @@ class Marginal:
     median : float
         alpha in rad, p in rad/s, else shares of 1.
     interval, before : (float, float)
-        Interval of the level asked for, and that before anything was seen, in the same unit.
+        Posterior and prior interval, in the same unit.
     narrowed : float, 1
-        Ratio of the former's width to the latter's: near 1 the outcomes tell nothing.
+        Ratio of their widths: near 1 the outcomes give no information.
     """
 
     name: str
@@ -61,13 +61,13 @@ class Marginal:
 
     @property
     def identified(self) -> bool:
-        """Whether the outcomes tell much of it."""
+        """True if the posterior is clearly narrower than the prior."""
         return self.narrowed < IDENTIFIED_RATIO
 
 
 @dataclass(frozen=True)
 class Correlation:
-    """How two parameters go together among the blocks that explain what was seen.
+    """Posterior correlation of two parameters.
 
     Parameters
     ----------
@@ -82,20 +82,21 @@ class Correlation:
 
 
 def quantiles(values: FloatArray, weights: FloatArray, shares: FloatArray) -> FloatArray:
-    """Return the values below which some shares of the weights lie; (n,), (n,) and (k,) arrays."""
+    """Return weighted quantiles; (n,), (n,) and (k,) arrays."""
     order = np.argsort(values)
     cumulative = np.cumsum(weights[order])
+    # each value stands at the middle of its own weight
     middles = (cumulative - 0.5 * weights[order]) / cumulative[-1]
     return np.interp(shares, middles, values[order])
 
 
 def medians(unit_points: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return the point each of whose coordinates is in the middle, (d,), of weighted points, (n, d)."""
+    """Return the coordinate-wise weighted median, (d,), of points, (n, d)."""
     return np.array([float(quantiles(column, weights, np.array([0.5]))[0]) for column in unit_points.T])
 
 
 def _marginal(name: str, values: FloatArray, weights: FloatArray, prior_values: FloatArray, level: float, *, logarithmic: bool) -> Marginal:
-    """Return what weighted values say, beside equally likely ones before."""
+    """Return the marginal posterior of weighted values, with the prior's interval."""
     tail = 0.5 * (1.0 - level)
     ends = np.array([tail, 0.5, 1.0 - tail])
     low, middle, high = (float(value) for value in quantiles(values, weights, ends))
@@ -105,17 +106,17 @@ def _marginal(name: str, values: FloatArray, weights: FloatArray, prior_values: 
 
 
 def marginals(family: BlockFamily, unit_points: FloatArray, weights: FloatArray, lapse: LapseRate, level: float) -> tuple[Marginal, ...]:
-    """Return what is known of each parameter that is looked for.
+    """Return the marginal posterior of each free parameter.
 
     Parameters
     ----------
-    family : Family
+    family : BlockFamily
     unit_points : (n, d) array, 1
     weights : (l, n) array, 1
         Of each lambda and each block.
-    lapse : Lapses
+    lapse : LapseRate
     level : float, 1
-        Of the intervals.
+        Level of the intervals.
     """
     block_weights, lapse_weights = weights.sum(axis=0), weights.sum(axis=1)
     prior_points = np.random.default_rng(0).random((PRIOR_SAMPLES, len(family.axes)))
@@ -135,7 +136,7 @@ def marginals(family: BlockFamily, unit_points: FloatArray, weights: FloatArray,
 
 
 def correlations(family: BlockFamily, unit_points: FloatArray, weights: FloatArray) -> tuple[Correlation, ...]:
-    """Return how each two of the parameters go together; `weights` of the blocks, (n,), sum up to 1."""
+    """Return the correlation of each pair of parameters; `weights` of the blocks, (n,), sum up to 1."""
     deviations = unit_points - weights @ unit_points
     spread = deviations.T @ (weights[:, None] * deviations)
     widths = np.sqrt(np.diag(spread))

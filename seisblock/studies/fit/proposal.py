@@ -1,4 +1,4 @@
-"""Where to look next: a cloud of blocks like those that explained most, wider than they, inside the bounds."""
+"""Proposal of the importance sampler: a truncated mixture of Student's t around resampled points."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ import numpy as np
 from seisblock.core.typing import FloatArray
 
 CENTRE_COUNT = 100
-"""Blocks around which the next ones are drawn."""
+"""Components of the mixture."""
 
 DEGREES_OF_FREEDOM = 4.0
-"""Degrees of freedom of Student's t around each of them: so heavy that nothing that counts is beyond reach."""
+"""Degrees of freedom of Student's t: tails heavy enough for bounded importance weights."""
 
 TRIAL_SIZE = 8192
-"""Points drawn to know which share of the cloud lies inside the bounds."""
+"""Points drawn at a time, and for the share of the mixture within the bounds."""
 
 MIN_WIDTH = 1e-4
-"""Of the cloud in each direction, of the distance of the bounds."""
+"""Smallest width of the mixture in each direction, relative to the bounds."""
 
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """A mixture of Student's t of one shape around several centres, cut off at the unit cube.
+    """Mixture of Student's t of one shape around several centres, truncated to the unit cube.
 
     Parameters
     ----------
     centres : (k, d) array, 1
     root : (d, d) array, 1
-        Of the matrix of the shape (lower triangle).
+        Cholesky factor of the shape matrix (lower triangle).
     inside_fraction : float, 1
-        Which share of the mixture lies in the cube.
+        Share of the mixture within the cube.
     points : (n, d) array, 1
-        Points drawn from it, in the cube.
+        Points drawn from the mixture, within the cube.
     """
 
     centres: FloatArray
@@ -43,7 +43,7 @@ class Proposal:
     points: FloatArray
 
     def log_density(self, unit_points: FloatArray) -> FloatArray:
-        """Return the logarithm of its density in the cube, (n,) (derived here from the density of Student's t)."""
+        """Return the log density within the cube, (n,) (derived here from the density of Student's t)."""
         from scipy.linalg import solve_triangular
         from scipy.special import gammaln, logsumexp
 
@@ -59,23 +59,26 @@ class Proposal:
 
 
 def make_proposal(unit_points: FloatArray, weights: FloatArray, count: int, rng: np.random.Generator) -> Proposal:
-    """Return a cloud around weighted points of the unit cube, (n, d), with `count` points drawn from it ([Cornuet2012]_ section 3).
+    """Return a proposal around weighted points of the unit cube, (n, d), with `count` points drawn from it ([Cornuet2012]_ section 3).
 
-    Its shape is the points' covariance, narrowed as for a density estimate of as many points as the weights amount to.
+    Its shape is the points' covariance, narrowed like the kernel of a density estimate of the effective sample size.
     """
     d = unit_points.shape[1]
     share = weights / weights.sum()
     effective_size = 1.0 / float((share**2).sum())
     middle = share @ unit_points
     spread = (unit_points - middle).T @ (share[:, None] * (unit_points - middle)) * (effective_size / max(effective_size - 1.0, 1.0))
+    # Silverman's factor for d dimensions
     bandwidth = (4.0 / ((d + 2.0) * effective_size)) ** (2.0 / (d + 4.0))
+    # a minimum width keeps the shape positive definite with few effective points
     shape = bandwidth * spread + MIN_WIDTH**2 * np.eye(d)
     root = np.linalg.cholesky(shape)
-    # one begin and equal steps: each centre stands as often as its weight says, without further dice
+    # systematic resampling: one random offset, equal steps; each point is a centre in proportion to its weight
     steps = (rng.random() + np.arange(CENTRE_COUNT)) / CENTRE_COUNT
     centres = unit_points[np.minimum(np.searchsorted(np.cumsum(share), steps), len(unit_points) - 1)]
     batches: list[FloatArray] = []
     trial_count = hits = 0
+    # rejection outside the cube; the accepted share normalises the truncated density
     while hits < count or trial_count < TRIAL_SIZE:
         base_points = centres[rng.integers(CENTRE_COUNT, size=TRIAL_SIZE)]
         radial_scale = np.sqrt(DEGREES_OF_FREEDOM / rng.chisquare(DEGREES_OF_FREEDOM, size=TRIAL_SIZE))

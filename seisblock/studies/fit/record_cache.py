@@ -1,4 +1,4 @@
-"""The records that a table of outcomes names."""
+"""Cache of the records named in a table of outcomes."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from seisblock.records.qc_report import require_clean
 
 @dataclass(eq=False)
 class RecordCache:
-    """The records of a table, each read once, and the motions in them.
+    """Records of a table, each read once, and their motions.
 
     Parameters
     ----------
     folder : Path
-        Where the table is.
+        Folder of the table.
     preparation : Preparation
-    read_options : Options
+    read_options : ReadOptions
     strict : bool
-        Whether a doubtful record is refused.
+        True to reject a doubtful record.
     """
 
     folder: Path
@@ -39,16 +39,16 @@ class RecordCache:
 
     @property
     def records(self) -> tuple[Record, ...]:
-        """The records that could be read."""
+        """Readable records."""
         return tuple(entry for entry in self.records_by_name.values() if isinstance(entry, Record))
 
     def motion(self, name: str, component: str) -> Motion:
-        """Return one component of a record; the same one for the same names."""
+        """Return one component of a record; the same object for the same names."""
         record = self._record(name)
         if not component:
             codes = [horizontal.code for horizontal in record.horizontals]
             if len(codes) != 1:
-                text = "{name} has the horizontal components {codes}: say which acted, in a column `component` or for all"
+                text = "{name} has the horizontal components {codes}; give the component of the shaking in a column `component`, or for all"
                 raise ComponentError(text, name=name, codes=codes or lazy_gettext("none"))
             component = codes[0]
         if (name, component) not in self.motions:
@@ -56,7 +56,7 @@ class RecordCache:
         return self.motions[name, component]
 
     def _record(self, name: str) -> Record:
-        """Return a record as it is prepared; one that cannot be read is not tried again."""
+        """Return a processed record, from the cache; a failure is cached, too."""
         if name not in self.records_by_name:
             try:
                 record = self._read(name)
@@ -71,7 +71,7 @@ class RecordCache:
         return entry
 
     def _read(self, name: str) -> Record:
-        """Return the record in a file beside the table, elsewhere, among the samples, or in a bundle (``bundle.zip/member.csv``)."""
+        """Return the record of a file beside the table, of another path, a sample, or a bundle (``bundle.zip/member.csv``)."""
         local_path = self.folder / name
         bundle = next((item for item in local_path.parents if item.is_file()), None)
         if bundle is not None:
@@ -83,11 +83,11 @@ class RecordCache:
         return read(str(local_path) if os.path.lexists(local_path) else name, **options)
 
     def doubts(self) -> list[str]:
-        """Return what is doubtful about the records, of each kind of doubt one."""
+        """Return the warnings about the records, the first of each kind with a count."""
         groups: dict[str, tuple[str, int]] = {}
         for record in self.records:
             for kind, message in {doubt.kind: doubt.message for doubt in record.doubts}.items():
                 first, count = groups.get(kind, (message, 0))
                 groups[kind] = first, count + 1
-        template = "{doubt} (and {count} more records alike)"
+        template = "{doubt} (likewise {count} other records)"
         return [first if count == 1 else lazy_gettext(template, doubt=first, count=count - 1) for first, count in groups.values()]

@@ -1,4 +1,4 @@
-"""The runs behind a fit: for each shaking and each block which share of the block's versions falls, or moves."""
+"""Simulations of a fit: share of falls, or of rocking, of each block under each shaking."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from seisblock.studies.fit.dataset import FELL, Experiment
 from seisblock.studies.parallel import map_threads
 
 SHARE_DENOMINATOR = 64
-"""Shares are kept in so many parts: no block has more versions under one shaking, and the number of them divides it."""
+"""Denominator of the shares: the largest number of samples per shaking, and a multiple of every number."""
 
 CHUNK_SIZE = 2**21
-"""Samples times runs that are followed at a time."""
+"""Samples times runs of one batch."""
 
 
 def outcome_shares(
@@ -29,39 +29,40 @@ def outcome_shares(
     *,
     progress: Progress | None = None,
 ) -> IntArray:
-    """Return how often the versions of each block fall, or move, under each shaking, in 64ths, (shakings, blocks).
+    """Return the share of samples of each block that fall, or move, under each shaking, in 64ths, (shakings, blocks).
 
-    The versions of a block fill the range of changes evenly, from another begin for each shaking and each block: what is by chance in one
-    share is not in another.
+    The samples of a block fill the range of changes evenly, with another random offset for each shaking and each block, so that the
+    errors of the shares are independent.
 
     Parameters
     ----------
     experiment : Experiment
-    family : Family
+    family : BlockFamily
     unit_points : (n, d) array, 1
         The blocks, as points of the unit cube.
     runs : (shakings,) array of int
-        Versions of each block under each shaking: 1, 2, 4 ... 64.
+        Samples of each block under each shaking: 1, 2, 4 ... 64.
     seed : tuple of int
     progress : callable
-        Told the number of shakings done and the number in all.
+        Called with the number of finished shakings and the total.
     """
 
     def work(k: int) -> IntArray:
         shaking, run_count = experiment.shakings[k], int(runs[k])
         offsets = np.random.default_rng((*seed, k)).random((len(unit_points), 1, PERTURBATION_COUNT))
         shifts = 2.0 * ((offsets + quasi_random_points(run_count, PERTURBATION_COUNT)) % 1.0) - 1.0
-        happened = np.zeros(len(unit_points), dtype=np.int64)
+        event_counts = np.zeros(len(unit_points), dtype=np.int64)
         size = max(1, CHUNK_SIZE // (shaking.motion.samples * run_count))
         for first in range(0, len(unit_points), size):
             part = slice(first, first + size)
+            # blocks times samples in one batch; a share is the mean over the samples
             params, gains = family.versions(
                 np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
             )
             verdicts = rock_verdicts(params, shaking.motion, gains).answered()
-            hits = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
-            happened[part] = hits.reshape(-1, run_count).sum(axis=1)
-        return happened * (SHARE_DENOMINATOR // run_count)
+            events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
+            event_counts[part] = events.reshape(-1, run_count).sum(axis=1)
+        return event_counts * (SHARE_DENOMINATOR // run_count)
 
     results: Generator[IntArray, None, None] = map_threads(work, range(len(experiment.shakings)))
     rows = []

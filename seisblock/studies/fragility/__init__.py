@@ -1,1 +1,1 @@
-"""From records to a curve: how likely it happens at each level of an intensity measure."""
+"""Fragility curves of bodies over a suite of records: stripes, incremental dynamic analysis (IDA) and cloud analysis."""

@@ -1,4 +1,4 @@
-"""When it happens first: the intensities at which motions, scaled up and up, pass a limit."""
+"""IDA capacities: the intensities at which scaled motions first exceed a limit state, and their lognormal moments."""
 
 from __future__ import annotations
 
@@ -13,38 +13,38 @@ from seisblock.studies.fragility.lognormal import Lognormal
 
 @dataclass(frozen=True, eq=False)
 class Capacities:
-    """When motions pass a limit for the first time.
+    """First exceedance of a limit state by each motion.
 
     Parameters
     ----------
     log_factor : (m,) array
-        Logarithm of the factor, the middle between the level at which it happened first and the one before; infinite where at none.
+        Logarithm of the factor, midway between the level of the first exceedance and the one before; infinite without exceedance.
     monotone : (m,) array of bool
-        Whether it happened at all levels above.
+        True if the limit is exceeded at all higher levels, too.
     """
 
     log_factor: FloatArray
     monotone: BoolArray
 
 
-def capacities(exceeded: BoolArray, log_levels: FloatArray, answered: BoolArray | None = None) -> Capacities:
-    """Return when each row of runs passed a limit first, on rising levels ([Vamvatsikos2002]_ section 4).
+def capacities(exceeded: BoolArray, log_levels: FloatArray, completed: BoolArray | None = None) -> Capacities:
+    """Return the first exceedance of a limit in each row of runs, on rising levels ([Vamvatsikos2002]_ section 4).
 
     Parameters
     ----------
     exceeded : (m, n) array of bool
     log_levels : (m, n) or (n,) array
         Logarithms of the factors, or of the intensities.
-    answered : (m, n) array of bool
-        Runs that have an answer; the levels of the others are left out. All when left out.
+    completed : (m, n) array of bool
+        Runs with a result; the levels of the others are left out. Default: all.
     """
     grid = np.broadcast_to(log_levels, exceeded.shape)
-    if answered is not None and not answered.all():
-        # a level without an answer stands for the one below it that has one
-        below = np.maximum.accumulate(np.where(answered, np.arange(exceeded.shape[1]), -1), axis=1)
-        first = np.argmax(answered, axis=1)[:, None]
+    if completed is not None and not completed.all():
+        # a level without a result is replaced by the next lower one with a result
+        below = np.maximum.accumulate(np.where(completed, np.arange(exceeded.shape[1]), -1), axis=1)
+        first = np.argmax(completed, axis=1)[:, None]
         below = np.where(below < 0, first, below)
-        exceeded = np.take_along_axis(exceeded, below, axis=1) & answered.any(axis=1, keepdims=True)
+        exceeded = np.take_along_axis(exceeded, below, axis=1) & completed.any(axis=1, keepdims=True)
         grid = np.take_along_axis(grid, below, axis=1)
     any_exceeded, first = exceeded.any(axis=1), exceeded.argmax(axis=1)
     rows = np.arange(len(exceeded))
@@ -54,24 +54,24 @@ def capacities(exceeded: BoolArray, log_levels: FloatArray, answered: BoolArray 
 
 
 def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tuple[FloatArray, FloatArray]:
-    """Return medians and betas of samples of intensities at which it happens first ([Baker2015]_ eqs. (2), (3); censored (4)-(7)).
+    """Return medians and betas of samples of capacities ([Baker2015]_ eqs. (2), (3); censored (4)-(7)).
 
-    Where all happened, mean and standard deviation of the logarithms; where some did not, up to the highest level, the values that make
-    that most likely.
+    Mean and standard deviation of the logarithms; if some motions do not exceed the limit up to the highest level, the
+    maximum-likelihood values of the censored sample.
 
     Parameters
     ----------
     log_capacities : (m,) array
-        Infinite where it did not happen.
+        Infinite without exceedance.
     weights : (b, m) array
-        How often each counts in each sample.
+        Weight of each capacity in each sample.
     top : float
         Logarithm of the highest level.
 
     Returns
     -------
     (b,) arrays
-        NaN where fewer than two happened, or all at one level.
+        NaN with fewer than two exceedances, or with all at one level.
     """
     observed = np.isfinite(log_capacities)
     value = np.where(observed, log_capacities, 0.0)
@@ -81,6 +81,7 @@ def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tupl
         mean = (weights * value).sum(axis=1) / observed_weight
         spread = (weights * observed * (value - mean[:, None]) ** 2).sum(axis=1)
         deviation = np.sqrt(spread / (observed_weight - 1.0))
+    # a spread of zero (all at one level) has no beta
     good = (observed_weight >= 2.0) & (spread > 1e-12)
     for row in np.flatnonzero(good & (censored > 0.0)):
         mean[row], deviation[row] = _censored(value[observed], weights[row, observed], float(censored[row]), top, mean[row], deviation[row])
@@ -88,15 +89,18 @@ def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tupl
 
 
 def _censored(value: FloatArray, weight: FloatArray, censored: float, top: float, mean: float, deviation: float) -> tuple[float, float]:
-    """Return mean and standard deviation of a normal sample, some of it above `top`, by EM ([Baker2015]_ eqs. (4)-(7))."""
+    """Return mean and standard deviation of a normal sample censored above `top`, by EM ([Baker2015]_ eqs. (4)-(7))."""
     from scipy.special import log_ndtr
 
     count = float(weight.sum())
     for _ in range(500):
         z = (top - mean) / deviation
+        # hazard rate of the normal distribution in logarithms: stable far in the upper tail
         ratio = math.exp(-0.5 * z * z - 0.5 * math.log(2.0 * math.pi) - float(log_ndtr(-z)))
+        # E step: moments of the values above `top`
         first = mean + deviation * ratio
         second = mean**2 + deviation**2 + deviation * (top + mean) * ratio
+        # M step
         new_mean = (float(weight @ value) + censored * first) / (count + censored)
         total = float(weight @ value**2) + censored * second
         spread = math.sqrt(max(total / (count + censored) - new_mean * new_mean, 1e-24))
@@ -108,7 +112,7 @@ def _censored(value: FloatArray, weight: FloatArray, censored: float, top: float
 
 
 def fit_capacities(intensities: FloatArray, *, top: float | None = None) -> Lognormal | None:
-    """Return the lognormal of intensities at which it happened first, infinite where it did not up to `top`; None where none follows."""
+    """Return the lognormal of capacities, infinite without exceedance up to `top`; None if no curve follows."""
     with np.errstate(divide="ignore"):
         logs = np.log(np.asarray(intensities, dtype=np.float64))
     highest = math.log(top) if top is not None else float(np.max(logs[np.isfinite(logs)], initial=0.0))

@@ -1,4 +1,4 @@
-"""What counts as having happened: a state of the object that a run passes or does not."""
+"""Limit states of a fragility: uplift, tilt, slip and overturning."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from seisblock.core.units import parse_length
 ROCK, LEAN, SLIP, OVERTURN = "rock", "lean", "slip", "overturn"
 
 SUPPORTED_LIMITS = {"rock": (ROCK, LEAN, OVERTURN), "respond": (ROCK, LEAN, SLIP, OVERTURN), "slide": (SLIP,), "stack": (SLIP, OVERTURN)}
-"""The limits that each solver knows an answer to."""
+"""Limit states of each solver."""
 
 
 @dataclass(frozen=True, eq=False)
 class EndStates:
-    """What some runs came to, (m,) each; None where the solver does not say.
+    """Outcomes of several runs, (m,) each; None for a quantity that the solver does not compute.
 
     Parameters
     ----------
     overturned : bool
     tilt_ratio : float, 1
-        Largest lean over the slenderness alpha of its side.
+        Peak tilt over the slenderness alpha of its side.
     slip_m : float, m
-        How far the object was moved; infinite where it fell.
+        Displacement of the object; infinite for an overturned one.
     gave_up : bool
-        Runs without an answer; None where there is none of them.
+        Runs stopped without a result; None if there are none.
     """
 
     overturned: BoolArray | None = None
@@ -42,20 +42,20 @@ class EndStates:
 
 @dataclass(frozen=True)
 class LimitState:
-    """A limit that an object passes, or does not.
+    """Limit state of an object, exceeded or not.
 
     Parameters
     ----------
     kind : str
-        ``overturn``; ``rock``, it leaves its rest; ``lean``, it leans by more than a share of its slenderness; ``slip``, it is moved by
-        more than a length, or falls.
+        ``overturn``; ``rock``: uplift; ``lean``: peak tilt above a share of the slenderness; ``slip``: displacement above a length,
+        or overturning.
     threshold : float or None
         The share, 1, or the length, m.
 
     Raises
     ------
     ParameterError
-        If there is no such limit, or its threshold is missing or of no use.
+        If the limit is unknown, or its threshold is missing or out of range.
     """
 
     kind: str
@@ -64,31 +64,31 @@ class LimitState:
     def __post_init__(self) -> None:
         if self.kind not in (ROCK, LEAN, SLIP, OVERTURN):
             raise ParameterError(
-                "there is no limit {name!r}; there are {known}",
+                "unknown limit {name!r}; available: {known}",
                 name=str(self.kind)[:100],
                 known=[OVERTURN, ROCK, f"{SLIP}=5cm", f"{LEAN}=0.5"],
             )
         if (self.kind in (LEAN, SLIP)) != (self.threshold is not None):
-            raise ParameterError("a limit of slip or lean needs a number, slip=5cm or lean=0.5, and no other has one")
+            raise ParameterError("the limits slip and lean require a threshold (slip=5cm, lean=0.5); rock and overturn take none")
         if self.threshold is not None:
             checks.positive("the threshold of a limit", self.threshold)
 
     @property
     def name(self) -> str:
-        """As it is asked for: ``overturn``, ``slip=0.05m``, ``lean=0.5``."""
+        """Name in option syntax: ``overturn``, ``slip=0.05m``, ``lean=0.5``."""
         if self.threshold is None:
             return self.kind
         return f"{self.kind}={self.threshold:g}{'m' if self.kind == SLIP else ''}"
 
     def exceeded(self, ends: EndStates) -> BoolArray:
-        """Return which runs passed it."""
+        """Return the runs that exceed the limit."""
         values = {OVERTURN: ends.overturned, ROCK: ends.tilt_ratio, LEAN: ends.tilt_ratio, SLIP: ends.slip_m}[self.kind]
         assert values is not None
         return np.asarray(values > (self.threshold or 0.0))
 
 
 def limit_state(text: str | LimitState) -> LimitState:
-    """Return the limit that a text names.
+    """Return the limit state of a text.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def limit_state(text: str | LimitState) -> LimitState:
     Raises
     ------
     ParameterError, UnitError
-        If it names none.
+        If the text names no limit state.
 
     Examples
     --------
@@ -115,62 +115,64 @@ def limit_state(text: str | LimitState) -> LimitState:
     try:
         return LimitState(kind, float(number))
     except ValueError:
-        raise ParameterError("the threshold of {text!r} is no number: write lean=0.5", text=str(text)[:100]) from None
+        raise ParameterError(
+            "the threshold of {text!r} is not a number; expected a share of alpha such as lean=0.5", text=str(text)[:100]
+        ) from None
 
 
 def describe_limit(name: str) -> Message:
-    """Return what it means to pass a limit, as a value of what is said.
+    """Return a label of a limit state.
 
     Parameters
     ----------
     name : str
-        As of :attr:`LimitState.name`.
+        As in :attr:`LimitState.name`.
 
     Examples
     --------
     >>> print(describe_limit("overturn"), describe_limit("slip=0.05m"), describe_limit("lean=0.5"), sep=", ")
-    overturns, moved 0.05 m, leans 0.5 alpha
+    overturning, slip 0.05 m, tilt 0.5 alpha
     """
     limit = limit_state(name)
     if limit.kind == LEAN:
-        return lazy_gettext("leans {share} alpha", share=f"{limit.threshold:g}")
+        return lazy_gettext("tilt {share} alpha", share=f"{limit.threshold:g}")
     if limit.kind == SLIP:
-        return lazy_gettext("moved {length}", length=f"{limit.threshold:g} m")
-    return lazy_gettext("overturns") if limit.kind == OVERTURN else lazy_gettext("rocks")
+        return lazy_gettext("slip {length}", length=f"{limit.threshold:g} m")
+    return lazy_gettext("overturning") if limit.kind == OVERTURN else lazy_gettext("rocking")
 
 
 def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: str) -> tuple[LimitState, ...]:
-    """Return the limits that a solver is asked about, in the order in which they are passed.
+    """Return the limit states of a study in order of severity.
 
     Raises
     ------
     ParameterError
-        If there is none, two are the same, or the solver knows no answer to one.
+        If there is none, two are the same, or the solver does not compute one.
     """
     items = [texts] if isinstance(texts, (str, LimitState)) else list(texts)
     states = tuple(limit_state(state) for state in items)
     if not states:
-        raise ParameterError("no limit is given: say overturn, rock, slip=5cm or lean=0.5")
+        raise ParameterError("no limit given; expected overturn, rock, slip=5cm or lean=0.5")
     for state in states:
         if state.kind not in SUPPORTED_LIMITS[solver]:
             raise ParameterError(
-                "{solver} knows no answer to the limit {name!r}; it knows {known}",
+                "{solver} does not compute the limit {name!r}; available: {known}",
                 solver=solver,
                 name=state.name,
                 known=list(SUPPORTED_LIMITS[solver]),
             )
     if len(set(states)) < len(states):
-        raise ParameterError("a limit is given twice: name each once")
+        raise ParameterError("duplicate limit; give each limit once")
     order = (ROCK, LEAN, SLIP, OVERTURN)
     return tuple(sorted(states, key=lambda state: (order.index(state.kind), state.threshold or 0.0)))
 
 
 def cumulative_exceedance(exceeded: BoolArray) -> BoolArray:
-    """Return which runs came to each limit or beyond it: one that passed a later limit is past those before it.
+    """Return exceedances of each limit or a more severe one.
 
     Parameters
     ----------
     exceeded : (..., k) array of bool
-        Limits in their order along the last axis.
+        Limits in order of severity along the last axis.
     """
     return np.asarray(np.logical_or.accumulate(exceeded[..., ::-1], axis=-1)[..., ::-1])

@@ -1,4 +1,4 @@
-"""How well a lognormal fits, judged against samples of itself: runs at several levels share their motions, so that no table applies."""
+"""Goodness of fit of a lognormal curve by parametric bootstrap: runs at several levels share their motions, so no table applies."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from seisblock.studies.fragility.lognormal import Lognormal, fit_lognormals
 from seisblock.studies.fragility.results import Goodness
 
 SAMPLE_COUNT = 400
-"""Samples of the fitted curve that it is judged against."""
+"""Samples of the fitted curve."""
 
 SIGNIFICANCE = 0.05
-"""A curve is doubted where fewer of them lie as far from theirs."""
+"""Significance level of a misfit."""
 
 KS, CUMULATED = "ks", "cumulated residuals"
 
@@ -21,10 +21,10 @@ KS, CUMULATED = "ks", "cumulated residuals"
 def goodness_of_stripes(
     curve: Lognormal, levels: FloatArray, exceeding: FloatArray, runs: float, motions: int, rng: np.random.Generator
 ) -> Goodness:
-    """Return how well a curve fits shares at levels that the same motions were scaled to ([Lilliefors1967]_ method).
+    """Return the goodness of fit of a curve to shares at levels of the same scaled motions ([Lilliefors1967]_ method).
 
-    Each sample is of as many motions with their own intensities at which it happens; it is counted at the levels, fitted, and its
-    distance taken from its own curve. Motions count as independent of each other.
+    Each sample consists of as many motions with random capacities; it is counted at the levels, fitted, and compared with its own
+    curve. Motions count as independent.
 
     Parameters
     ----------
@@ -33,10 +33,11 @@ def goodness_of_stripes(
     runs : float
         At each level.
     motions : int
-        How many intensities a sample draws.
+        Capacities in a sample.
     rng : numpy.random.Generator
     """
     samples = curve.median * np.exp(curve.beta * rng.standard_normal((SAMPLE_COUNT, motions)))
+    # one capacity decides a motion at all levels: counts at the levels are dependent, as in the data
     counts = (samples[:, :, None] <= levels).sum(axis=1).astype(np.float64)
     medians, betas = fit_lognormals(levels, counts, np.full((1, levels.size), float(motions)))
     good = np.isfinite(medians)
@@ -46,18 +47,19 @@ def goodness_of_stripes(
 
 
 def goodness_of_capacities(curve: Lognormal, log_capacities: FloatArray, top: float, rng: np.random.Generator) -> Goodness:
-    """Return how well a curve fits the intensities at which it happened first, up to a highest level ([Lilliefors1967]_ method).
+    """Return the goodness of fit of a curve to IDA capacities up to a highest level ([Lilliefors1967]_ method).
 
     Parameters
     ----------
     curve : Lognormal
     log_capacities : (m,) array
-        Infinite where it did not happen.
+        Infinite without exceedance.
     top : float
         Logarithm of the highest level.
     rng : numpy.random.Generator
     """
     samples = np.log(curve.median) + curve.beta * rng.standard_normal((SAMPLE_COUNT, log_capacities.size))
+    # censored at the highest level, as the data are
     samples = np.where(samples <= top, samples, np.inf)
     sample_distances = []
     for sample in samples:
@@ -68,19 +70,19 @@ def goodness_of_capacities(curve: Lognormal, log_capacities: FloatArray, top: fl
     return _make_goodness(KS, distance, np.array(sample_distances), None)
 
 
-def goodness_of_cloud(curve: Lognormal, intensities: FloatArray, happened: FloatArray, runs: float, rng: np.random.Generator) -> Goodness:
-    """Return how well a curve fits what happened at intensities as they came ([SuWei1991]_ method: residuals summed along them).
+def goodness_of_cloud(curve: Lognormal, intensities: FloatArray, exceeding: FloatArray, runs: float, rng: np.random.Generator) -> Goodness:
+    """Return the goodness of fit of a curve to unscaled motions ([SuWei1991]_ method: cumulated residuals).
 
     Parameters
     ----------
     curve : Lognormal
-    intensities, happened : (m,) arrays
+    intensities, exceeding : (m,) arrays
     runs : float
         Of each motion.
     rng : numpy.random.Generator
     """
     order = np.argsort(intensities)
-    x, y = intensities[order], happened[order]
+    x, y = intensities[order], exceeding[order]
     expected = curve.probability(x)
     samples = rng.binomial(int(runs), expected, (SAMPLE_COUNT, x.size)).astype(np.float64)
     medians, betas = fit_lognormals(x, samples, np.full((1, x.size), runs))
@@ -91,13 +93,13 @@ def goodness_of_cloud(curve: Lognormal, intensities: FloatArray, happened: Float
 
 
 def _make_goodness(statistic: str, distance: float, sample_distances: FloatArray, deviance: float | None) -> Goodness:
-    """Return the judgement of a distance beside those of samples."""
+    """Return the rank of a distance among those of the samples; +1 counts the data as one of them."""
     share = float((np.sum(sample_distances >= distance) + 1.0) / (sample_distances.size + 1.0))
     return Goodness(statistic, distance, share, deviance, share >= SIGNIFICANCE)
 
 
 def _probabilities(levels: FloatArray, medians: FloatArray, betas: FloatArray) -> FloatArray:
-    """Return the probabilities of several curves at some levels, (b, n)."""
+    """Return the probabilities of several curves at given levels, (b, n)."""
     from scipy.special import ndtr
 
     return np.asarray(ndtr((np.log(levels) - np.log(medians)[:, None]) / betas[:, None]))
@@ -108,27 +110,28 @@ def _ks_distances(shares: FloatArray, levels: FloatArray, medians: FloatArray, b
     return np.asarray(np.abs(shares - _probabilities(levels, medians, betas)).max(axis=1))
 
 
-def _max_cumulative_residual(happened: FloatArray, x: FloatArray, medians: FloatArray, betas: FloatArray, runs: float) -> FloatArray:
-    """Return the largest sum of what happened less what each curve expected, along x, over the root of the number of runs, (b,)."""
-    residuals = happened - runs * _probabilities(x, medians, betas)
+def _max_cumulative_residual(exceeding: FloatArray, x: FloatArray, medians: FloatArray, betas: FloatArray, runs: float) -> FloatArray:
+    """Return the largest cumulated residual along x over the root of the number of runs, (b,)."""
+    residuals = exceeding - runs * _probabilities(x, medians, betas)
     return np.asarray(np.abs(np.cumsum(residuals, axis=1)).max(axis=1) / np.sqrt(runs * x.size))
 
 
 def _ks_distance(log_capacities: FloatArray, median: float, beta: float) -> float:
-    """Return the largest distance of the steps of a sample from a curve, as far as it happened."""
+    """Return the Kolmogorov-Smirnov distance of a sample, censored at the top, from a curve."""
     from scipy.special import ndtr
 
     sorted_logs = np.sort(log_capacities)
     observed = np.isfinite(sorted_logs)
     expected = ndtr((sorted_logs[observed] - np.log(median)) / beta)
     steps = np.arange(1, int(observed.sum()) + 1) / sorted_logs.size
+    # the empirical distribution jumps at each value: both sides of the step count
     return float(np.max([np.abs(steps - expected), np.abs(steps - 1.0 / sorted_logs.size - expected)], initial=0.0))
 
 
-def _deviance(expected: FloatArray, happened: FloatArray, runs: FloatArray) -> float:
-    """Return twice what the likelihood falls short of that of the shares themselves, over the degrees of freedom."""
+def _deviance(expected: FloatArray, exceeding: FloatArray, runs: FloatArray) -> float:
+    """Return the deviance over the degrees of freedom: twice the log-likelihood deficit against the shares themselves."""
     from scipy.special import xlogy
 
-    shortfall = xlogy(happened, happened / np.maximum(runs * expected, 1e-300))
-    shortfall += xlogy(runs - happened, (runs - happened) / np.maximum(runs * (1.0 - expected), 1e-300))
+    shortfall = xlogy(exceeding, exceeding / np.maximum(runs * expected, 1e-300))
+    shortfall += xlogy(runs - exceeding, (runs - exceeding) / np.maximum(runs * (1.0 - expected), 1e-300))
     return float(2.0 * shortfall.sum() / max(expected.size - 2, 1))

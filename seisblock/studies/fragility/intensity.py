@@ -1,4 +1,4 @@
-"""How strong a motion is, in the one number that a fragility is drawn over: as the solver feels it, along the direction solved."""
+"""Intensity measures of a fragility: one number per motion, along the direction of the solution."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ _AXIS_LABELS = {PGA: "PGA", PGV: "PGV", PGD: "PGD", ARIAS: "Arias", P_PGV: "p PG
 
 @dataclass(frozen=True)
 class IntensityMeasure:
-    """One measure of a motion's strength.
+    """Intensity measure of a motion.
 
     Parameters
     ----------
     kind : str
-        ``pga``, ``pgv``, ``pgd``, ``sa`` (at 5 % damping), ``arias``, or ``p*pgv``: p PGV/g, without unit, with the frequency parameter p
-        of the body.
+        ``pga``, ``pgv``, ``pgd``, ``sa`` (at 5 % damping), ``arias``, or ``p*pgv``: p PGV/g, dimensionless, with the frequency
+        parameter p of the body.
     period_s : float or None, s
-        Of ``sa``.
+        Period of ``sa``.
 
     Raises
     ------
     ParameterError
-        If there is no such measure, or a period is missing or of no use.
+        If the measure is unknown, or a period is missing, superfluous or out of range.
     """
 
     kind: str
@@ -49,44 +49,44 @@ class IntensityMeasure:
     def __post_init__(self) -> None:
         if self.kind not in _UNITS:
             raise ParameterError(
-                "there is no intensity measure {name!r}; there are {known}", name=str(self.kind)[:100], known=[*_NAMES, "sa=0.5"]
+                "unknown intensity measure {name!r}; available: {known}", name=str(self.kind)[:100], known=[*_NAMES, "sa=0.5"]
             )
         if (self.kind == SA) != (self.period_s is not None):
-            raise ParameterError("a spectral acceleration needs its period, sa=0.5 (s), and no other measure has one")
+            raise ParameterError("sa requires a period in s (sa=0.5); other measures take none")
         if self.period_s is not None:
             checks.positive("the period of a spectral acceleration", self.period_s, "s")
 
     @property
     def name(self) -> str:
-        """As it is asked for: ``pgv``, ``sa=0.5``."""
+        """Name in option syntax: ``pgv``, ``sa=0.5``."""
         return self.kind if self.period_s is None else f"{SA}={self.period_s:g}"
 
     @property
     def label(self) -> str:
-        """As it stands on an axis: ``PGV``, ``Sa(0.5 s)``."""
+        """Label of an axis: ``PGV``, ``Sa(0.5 s)``."""
         return _AXIS_LABELS[self.kind] if self.period_s is None else f"Sa({self.period_s:g} s)"
 
     @property
     def unit(self) -> str:
-        """Of its values: ``m/s^2``, ``m/s``, ``m``, or ``1`` for none."""
+        """Unit of its values: ``m/s^2``, ``m/s``, ``m``, or ``1`` for none."""
         return _UNITS[self.kind]
 
     @property
     def power(self) -> int:
-        """How it grows with the motion: twice as strong is so many times a factor of two (the Arias intensity: twice)."""
+        """Power of the scale factor in the measure: 2 for the Arias intensity, else 1."""
         return 2 if self.kind == ARIAS else 1
 
     def display_unit(self, *, gal: bool = True) -> tuple[float, str]:
-        """Return the unit in which it is told, SI, and its name: gal, kine and cm, or SI."""
+        """Return the display unit, SI, and its name: gal, kine and cm, or SI."""
         return _DISPLAY_UNITS[self.kind] if gal else (1.0, _DISPLAY_UNITS_SI[self.kind])
 
     def of(self, motion: Motion) -> float:
-        """Return its value for a motion, SI; of ``p*pgv`` the velocity alone, to be multiplied by :meth:`share`.
+        """Return the value for a motion, SI; of ``p*pgv`` the velocity alone, to be multiplied by :meth:`share`.
 
         Parameters
         ----------
         motion : Motion
-            Its row along +x is what is measured.
+            Its row along +x is measured.
         """
         a, dt = motion.horizontal, motion.dt
         if self.kind == PGA:
@@ -99,22 +99,22 @@ class IntensityMeasure:
         return peak_displacement(history) if self.kind == PGD else peak_velocity(history, dt)
 
     def share(self, body: object, gravity: float) -> float:
-        """Return the factor that a body has in it: p/g of ``p*pgv`` ([DimitrakopoulosParaskeva2015]_ section 3), else 1.
+        """Return the factor of the body: p/g of ``p*pgv`` ([DimitrakopoulosParaskeva2015]_ section 3), else 1.
 
         Parameters
         ----------
-        body : Block, or anything
+        body : Block or other
         gravity : float, m/s^2
 
         Raises
         ------
         ParameterError
-            If a body without a frequency parameter is asked for its share.
+            If the body has no frequency parameter.
         """
         if self.kind != P_PGV:
             return 1.0
         if not isinstance(body, Block):
-            raise ParameterError("p*pgv needs a body with a frequency parameter, a block: take pgv")
+            raise ParameterError("p*pgv requires a body with a frequency parameter (a block); use pgv")
         return body.frequency_parameter(gravity) / gravity
 
 
@@ -122,7 +122,7 @@ _NAMES = (PGA, PGV, PGD, ARIAS, P_PGV)
 
 
 def intensity_measure(text: str | IntensityMeasure) -> IntensityMeasure:
-    """Return the measure that a text names.
+    """Return the intensity measure of a text.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def intensity_measure(text: str | IntensityMeasure) -> IntensityMeasure:
     Raises
     ------
     ParameterError
-        If it names none.
+        If the text names no measure.
 
     Examples
     --------
@@ -147,9 +147,9 @@ def intensity_measure(text: str | IntensityMeasure) -> IntensityMeasure:
     try:
         return IntensityMeasure(kind, float(period.removesuffix("s")))
     except ValueError:
-        raise ParameterError("the period of {text!r} is no number: write sa=0.5, in s", text=str(text)[:100]) from None
+        raise ParameterError("the period of {text!r} is not a number; expected sa=0.5, in s", text=str(text)[:100]) from None
 
 
 def factors_for(levels: FloatArray, value: float | FloatArray, measure: IntensityMeasure) -> FloatArray:
-    """Return the factors on a motion of some intensity that bring it to each of some levels (derived here: level = value factor^power)."""
+    """Return the factors that scale a motion to given levels of a measure (derived here: level = value factor^power)."""
     return np.asarray((levels / value) ** (1.0 / measure.power))

@@ -1,4 +1,4 @@
-"""A fragility that was found before: the document of ``seisblock fragility``, read back."""
+"""Reader of fragility documents printed by ``seisblock fragility``."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ SCHEMA_PREFIX = "seisblock/fragility/"
 
 @dataclass(frozen=True)
 class FragilityCurve:
-    """A lognormal curve, and what it is of.
+    """Lognormal fragility curve with its body, limit state and intensity measure.
 
     Parameters
     ----------
     body, limit : str
-        Empty where nobody said.
+        Empty if unknown.
     im, unit : str
-        Measure of intensity, and the unit of the median, SI.
+        Intensity measure, and the unit of the median, SI.
     curve : Lognormal
     """
 
@@ -42,7 +42,7 @@ class FragilityCurve:
 
 
 def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
-    """Return the curves of a document that ``seisblock fragility`` printed as JSON.
+    """Return the curves of a JSON document of ``seisblock fragility``.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
     Raises
     ------
     ParameterError
-        If the file cannot be read, is no such document, or holds no curve.
+        If the file cannot be read, is not such a document, or contains no curve.
 
     Examples
     --------
@@ -64,40 +64,41 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
     try:
         document = json.loads(data)
     except (ValueError, RecursionError) as error:
-        raise ParameterError("{name} is no JSON document: give one that seisblock fragility printed", name=name) from error
+        raise ParameterError("{name} is not a JSON document; expected the JSON output of seisblock fragility", name=name) from error
     if not (isinstance(document, dict) and str(document.get("schema", "")).startswith(SCHEMA_PREFIX)):
-        raise ParameterError("{name} is not a document of seisblock fragility", name=name)
+        raise ParameterError("{name} is not a fragility document; expected the JSON output of seisblock fragility", name=name)
     try:
         curves = tuple(_curve_from_entry(entry) for entry in document["results"] if entry["median"] is not None)
     except (KeyError, TypeError, InputError) as error:
-        raise ParameterError("{name} is a damaged document of seisblock fragility: make it again", name=name) from error
+        raise ParameterError(
+            "{name} is a damaged fragility document; create it again with seisblock fragility", name=name
+        ) from error
     if not curves:
-        raise ParameterError("{name} holds no curve, only reasons why there is none", name=name)
+        raise ParameterError("{name} contains no fragility curve (all fits failed)", name=name)
     return curves
 
 
 def _curve_from_entry(entry: dict[str, Any]) -> FragilityCurve:
-    """Return one curve of a document."""
     measure = intensity_measure(entry["im"])
     if entry["unit"] != measure.unit:
-        raise ParameterError("{im} is in {unit}, not in {found}", im=measure.name, unit=measure.unit, found=entry["unit"])
+        raise ParameterError("{im} must be in {unit}, found {found}", im=measure.name, unit=measure.unit, found=entry["unit"])
     return FragilityCurve(str(entry["body"]), str(entry["limit"]), measure.name, measure.unit, Lognormal(entry["median"], entry["beta"]))
 
 
 def fragility_from_median(hazard: Hazard, median: str | float, beta: float) -> FragilityCurve:
-    """Return the curve of a median that somebody wrote beside a hazard.
+    """Return the fragility curve of a median in the intensity measure of a hazard.
 
     Parameters
     ----------
     hazard : Hazard
     median : str or float
-        With a unit (``0.4g``, ``60cm/s``); a bare number is in SI, if the hazard's table is, too.
+        With a unit (``0.4g``, ``60cm/s``); a bare number is in SI, provided that the hazard's table is, too.
     beta : float, 1
 
     Raises
     ------
     UnitError
-        If the unit is missing where it could be another one, or unknown.
+        If the unit is missing and ambiguous, or unknown.
     ParameterError
         If a number is not positive.
     """
@@ -105,22 +106,24 @@ def fragility_from_median(hazard: Hazard, median: str | float, beta: float) -> F
     value, unit_text = parse_quantity(median, UNITS_OF[measure.unit], quantity=lazy_gettext("the median"))
     if not unit_text and hazard.table_unit != 1.0:
         unit_names = [*UNITS_OF[measure.unit]]
-        raise UnitError("the median {median} has no unit, and the hazard is not in SI: add one of {known}", median=median, known=unit_names)
+        raise UnitError(
+            "the median {median} has no unit, and the hazard is not in SI; add a unit: {known}", median=median, known=unit_names
+        )
     return FragilityCurve("", "", measure.name, measure.unit, Lognormal(value, beta))
 
 
 def check_measure(curves: Sequence[FragilityCurve], hazard: Hazard) -> tuple[FragilityCurve, ...]:
-    """Return curves in the measure of a hazard.
+    """Return curves after a check that they use the intensity measure of a hazard.
 
     Raises
     ------
     ParameterError
-        If one is in another.
+        If a curve uses another measure.
     """
     for curve in curves:
         if curve.im != hazard.im:
             raise ParameterError(
-                "the fragility is in {im} and the hazard in {found}: look for a hazard in {im}, or find the fragility with {found}",
+                "the fragility is in {im} and the hazard in {found}; use a hazard in {im}, or a fragility in {found}",
                 im=curve.im,
                 found=hazard.im,
             )

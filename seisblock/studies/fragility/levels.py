@@ -1,4 +1,4 @@
-"""At which intensities to look, where nobody says: so far down that hardly anything happens, so far up that nearly all does."""
+"""Levels of a fragility: validation of given levels, and a search for the range between rare and almost sure exceedance."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray
 
 DEFAULT_STEPS = 60
-"""Levels, unless another number is asked for."""
+"""Default number of levels."""
 
 MAX_DOUBLINGS = 12
-"""Doublings and halvings of the motions as they are, at most, in the search for the range."""
+"""Largest number of doublings and halvings of the unscaled motions in the search for the range."""
 
 LOW_SHARE, HIGH_SHARE = 0.02, 0.95
-"""Shares of the runs in which it happens at the ends of the range."""
+"""Exceeding shares of the runs at the ends of the range."""
 
 
 def check_levels(levels: ArrayLike) -> FloatArray:
-    """Return levels that were given, rising, each once.
+    """Return given levels, rising, without duplicates.
 
     Raises
     ------
@@ -30,21 +30,21 @@ def check_levels(levels: ArrayLike) -> FloatArray:
     """
     unique_levels = np.unique(checks.float_array("the levels", levels))
     if unique_levels.size < 2:
-        raise ParameterError("a fragility needs two levels or more, found {count}", count=unique_levels.size)
+        raise ParameterError("a fragility requires at least two levels, found {count}", count=unique_levels.size)
     if not (np.isfinite(unique_levels).all() and (unique_levels > 0.0).all()):
         raise ParameterError("the levels of a fragility must be positive numbers")
     return unique_levels
 
 
 def find_levels(shares_at: Callable[[float], FloatArray], middle: float, steps: int = DEFAULT_STEPS) -> FloatArray:
-    """Return levels, evenly in their logarithm, between one at which hardly anything happens and one at which nearly all does.
+    """Return levels, logarithmically spaced, between rare and almost sure exceedance.
 
     Parameters
     ----------
     shares_at : callable
-        ``shares_at(level)``: in which share of the motions each body passed each limit.
+        ``shares_at(level)``: share of the motions that exceed each limit, for each body.
     middle : float
-        Where the search begins; it goes on by doubling and halving.
+        Start of the search, which proceeds by doubling and halving.
     steps : int
         At least 2.
     """
@@ -60,7 +60,8 @@ def find_levels(shares_at: Callable[[float], FloatArray], middle: float, steps: 
 def _extend_level(
     shares_at: Callable[[float], FloatArray], level: float, factor: float, shares: FloatArray, is_reached: Callable[[FloatArray], BoolArray]
 ) -> float:
-    """Return the first of a row of levels at which something is so for all shares; the last one where it never is."""
+    """Return the first level of a geometric sequence at which a condition holds for all shares; the last if none."""
+    # bounded: some limits are never, or always, exceeded
     for _ in range(MAX_DOUBLINGS):
         if is_reached(shares).all():
             break

@@ -1,4 +1,4 @@
-"""The lognormal curve, and its fit to counts at levels."""
+"""Lognormal fragility curve, and its maximum-likelihood fit to counts at levels."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from seisblock.core.typing import ArrayLike, FloatArray
 from seisblock.studies.fragility.probit import fit_probit, is_separated
 
 NOT_INCREASING = lazy_gettext(
-    "it does not happen more often at higher levels: no fragility follows; look at more records, or at another measure"
+    "exceedances do not increase with the level: no fragility curve; use more records, or another intensity measure"
 )
-"""Why counts that do not rise with the level have no curve."""
+"""Reason against a curve from counts that do not rise with the level."""
 
 MAX_LOG_MEDIAN = 100.0
-"""Logarithm of a median beyond which there is no curve."""
+"""Logarithm of a median above which there is no curve."""
 
 
 @dataclass(frozen=True)
 class Lognormal:
-    """A probability that rises with the intensity x as Phi(ln(x/median)/beta) ([Baker2015]_ eq. (1)).
+    """Probability that rises with the intensity x as Phi(ln(x/median)/beta) ([Baker2015]_ eq. (1)).
 
     Parameters
     ----------
     median : float, in `unit` of the intensity
-        At which it is one half.
+        Intensity of probability one half.
     beta : float, 1
-        Standard deviation of the logarithm of the intensity at which it happens.
+        Standard deviation of the logarithm of the capacity.
 
     Raises
     ------
@@ -52,7 +52,7 @@ class Lognormal:
         checks.positive("beta, the dispersion of a fragility,", self.beta)
 
     def probability(self, intensity: ArrayLike) -> FloatArray:
-        """Return the probability at some intensities, of the shape in which they come; zero at and below zero."""
+        """Return the probability at given intensities, of their shape; zero at and below zero."""
         from scipy.special import ndtr
 
         x = checks.float_array("the intensities", intensity)
@@ -60,7 +60,7 @@ class Lognormal:
             return np.asarray(ndtr(np.log(np.maximum(x, 0.0) / self.median) / self.beta))
 
     def quantile(self, probability: float) -> float:
-        """Return the intensity at which it happens with a probability between 0 and 1."""
+        """Return the intensity of a probability between 0 and 1."""
         from scipy.special import ndtri
 
         share = checks.in_interval("the probability", probability, "(0, 1)")
@@ -68,19 +68,19 @@ class Lognormal:
 
 
 def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> Lognormal:
-    """Return the lognormal curve that makes counts at some levels most likely ([Baker2015]_ eq. (11)).
+    """Return the maximum-likelihood lognormal curve of counts at some levels ([Baker2015]_ eq. (11)).
 
     Parameters
     ----------
     levels : (n,) array, in `unit`
-        Positive intensities; the median comes in the same.
+        Positive intensities; the median has the same unit.
     exceeding, runs : (n,) arrays, 1
-        In how many runs at each level it happened, and how many there were; one number of runs for all levels will do.
+        Exceedances and runs at each level; one number of runs may serve all levels.
 
     Raises
     ------
     ParameterError
-        If the numbers make no sense, or no curve follows from them; the sentence says which levels would tell.
+        If the numbers are inconsistent, or no curve follows; the message names levels that would help.
 
     Notes
     -----
@@ -89,14 +89,14 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
 
     Examples
     --------
-    >>> found = fit_fragility([1.0, 2.0, 4.0, 8.0], [0, 3, 7, 10], 10)
-    >>> round(found.median, 3), round(found.beta, 3)
+    >>> curve = fit_fragility([1.0, 2.0, 4.0, 8.0], [0, 3, 7, 10], 10)
+    >>> round(curve.median, 3), round(curve.beta, 3)
     (2.828, 0.477)
     """
     x, y, n = (checks.float_array(name, values) for name, values in _labelled_inputs(levels, exceeding, runs))
     if x.ndim != 1 or x.size < 2 or y.shape != x.shape or n.size not in (1, x.size):
         raise ParameterError(
-            "a fragility needs two levels or more, and as many counts; found {levels} levels and {counts} counts",
+            "a fragility requires at least two levels and as many counts; found {levels} levels and {counts} counts",
             levels=x.size,
             counts=y.size,
         )
@@ -104,7 +104,7 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
     if not (np.isfinite(x).all() and (x > 0.0).all()):
         raise ParameterError("the levels of a fragility must be positive numbers")
     if not ((y >= 0.0) & (y <= n) & (n > 0.0) & np.isfinite(n)).all():
-        raise ParameterError("a count of a fragility lies between 0 and the number of runs, which is positive")
+        raise ParameterError("counts of a fragility must lie between 0 and the number of runs, which must be positive")
     reason = no_curve_reason(x, y, n)
     if reason:
         raise ParameterError("{why}", why=reason)
@@ -115,7 +115,6 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
 
 
 def _labelled_inputs(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> tuple[tuple[str, ArrayLike], ...]:
-    """Return what a fit is given, each with its name."""
     return ("the levels", np.atleast_1d(levels)), ("the counts", np.atleast_1d(exceeding)), ("the numbers of runs", np.atleast_1d(runs))
 
 
@@ -128,47 +127,49 @@ def no_curve_reason(
     is_scaled: bool = True,
     first: bool = False,
 ) -> Message | None:
-    """Return why no curve follows from counts, and what would tell; None where one does.
+    """Return the reason against a curve from counts, with levels that would help; None if there is a curve.
 
     Parameters
     ----------
     levels, exceeding, runs : (n,) arrays
     display_unit : (float, str)
-        The unit in which levels are told, in that of the levels, and its name.
+        Display unit of the levels, in their own, and its name.
     is_scaled : bool
-        Whether motions were scaled to the levels, so that other levels may be asked for.
+        True for scaled motions, for which other levels may be chosen.
     first : bool
-        Whether the levels count at which each motion does it first: two that differ are enough.
+        True for levels of first exceedance of each motion: two different ones are enough.
     """
-    happened, not_exceeded = exceeding > 0.0, exceeding < runs
+    has_exceedance, has_survivor = exceeding > 0.0, exceeding < runs
     size, unit = display_unit
     ends = {"low": levels.min(), "top": levels.max()}
-    if happened.any() and not_exceeded.any():
-        ends |= {"held": levels[not_exceeded].max(), "passed": levels[happened].min()}
+    if has_exceedance.any() and has_survivor.any():
+        ends |= {"held": levels[has_survivor].max(), "passed": levels[has_exceedance].min()}
     level_texts = {name: f"{value / size:.4g} {unit}".strip() for name, value in ends.items()}
-    if not happened.any():
+    if not has_exceedance.any():
         if not is_scaled:
             return lazy_gettext(
-                "it happens under none of the motions, up to {top}: give stronger ones, or scale them (stripes)", **level_texts
+                "limit not exceeded by any motion up to {top}; add stronger motions, or scale them (stripes)", **level_texts
             )
-        return lazy_gettext("it happens at no level, up to {top}: ask for higher levels", **level_texts)
-    if not not_exceeded.any():
+        return lazy_gettext("limit not exceeded at any level up to {top}; use higher levels", **level_texts)
+    if not has_survivor.any():
         if not is_scaled:
-            return lazy_gettext("it happens under all motions, from {low} on: give weaker ones, or scale them (stripes)", **level_texts)
-        return lazy_gettext("it happens in all runs at all levels, from {low} on: ask for lower levels", **level_texts)
+            return lazy_gettext("limit exceeded by all motions from {low}; add weaker motions, or scale them (stripes)", **level_texts)
+        return lazy_gettext("limit exceeded by all runs at all levels from {low}; use lower levels", **level_texts)
     if not is_separated(np.log(levels), exceeding[None], runs[None])[0] or (first and ends["held"] >= ends["passed"]):
         return None
     if not is_scaled:
         return lazy_gettext(
-            "it happens under no motion up to {held} and under all from {passed} on: give more motions between them", **level_texts
+            "limit not exceeded by any motion up to {held}, exceeded by all from {passed}; add motions between them", **level_texts
         )
     if level_texts["held"] == level_texts["passed"]:
-        return lazy_gettext("it never happens below {held} and always above: ask for levels nearer to it, on both sides", **level_texts)
-    return lazy_gettext("it never happens up to {held} and always from {passed} on: ask for levels between them", **level_texts)
+        return lazy_gettext(
+            "limit never exceeded below {held}, always above; use levels closer to this value, on both sides", **level_texts
+        )
+    return lazy_gettext("limit never exceeded up to {held}, always from {passed}; use levels between them", **level_texts)
 
 
 def fit_lognormals(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return medians and betas of several samples of counts at the same levels, NaN where no curve follows ([Baker2015]_ eq. (11)).
+    """Return medians and betas of samples of counts at the same levels, NaN without a curve ([Baker2015]_ eq. (11)).
 
     Parameters
     ----------
@@ -178,24 +179,26 @@ def fit_lognormals(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) 
     x = np.log(levels)
     y, n = np.broadcast_arrays(exceeding, runs)
     medians, betas = np.full(len(y), np.nan), np.full(len(y), np.nan)
+    # separated counts have no finite maximum
     good = ~is_separated(x, y, n)
     if good.any():
+        # probit a + b ln x: median exp(-a/b), beta 1/b
         b, a = fit_probit(np.column_stack([x, np.ones_like(x)]), y[good], n[good]).coefficients.T
         medians[good], betas[good] = _medians_from_logs(-a / b), 1.0 / b
     return medians, betas
 
 
 def fit_lognormals_shared_beta(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return medians, (b, k), and the one beta, (b,), of k limits that are fitted together, so that their curves do not cross.
+    """Return medians, (b, k), and the common beta, (b,), of k limits fitted together, so that their curves do not cross.
 
-    The counts of a limit that is only passed with the one before it are never larger, and with one slope the medians then rise from limit
-    to limit. The likelihood takes the limits as if they were independent: the estimate is consistent, and its interval is the bootstrap's.
+    Counts of a limit that implies the one before are never larger, and with one slope the medians then rise from limit to limit. The
+    likelihood treats the limits as independent: the estimate is consistent, and its interval is that of the bootstrap.
 
     Parameters
     ----------
     levels : (n,) array
     exceeding : (b, k, n) array
-        How often each limit was passed.
+        Exceedances of each limit.
     runs : (b, n) array
     """
     samples, limits, _ = exceeding.shape
@@ -203,8 +206,9 @@ def fit_lognormals_shared_beta(levels: FloatArray, exceeding: FloatArray, runs: 
     limit_columns = np.repeat(np.eye(limits), x.size, axis=0)
     columns = np.column_stack([np.tile(x, limits), limit_columns])
     y, n = exceeding.reshape(samples, -1), np.tile(runs, (1, limits))
-    # one limit that is not separated gives the slope
+    # one unseparated limit determines the slope
     all_separated = np.stack([is_separated(x, exceeding[:, k], runs) for k in range(limits)]).all(axis=0)
+    # a limit never or always exceeded has no median, whatever the common slope
     empty = ((exceeding.sum(axis=2) == 0.0) | (exceeding == runs[:, None]).all(axis=2)).any(axis=1)
     good = ~(all_separated | empty)
     medians, betas = np.full((samples, limits), np.nan), np.full(samples, np.nan)
@@ -215,5 +219,5 @@ def fit_lognormals_shared_beta(levels: FloatArray, exceeding: FloatArray, runs: 
 
 
 def _medians_from_logs(logs: FloatArray) -> FloatArray:
-    """Return medians from their logarithms; where there is hardly a slope they lie beyond all numbers, and are none."""
+    """Return medians from their logarithms; NaN beyond ``MAX_LOG_MEDIAN``, where the slope is near zero."""
     return np.asarray(np.exp(np.where(np.abs(logs) < MAX_LOG_MEDIAN, logs, np.nan)))

@@ -1,4 +1,4 @@
-"""What a study of fragility answers: curves, what they rest on, and how far they are to be trusted."""
+"""Results of a fragility study: curves, counts, dispersion, goodness of fit and efficiency."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from seisblock.studies.fragility.lognormal import Lognormal
 
 @dataclass(frozen=True)
 class FragilityLevel:
-    """What happened at one level.
+    """Counts at one level.
 
     Parameters
     ----------
     im : float
-        Intensity, in the unit of the curve; of a method that scales nothing, that of one motion.
+        Intensity, in the unit of the curve; in cloud analysis, that of one motion.
     runs, exceeding : int
-        Runs, and those that passed the limit.
+        Runs, and those that exceed the limit.
     """
 
     im: float
@@ -29,16 +29,16 @@ class FragilityLevel:
 
 @dataclass(frozen=True)
 class Dispersion:
-    """Where the scatter of a curve comes from: the motions, and what is not known of the body.
+    """Decomposition of the dispersion: record to record, and parameters of the body.
 
     Parameters
     ----------
     beta_record_to_record, beta_parameter : float, 1
-        Standard deviations of ln(intensity at which it happens): among motions for one body, and of the median among the versions.
+        Standard deviations of ln(capacity) among motions for one body, and of the median among the samples of the body.
     beta_sum : float, 1
-        The root of the sum of their squares, to be compared with beta of all runs together.
+        Square root of the sum of squares, comparable with beta of all runs together.
     versions, without_curve : int
-        Versions of the body, and those of them from which no curve follows.
+        Samples of the body, and those without a curve.
     """
 
     beta_record_to_record: float
@@ -50,21 +50,21 @@ class Dispersion:
 
 @dataclass(frozen=True)
 class Goodness:
-    """How well a lognormal fits.
+    """Goodness of fit of a lognormal.
 
     Parameters
     ----------
     statistic : str
-        ``ks``: largest distance between the shares and the curve; ``cumulated residuals``: the largest sum of what happened less what was
-        expected, in the order of the intensity, over the root of the number of runs.
+        ``ks``: largest distance between the shares and the curve; ``cumulated residuals``: largest cumulated difference of counts and
+        expectation, in the order of the intensity, over the root of the number of runs.
     distance_ratio : float, 1
-        Its value.
+        Value of the statistic.
     probability : float, 1
-        That a sample of the fitted curve, fitted in its turn, lies as far from its own curve.
+        Probability of a distance as large for a sample of the fitted curve, fitted in turn.
     deviance_ratio : float or None, 1
-        Deviance over the degrees of freedom; None where nothing was counted at levels. Runs share their motions, so that it has no table.
+        Deviance over the degrees of freedom; None without counts at levels. Runs share their motions, so no table applies.
     fits : bool
-        Whether that probability is 5 % or more.
+        True if that probability is at least 5 %.
     """
 
     statistic: str
@@ -76,16 +76,16 @@ class Goodness:
 
 @dataclass(frozen=True)
 class Sufficiency:
-    """Whether a measure says all that matters: the slope of what it leaves unexplained.
+    """Sufficiency of a measure: the slope of its residuals against another property.
 
     Parameters
     ----------
     against : str
         ``ln(pgv/pga)`` or ``magnitude``.
     slope_ratio : float, 1
-        Change of ln(intensity at which it happens) with it, one to one or for each unit of magnitude.
+        Change of ln(capacity) per unit of the property.
     probability : float, 1
-        That a slope as steep comes by chance.
+        Probability of a slope as steep by chance.
     """
 
     against: str
@@ -95,7 +95,7 @@ class Sufficiency:
 
 @dataclass(frozen=True)
 class Efficiency:
-    """How well one intensity measure tells when it happens.
+    """Efficiency of an intensity measure.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ class Efficiency:
     median : float
         In that unit.
     beta : float, 1
-        The smaller, the fewer motions are needed.
+        The smaller, the fewer motions are required.
     sufficiency : tuple of Sufficiency
     """
 
@@ -119,43 +119,43 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class Fragility:
-    """One curve: a body, and a limit.
+    """Fragility curve of one body and one limit state.
 
     Parameters
     ----------
     body, limit : str
     im, unit : str
-        Measure of intensity, and the unit of its values.
+        Intensity measure, and the unit of its values.
     method : str
         ``stripes``, ``ida`` or ``cloud``.
     median : float or None, in `unit`
-        None where no curve follows; `problem` says why.
+        None without a curve; `problem` gives the reason.
     beta : float or None, 1
     median_interval : (float, float) or None, in `unit`
-        Of the bootstrap over records.
+        Bootstrap over records.
     beta_interval : (float, float) or None, 1
-        The same.
+        Likewise.
     bootstrap_lost_count : int
-        Samples of the bootstrap from which no curve followed.
+        Bootstrap samples without a curve.
     median_alone : float or None, in `unit`
     beta_alone : float or None, 1
-        Of the limit fitted by itself, where several limits share one beta.
+        Separate fit of the limit, if several limits share one beta.
     records, motions : int
         Motions are components of records.
     non_monotone_records, non_monotone_motions : int
-        In which it happened at a level, and not at a higher one; to most versions of the body, where there are several.
+        Records and motions that exceed the limit at a level and not at a higher one, for most samples of the body.
     censored_motions : int
-        In which it happened at no level.
+        Motions without exceedance at any level.
     levels : tuple of FragilityLevel
     dispersion : Dispersion or None
-        None without versions of the body.
+        None without samples of the body.
     goodness : Goodness or None
     measures : tuple of Efficiency
-        The measures that were compared, this one first.
+        Compared measures, this one first.
     problem : str or None
-        Why there is no curve.
+        Reason for a missing curve.
     no_answer : int
-        Runs that were given up; they are left out of the counts and of the fit.
+        Stopped runs, left out of the counts and of the fit.
     """
 
     body: str
@@ -190,27 +190,27 @@ class Fragility:
 
 @dataclass(frozen=True, eq=False)
 class FragilityStudy(PlotMixin):
-    """The curves of some bodies and limits over one suite of records.
+    """Fragility curves of some bodies and limit states over one suite of records.
 
     Parameters
     ----------
     curves : tuple of Fragility
-        Body by body, limit by limit in the order in which they are passed.
+        Body by body, limit by limit in order of severity.
     measure : IntensityMeasure
-        What the curves are drawn over.
+        Abscissa of the curves.
     solver, method : str
     confidence : float, 1
         Level of the intervals.
     bands : tuple
-        For each curve, for figures: intensities, and the lower and the upper end of the probability there; None where there is none.
+        For each curve, for figures: intensities, and lower and upper end of the probability there; None if there is none.
     factors : (float, float), 1
         Smallest and largest factor on a motion.
     records : tuple of Record
-        As they were used.
+        With their processing applied.
     notes : tuple of str
-        What is to be known before believing the numbers.
+        Warnings and notes.
     floor : Storey or None
-        On which the bodies stand; the intensities are those of the ground under it.
+        Floor under the bodies; the intensities are those of the ground.
     """
 
     curves: tuple[Fragility, ...]

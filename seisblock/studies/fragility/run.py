@@ -1,4 +1,4 @@
-"""Fragilities of some bodies over a suite of records: every record, at every level, with every body."""
+"""Fragility study: every body under every record at every level."""
 
 from __future__ import annotations
 
@@ -31,31 +31,30 @@ from seisblock.studies.fragility.levels import DEFAULT_STEPS, check_levels, find
 from seisblock.studies.fragility.results import FragilityStudy
 from seisblock.studies.fragility.runners import RUNNERS, SOLVERS_WITH_VERSIONS, Draws, version_draws
 from seisblock.studies.fragility.suite import Suite, make_suite, read_suite
-from seisblock.studies.fragility.warnings import fragility_warnings, unanswered, version_range_notes
+from seisblock.studies.fragility.warnings import fragility_warnings, stopped_run_notes, version_range_notes
 from seisblock.studies.intervals import CONFIDENCE
 
 ALL_AZIMUTHS_NOTE = N_(
-    "each record counts once: it passes a limit where it does so in any direction, in steps of {step:g} degrees; intensities are the "
-    "largest of all directions"
+    "all azimuths in steps of {step:g} degrees: each record counts once, with its worst direction and the largest intensity"
 )
 
 BOOTSTRAP = 1000
-"""Samples of records behind the intervals, unless another number is asked for."""
+"""Default number of bootstrap samples of records."""
 
 
 @dataclass(frozen=True, eq=False)
 class StudyPlan:
-    """What is run: bodies and limits under the motions of a suite.
+    """Bodies and limit states under the motions of a suite.
 
     Parameters
     ----------
     solver : str
-    bodies : tuple of Placed
+    bodies : tuple of SolverBody
     limits : tuple of LimitState
     suite : Suite
     values : sequence of sequences of (m,) arrays
-        For each body, the intensities of the motions as they are, in each measure.
-    draws : (v, 6) array or None
+        For each body, the intensities of the unscaled motions in each measure.
+    draws : (v, 7) array or None
     """
 
     solver: str
@@ -66,24 +65,25 @@ class StudyPlan:
     draws: Draws
 
     def exceeded(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> tuple[BoolArray, BoolArray]:
-        """Return which limits a body passes under a motion times some factors, (n, v, k), and which runs have an answer, (n, v).
+        """Return the exceedances of a body under a motion times some factors, (n, v, k), and the completed runs, (n, v).
 
-        A limit is passed where it is in any direction. One direction without an answer leaves the run without one, unless the last limit
-        is passed in another.
+        A limit is exceeded if it is in any direction. A stopped direction leaves the run without a result, unless the most severe limit
+        is exceeded in another.
         """
         versions, solver_body = 1 if draws is None else len(draws), self.bodies[body]
         result = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
         gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
         for shaking in self.suite.directions(motion, solver_body.body):
             ends = RUNNERS[self.solver](replace(solver_body, body=block_for_motion(solver_body.body, shaking)), shaking, factors, draws)
-            passed = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+            exceeded = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
             if ends.gave_up is not None:
-                without = ends.gave_up.reshape(factors.size, versions)
-                passed &= ~without[..., None]
-                gave_up |= without
-            result |= passed
-        answered = ~gave_up | result[..., -1]
-        return result & answered[..., None], answered
+                stopped_mask = ends.gave_up.reshape(factors.size, versions)
+                exceeded &= ~stopped_mask[..., None]
+                gave_up |= stopped_mask
+            result |= exceeded
+        # overturning in one direction decides the run, whatever the stopped ones would do
+        completed = ~gave_up | result[..., -1]
+        return result & completed[..., None], completed
 
 
 def run_fragility(
@@ -105,55 +105,54 @@ def run_fragility(
     progress: Progress | None = None,
     **options: Any,
 ) -> FragilityStudy:
-    """Return how likely some bodies are to pass a limit, against the intensity of the shaking: lognormal curves with their intervals.
+    """Return lognormal fragility curves of bodies and limit states, with bootstrap intervals over records.
 
     Parameters
     ----------
     records : path or Record, or several
-        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; or records as they
-        were read.
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; or records
+        without processing.
     bodies : path, bodies, or mapping of names to bodies
-        As of :func:`~seisblock.studies.batch.run.run_batch`.
+        As in :func:`~seisblock.studies.batch.run.run_batch`.
     solver : str
         ``respond``, ``rock``, ``slide`` or ``stack``.
     limits : str, or several
-        ``overturn``, ``rock``, ``slip=5cm``, ``lean=0.5``; several are states one beyond the other, and share one beta.
+        ``overturn``, ``rock``, ``slip=5cm``, ``lean=0.5``; several are states of rising severity, and share one beta.
     im : str, or several
-        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the component solved, of the ground also where the preparation has
-        a floor. The curve is drawn over the first; the
-        others are compared with it.
+        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the solved component, of the ground also for bodies on a
+        floor. The first is the abscissa of the curve; the others are compared with it.
     method : str
-        ``stripes``: every record at every level, maximum likelihood; ``ida``: the level at which each record does it first; ``cloud``:
-        records as they are, probit regression.
+        ``stripes``: every record at every level, maximum likelihood; ``ida``: level of first exceedance of each record; ``cloud``:
+        unscaled records, probit regression.
     levels : array, in `unit`
-        That of the measure, SI; chosen between where hardly anything and where nearly all happens when left out.
+        In the unit of the measure, SI; default: between rare and almost sure exceedance.
     steps : int
-        How many are chosen.
+        Number of default levels.
     perturb : int
-        Versions of each body, 0 for the body as it is.
+        Samples of each body, 0 for the nominal body.
     components, preparation
-        As of :func:`~seisblock.studies.batch.run.run_batch`. With ``all-azimuths`` each record counts once: it passes a limit where it does
-        so in any direction, and its intensity is the largest of all directions.
+        As in :func:`~seisblock.studies.batch.run.run_batch`. With ``all-azimuths`` each record counts once, with its worst direction
+        and its largest intensity.
     confidence : float, 1
         Level of the intervals.
     bootstrap, seed : int
-        Samples of records behind them, and the seed of all dice.
+        Bootstrap samples of records, and the seed of all random numbers.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
     options
         Of the solver: ``mu``, ``vertical``, ``restitution``, ``gravity``, ...
 
     Raises
     ------
     ParameterError
-        If nothing can be asked so, there are fewer than two records, or no curve follows from any of the runs.
+        If the options are inconsistent, there are fewer than two records, or there is no curve at all.
     BodyError, RecordError
         If a body or a record cannot be read.
 
     Notes
     -----
-    The counts z_i of n_i runs at level x_i are binomial with p_i = Phi(ln(x_i/median)/beta), whose likelihood is made largest
-    ([Baker2015]_ eq. (11)). Records are scaled whole: their shape stays as it is, whatever the level.
+    The counts z_i of n_i runs at level x_i are binomial with p_i = Phi(ln(x_i/median)/beta), fitted by maximum likelihood
+    ([Baker2015]_ eq. (11)). Records are scaled in amplitude only: their shape is the same at every level.
 
     Examples
     --------
@@ -165,27 +164,27 @@ def run_fragility(
     [('shelf', 'overturn', 3)]
     """
     if solver not in RUNNERS:
-        raise ParameterError("there is no solver {name!r} for a fragility; there are {known}", name=str(solver)[:100], known=list(RUNNERS))
+        raise ParameterError("unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=list(RUNNERS))
     if method not in METHODS:
-        raise ParameterError("there is no method {name!r}; there are {known}", name=str(method)[:100], known=list(METHODS))
+        raise ParameterError("unknown method {name!r}; available: {known}", name=str(method)[:100], known=list(METHODS))
     if method == CLOUD and levels is not None:
-        raise ParameterError("a cloud takes the records as they are, at no levels: leave `levels` out, or take stripes")
+        raise ParameterError("the method cloud uses unscaled records: `levels` has no effect; leave `levels` out, or use stripes")
     checks.instance(preparation, Preparation)
     checks.in_interval("the confidence", confidence, "(0, 1)")
-    checks.integer("the samples of the bootstrap", bootstrap, minimum=2)
-    checks.integer("the number of versions", perturb, minimum=0)
-    check_limit(N_("samples of the bootstrap"), bootstrap, "SEISBLOCK_RUNS")
+    checks.integer("the number of bootstrap samples", bootstrap, minimum=2)
+    checks.integer("the number of samples of the body", perturb, minimum=0)
+    check_limit(N_("bootstrap samples"), bootstrap, "SEISBLOCK_RUNS")
     if perturb and solver not in SOLVERS_WITH_VERSIONS:
-        raise ParameterError("{solver} has no versions of a body: leave `perturb` out", solver=solver)
+        raise ParameterError("`perturb` has no effect with {solver}; leave `perturb` out", solver=solver)
     states = limit_states(limits, solver)
     requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
     measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))
     if not measures:
-        raise ParameterError("no intensity measure is given: say pga, pgv, pgd, sa=0.5, arias or p*pgv")
+        raise ParameterError("no intensity measure given; expected pga, pgv, pgd, sa=0.5, arias or p*pgv")
     names = (components,) if isinstance(components, str) else tuple(components)
     check_all_azimuths(solver, names, options)
     solver_bodies = prepare_bodies(bodies, solver, options)
-    loaded_records, left_out = read_suite(records)
+    loaded_records, exclusion_notes = read_suite(records)
     suite = make_suite(loaded_records, names, preparation)
     intensities = [suite.intensities(measure) for measure in measures]
     gravity = float(options.get("gravity", STANDARD_GRAVITY))
@@ -202,14 +201,12 @@ def run_fragility(
     factor_range = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
     directions = (lazy_gettext(ALL_AZIMUTHS_NOTE, step=STEP_DEG),) if suite.all_azimuths else ()
     ranges = version_range_notes(solver_bodies, solver) if perturb else []
-    floor_notes = (
-        (lazy_gettext("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
-    )
+    floor_notes = (lazy_gettext("bodies on a floor; intensities of the ground motion"),) if preparation.floor else ()
     notes = (
-        *left_out,
+        *exclusion_notes,
         *directions,
         *floor_notes,
-        *unanswered(body_runs, suite, measures[0]),
+        *stopped_run_notes(body_runs, suite, measures[0]),
         *fragility_warnings(curves, [value[0] for value in values], fit_options),
         *ranges,
     )
@@ -217,14 +214,19 @@ def run_fragility(
 
 
 def prepare_bodies(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[SolverBody, ...]:
-    """Return bodies as a solver takes them, or refuse the first that it cannot take.
+    """Return the bodies of a solver.
 
     Parameters
     ----------
     bodies, solver
-        As of :func:`run_fragility`.
+        As in :func:`run_fragility`.
     options : mapping
-        Of the solver, for every body that says nothing else.
+        Options of the solver, for every body without its own.
+
+    Raises
+    ------
+    ParameterError
+        If the solver does not take a body.
     """
     model = batch_model(solver)
     model.check_options(options)
@@ -237,22 +239,22 @@ def prepare_bodies(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> t
 
 
 def _grids(study: StudyPlan, fit_options: FitOptions, levels: ArrayLike | None, steps: int) -> list[FloatArray]:
-    """Return the intensities of the runs of each body, (m, n): levels, or those of the motions as they are."""
+    """Return the intensities of the runs of each body, (m, n): levels, or those of the unscaled motions."""
     motions = len(study.suite.motions)
     if fit_options.method == CLOUD:
         return [values[0][:, None] for values in study.values]
     if levels is None:
 
         def shares_at(level: float) -> FloatArray:
-            """Return in which share of the motions that have an answer each body passes each limit."""
+            """Return the share of the completed motions in which each body exceeds each limit."""
             runs = [
                 study.exceeded(b, m, factors_for(np.array([level]), values[0][m], fit_options.measures[0]), None)
                 for b, values in enumerate(study.values)
                 for m in range(motions)
             ]
-            exceeded = np.reshape([each[0, 0] for each, _ in runs], (len(study.bodies), motions, -1))
-            answers = np.reshape([each[0, 0] for _, each in runs], (len(study.bodies), motions)).sum(axis=1)
-            return np.asarray(exceeded.sum(axis=1) / np.maximum(answers, 1)[:, None])
+            exceeded = np.reshape([limits[0, 0] for limits, _ in runs], (len(study.bodies), motions, -1))
+            completed_counts = np.reshape([completed[0, 0] for _, completed in runs], (len(study.bodies), motions)).sum(axis=1)
+            return np.asarray(exceeded.sum(axis=1) / np.maximum(completed_counts, 1)[:, None])
 
         grid = find_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
     else:
@@ -261,7 +263,7 @@ def _grids(study: StudyPlan, fit_options: FitOptions, levels: ArrayLike | None, 
 
 
 def _run_all(study: StudyPlan, fit_options: FitOptions, grids: list[FloatArray], progress: Progress | None) -> list[Exceedances]:
-    """Return the runs of each body."""
+    """Return the exceedances of each body."""
     versions = 1 if study.draws is None else len(study.draws)
     runs_per_motion = grids[0].shape[1] * versions
     total = runs_per_motion * len(study.suite.motions) * len(study.bodies)
@@ -275,6 +277,6 @@ def _run_all(study: StudyPlan, fit_options: FitOptions, grids: list[FloatArray],
             count += runs_per_motion
             if progress is not None:
                 progress(count, total)
-        exceeded, answered = (np.stack(column) for column in zip(*runs, strict=True))
-        results.append(Exceedances(body.name, study.limits, exceeded, grid, values, answered))
+        exceeded, completed = (np.stack(column) for column in zip(*runs, strict=True))
+        results.append(Exceedances(body.name, study.limits, exceeded, grid, values, completed))
     return results

@@ -1,4 +1,4 @@
-"""Many factors on one motion, and what becomes of one body at each: the runs behind a fragility, without Python between them."""
+"""Batch runs of one body under many factors on one motion, for each solver of a fragility."""
 
 from __future__ import annotations
 
@@ -31,23 +31,23 @@ from seisblock.studies.rocking.perturb import Spread, draw_samples, perturbed_ro
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 
 Draws = FloatArray | None
-"""Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the body as it is."""
+"""Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the nominal body."""
 
 Runner = Callable[[SolverBody, Motion, FloatArray, Draws], EndStates]
-"""``follow(placed, motion, factors, draws)``: the ends of all versions at the first factor, then at the next."""
+"""``runner(solver_body, motion, factors, draws)``: end states of all samples at the first factor, then at the next."""
 
 SPREAD = Spread(amplitude=0.0, azimuth_deg=0.0)
-"""How far versions of a rocking block differ: as `perturb` does, but for the shaking, whose intensity the curve is drawn over."""
+"""Half widths of a rocking block as in `perturb`, without the shaking, whose intensity is the abscissa of the curve."""
 
 VERSIONS = ParameterVariation(amplitude=0.0, azimuth_deg=0.0)
 """The same for `respond`."""
 
 BATCH_SIZE = 64
-"""Runs of sliding that one thread takes at a time."""
+"""Sliding runs per thread and batch."""
 
 
 def _rock(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
-    """Return the ends of a rocking block."""
+    """Return the end states of a rocking block."""
     options = solver_body.options
     bodies: RockBatchParams | list[RockParams]
     if draws is None:
@@ -63,7 +63,7 @@ def _rock(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: D
 
 
 def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
-    """Return the ends of a free-standing body; one that fell was moved without end."""
+    """Return the end states of a free-standing body; an overturned one has an infinite displacement."""
     options = dict(solver_body.options)
     unit = np.array([1.0, 0.0, vertical_gain(motion, options.pop("vertical", None))])
     settle = options.pop("settle_s", 60.0)
@@ -72,18 +72,19 @@ def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws
         settings: Any = [respond_params(solver_body.body, **options)] * factors.size
     else:
         if not isinstance(solver_body.body, Block):
-            raise ParameterError("{name}: versions are made of blocks alone; leave `perturb` out", name=solver_body.name)
+            raise ParameterError("{name}: `perturb` requires a block; leave `perturb` out", name=solver_body.name)
         run_draws = np.tile(draws, (factors.size, 1))
         settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, **options)
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
-    fates = respond_many(settings, motion, gains=gains, settle_s=settle)
-    slip = np.where(fates.overturned, np.inf, np.abs(fates.final_displacement_m))
-    return EndStates(fates.overturned, fates.max_rotation_rad / alphas, slip, fates.gave_up)
+    results = respond_many(settings, motion, gains=gains, settle_s=settle)
+    # beyond every slip limit
+    slip = np.where(results.overturned, np.inf, np.abs(results.final_displacement_m))
+    return EndStates(results.overturned, results.max_rotation_rad / alphas, slip, results.gave_up)
 
 
 def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
-    """Return the ends of a sliding object: its largest slip, also after the motion, on ground at rest."""
+    """Return the end states of a sliding object: maximum slip, including that after the motion, on ground at rest."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
     options: Mapping[str, Any] = solver_body.options
     gravity = options.get("gravity", 9.80665)
@@ -91,7 +92,7 @@ def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: 
     p = parameters(base, gravity)
 
     def solve_batch(part: slice) -> tuple[FloatArray, BoolArray]:
-        """Return the largest slips of some runs, and which were given up."""
+        """Return the maximum slips of some runs, and the failed ones."""
         gains = factors[part][:, None] * unit
         runs = integrate_many(SLIDE, motion, [p] * len(gains), np.zeros(4), STICK, gains=gains, allow_failures=True)
         for row in np.flatnonzero(runs.final_mode == UNDEFINED)[:1]:
@@ -107,10 +108,10 @@ def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: 
 
 
 def _stack(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
-    """Return the ends of a pile: whether a stone fell, and how far the one that slid most lies from its place."""
+    """Return the end states of a pile: fall of any stone, and the largest residual displacement of a stone."""
 
     def run_one(factor: float) -> tuple[bool, float]:
-        """Return the end of one run; its slip is NaN where it was given up."""
+        """Return the end state of one run; NaN slip if stopped."""
         scaled_motion = Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s, motion.record)
         try:
             outcome = solve_stack(solver_body.body, scaled_motion, **solver_body.options).outcome
@@ -127,9 +128,9 @@ RUNNERS: dict[str, Runner] = {"respond": _respond, "rock": _rock, "slide": _slid
 """By the names of the solvers."""
 
 SOLVERS_WITH_VERSIONS = ("respond", "rock")
-"""Those whose bodies have versions."""
+"""Solvers with Monte Carlo samples of the body."""
 
 
 def version_draws(runs: int, seed: int) -> Draws:
-    """Return what tells so many versions of a body apart, the same for every motion and level; None for none."""
+    """Return the draws of the samples of a body, the same for every motion and level; None for none."""
     return draw_samples(runs, seed) if runs else None

@@ -1,4 +1,4 @@
-"""A suite of records as the bodies feel them: the motions of their components, and how strong each is."""
+"""Suite of records: the motions of their components, and their intensities."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ ALL, NORTH = "all", "0"
 
 @dataclass(frozen=True, eq=False)
 class Suite:
-    """The motions of some records.
+    """Motions of a set of records.
 
     Parameters
     ----------
     records : tuple of Record
     motions : tuple of Motion
     owner : (m,) array of int
-        Which record each motion is of.
+        Index of the record of each motion.
     magnitudes : (m,) array
-        Of the earthquakes, NaN where the file does not say.
+        Of the earthquakes, NaN if unknown.
     all_azimuths : bool
-        Whether each record counts once, in the worst of its directions: then a motion is that to north, and the others are
+        True if each record counts once, in its worst direction: a motion is then that to north, and the others are
         :meth:`directions`.
     ground : Suite or None
-        Of the same records under the storey on which the bodies stand, where they do: its intensities count.
+        Same records on the ground, for bodies on a floor: its intensities count.
     """
 
     records: tuple[Record, ...]
@@ -52,17 +52,17 @@ class Suite:
     ground: Suite | None = None
 
     def intensities(self, measure: IntensityMeasure) -> FloatArray:
-        """Return the intensity of each motion as it is, (m,), without the share of a body; the largest of all directions where they count.
+        """Return the intensity of each unscaled motion, (m,), without the factor of a body; with all azimuths, the largest.
 
         Raises
         ------
         ParameterError
-            If there is no shaking in one of them.
+            If a motion is zero.
         """
-        values = self._measured(measure)
+        values = self._intensities(measure)
         for row in np.flatnonzero(~(values > 0.0))[:1]:
             raise ParameterError(
-                "{record}, {name}: there is no shaking in it, so that no factor brings it to a level: leave it out",
+                "{record}, {name}: the motion is zero and cannot be scaled to a level; leave this record out",
                 record=self.records[self.owner[row]].source or lazy_gettext("record"),
                 name=self.motions[row].name,
             )
@@ -70,39 +70,39 @@ class Suite:
 
     @cached_property
     def shapes(self) -> FloatArray:
-        """Logarithm of PGV over PGA of each motion, (m,), s: how slowly it shakes."""
+        """Logarithm of PGV over PGA of each motion, (m,), s: a measure of its period."""
         pgv, pga = IntensityMeasure("pgv"), IntensityMeasure("pga")
-        return np.log(self._measured(pgv) / self._measured(pga))
+        return np.log(self._intensities(pgv) / self._intensities(pga))
 
     def directions(self, motion: int, body: object) -> Iterator[Motion]:
-        """Yield a motion in the directions in which a body has to pass a limit, one after another: its own, or all."""
+        """Yield a motion in the directions in which a body may exceed a limit: its own, or all."""
         if not self.all_azimuths:
             yield self.motions[motion]
             return
         for azimuth in sweep_azimuths(body).tolist():
             yield motion_of(self.records[self.owner[motion]], f"{azimuth:g}")
 
-    def _measured(self, measure: IntensityMeasure) -> FloatArray:
-        """Return the intensity of each motion, (m,): where all directions count that of the largest; on a storey that of the ground."""
+    def _intensities(self, measure: IntensityMeasure) -> FloatArray:
+        """Return the intensity of each motion, (m,): with all azimuths the largest; on a floor that of the ground."""
         if self.ground is not None:
-            return self.ground._measured(measure)
+            return self.ground._intensities(measure)
         return np.array([max(map(measure.of, self.directions(row, None))) for row in range(len(self.motions))])
 
     def weights(self, samples: int, rng: np.random.Generator) -> FloatArray:
-        """Return how often each motion counts in samples that draw whole records, (samples, m)."""
+        """Return the weight of each motion in bootstrap samples of whole records, (samples, m)."""
         count = len(self.records)
         return np.asarray(rng.multinomial(count, np.full(count, 1.0 / count), samples)[:, self.owner], dtype=np.float64)
 
 
 def make_suite(records: Sequence[Record], components: tuple[str, ...], preparation: Preparation) -> Suite:
-    """Return the motions of some records: of each component asked for, or of all horizontals.
+    """Return the motions of some records: of the selected components, or of all horizontals.
 
     Parameters
     ----------
     records : sequence of Record
-        As they were read.
+        Without processing.
     components : tuple of str
-        Codes or azimuths; all horizontals when empty; ``all-azimuths`` for every direction of each record.
+        Codes or azimuths; all horizontals if empty; ``all-azimuths`` for every direction of each record.
     preparation : Preparation
 
     Raises
@@ -114,15 +114,15 @@ def make_suite(records: Sequence[Record], components: tuple[str, ...], preparati
     """
     if len(records) < 2:
         raise ParameterError(
-            "one record says nothing of how records differ: give several, ten or more, a folder or a list (@records.txt); found {count}",
+            "a fragility requires several records (at least 2, better 10), found {count}; give files, a folder or a list (@records.txt)",
             count=len(records),
         )
-    prepared = tuple(preparation.apply(record) for record in records)
+    processed = tuple(preparation.apply(record) for record in records)
     motions, owner, magnitudes = [], [], []
     requested, all_azimuths = components, any(name.lower() == ALL_AZIMUTHS for name in components)
     if all_azimuths:
         components = (NORTH,)
-    for index, record in enumerate(prepared):
+    for index, record in enumerate(processed):
         if all_azimuths:
             oriented_pair(record)
         is_explicit = components and not any(name.lower() == ALL for name in components)
@@ -131,28 +131,28 @@ def make_suite(records: Sequence[Record], components: tuple[str, ...], preparati
             owner.append(index)
             earthquake = get_earthquake(record)
             magnitudes.append(np.nan if earthquake is None or earthquake.magnitude is None else earthquake.magnitude)
-    # a storey is linear: a factor on the ground is one on it
+    # the floor response is linear: a factor on the ground is the same factor on the floor
     ground = None if preparation.floor is None else make_suite(records, requested, replace(preparation, floor=None))
-    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), all_azimuths, ground)
+    return Suite(processed, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), all_azimuths, ground)
 
 
 def read_suite(
     records: Location | Record | Sequence[Location | Record], read_options: ReadOptions | None = None, *, strict: bool = False
 ) -> tuple[list[Record], tuple[str, ...]]:
-    """Return the records that some names stand for, and a sentence for each file that could not be read.
+    """Return the records of some locations, and a note for each unreadable file.
 
     Parameters
     ----------
     records : path or Record, or several
-    read_options : Options
-        What the caller says of files that do not say it themselves.
+    read_options : ReadOptions
+        Format, units and other properties missing in the files.
     strict : bool
-        Whether a file that cannot be read is refused.
+        True to raise for an unreadable file.
 
     Raises
     ------
     RecordError
-        If none can be read, or one cannot and all must.
+        If no file is readable, or one is not and `strict` is set.
     """
     options = read_options or ReadOptions()
     sources = [records] if isinstance(records, (str, PathLike, Record)) else list(records)
@@ -167,7 +167,7 @@ def read_suite(
                 failure = error
                 if strict:
                     raise
-                left_out.append(lazy_gettext("left out: {why}", why=error.message))
+                left_out.append(lazy_gettext("excluded: {why}", why=error.message))
     if failure is not None and not loaded:
         raise failure
     selected = [record for record in loaded if options.station in (None, record.station)]

@@ -1,1 +1,1 @@
-"""Body models shown in a report."""
+"""Models of the bodies of a report."""

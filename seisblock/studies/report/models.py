@@ -1,4 +1,4 @@
-"""What a report is about: one body as every model that can follow it sees it."""
+"""Body of a report, in the form required by each model."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ _SIZE_PATTERN = re.compile(r"^\s*([\d.]+\s*[^\W\d]*?)\s*[x×X]\s*([\d.]+\s*[^\W\
 
 @dataclass(frozen=True)
 class BodyModels:
-    """One body.
+    """One body, in the form required by each model.
 
     Parameters
     ----------
     name : str
     block : Block
-        As one rigid block, for rocking.
+        Rigid block, for rocking.
     restitution : float or None
-        Its own; None for that of its angular momentum.
+        Of the body; None for conservation of angular momentum.
     layers, contact : TwoLayerBlock, Contact, or None
-        As a two-layer block, for the jump.
+        Two-layer block, for the jump.
     springs : SpringBlock or None
-        On corner springs, for uplift.
+        Block on corner springs, for uplift.
     mu, mu_kinetic : float or None
-        Friction under it, for sliding; None when nothing is known of it.
+        Friction under the body, for sliding; None if unknown.
     """
 
     name: str
@@ -49,7 +49,7 @@ class BodyModels:
 
 
 def is_sizes(text: str) -> bool:
-    """Return whether a text names a body by its width and height."""
+    """Return True for a text with the width and height of a body."""
     return _SIZE_PATTERN.match(text) is not None
 
 
@@ -62,7 +62,7 @@ def body_models(
     mu_kinetic: float | None = None,
     frequency_vertical: float | None = None,
 ) -> BodyModels:
-    """Return the body a text names.
+    """Return the body of a text.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ def body_models(
     kind : str
         Kind of a body given by its sizes, see :data:`~seisblock.bodies.kinds.KINDS`.
     mu, mu_kinetic : float
-        Friction under the body; a body's own where left out.
+        Friction under the body; default: its own.
     frequency_vertical : float, Hz
         Vertical frequency on corner springs, for uplift, with the horizontal stiffness and damping of [Okumura1987]_'s figures.
 
@@ -98,9 +98,7 @@ def body_models(
     else:
         table = read_body_toml(text)
         if table.get("kind") not in ("block", "two-layer"):
-            raise BodyError(
-                "{text} is no body of one piece: expected kind block or two-layer, found {found!r}", text=text, found=table.get("kind")
-            )
+            raise BodyError("{text}: expected a body of kind block or two-layer, found {found!r}", text=text, found=table.get("kind"))
         block, own_restitution = block_from_table(table, side=side), table_restitution(table, text)
         name = block.name
         if table["kind"] == "two-layer":
@@ -124,7 +122,6 @@ def body_models(
 
 
 def _make_spring_block(block: Block, frequency: float | None) -> SpringBlock | None:
-    """Return the block on corner springs of a vertical frequency, Hz."""
     if frequency is None:
         return None
     depth = block.width if block.depth is None else block.depth

@@ -1,1 +1,1 @@
-"""Many runs of one free-standing body: probabilities, directions, maps of what happens."""
+"""Monte Carlo, azimuth and mode-map studies of one free-standing body with the full response."""

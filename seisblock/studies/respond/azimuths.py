@@ -1,4 +1,7 @@
-"""Every direction: NS and EW are the sensor's axes, and the worst azimuth is what the object may have met."""
+"""Full response of one body in every horizontal direction of a record.
+
+NS and EW are the axes of the sensor, not of the body: an object of unknown orientation may have met the worst azimuth.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 
 @dataclass(frozen=True)
 class RespondAzimuth:
-    """What became of the body when its +x points to an azimuth.
+    """Response of the body with its +x axis at one azimuth.
 
     Parameters
     ----------
@@ -28,11 +31,11 @@ class RespondAzimuth:
     overturned_towards : str or None
     max_rotation_rad, final_displacement_m, max_displacement_m : float
     end_s : float
-        When it came to rest or had fallen, from the record's first sample.
+        Time of rest or of overturning, from the record's first sample.
     max_rotation_ratio : float
-        Largest lean over alpha of the side to which it falls more easily.
+        Peak tilt over alpha of the side with the smaller alpha.
     gave_up : bool
-        Whether the run was given up, so that there is no answer in this direction; numbers are those of that instant.
+        True for a run that was stopped without a result; the numbers are those of that instant.
     """
 
     azimuth_deg: float
@@ -46,24 +49,24 @@ class RespondAzimuth:
     gave_up: bool = False
 
 
-def left_out_directions(found: Sequence[Any]) -> list[str]:
-    """Return a sentence that names the directions without an answer, none where each has one."""
-    azimuths = [f"{each.azimuth_deg:g}" for each in sorted(found, key=lambda each: each.azimuth_deg) if each.gave_up]
+def left_out_directions(directions: Sequence[Any]) -> list[str]:
+    """Return one sentence naming the directions without a result; an empty list if every direction has one."""
+    sorted_directions = sorted(directions, key=lambda direction: direction.azimuth_deg)
+    azimuths = [f"{direction.azimuth_deg:g}" for direction in sorted_directions if direction.gave_up]
     if not azimuths:
         return []
-    text = "{count} of {all} directions have no answer, for the run was given up: {azimuths} deg"
-    return [lazy_gettext(text, count=len(azimuths), all=len(found), azimuths=", ".join(azimuths))]
+    text = "no result in {count} of {all} directions (run stopped): {azimuths} deg"
+    return [lazy_gettext(text, count=len(azimuths), all=len(directions), azimuths=", ".join(azimuths))]
 
 
 def respond_directions(
     block: Block | ScannedBody, record: Record, *, vertical: Gain | None = None, step_deg: float = STEP_DEG, **options: Any
 ) -> list[RespondAzimuth]:
-    """Return what becomes of a body in every direction of a record, the worst first.
+    """Return the response of a body in every direction of a record, the worst direction first.
 
-    Directions are those of :func:`~seisblock.studies.azimuths.make_azimuth_sweep`; all of them go through the record side by side. A
-    body that falls
-    is worse than one that leans, one that falls sooner worse than one that falls later, one that leans further worse than one that leans
-    less, and of two that do not lean the one that moves further is worse. Directions without an answer come last.
+    Directions are those of :func:`~seisblock.studies.azimuths.make_azimuth_sweep`; all are integrated in one batch. Order:
+    overturning (the earlier, the worse), then peak tilt, then, without tilt, maximum displacement. Directions without a result
+    come last.
 
     Parameters
     ----------
@@ -71,9 +74,9 @@ def respond_directions(
     record : Record
         With two horizontal components.
     vertical : bool, float or None
-        Whether the vertical motion acts, or a factor on it; None: where the record has one.
+        True or a factor to apply the vertical motion; None: if the record has one.
     step_deg : float
-        Degrees between directions.
+        Step between directions, degrees.
     options
         ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``gravity``, ``tenon`` as in
         :func:`~seisblock.models.respond.solve.solve_respond`, and ``settle_s``.
@@ -81,7 +84,7 @@ def respond_directions(
     Raises
     ------
     SolverError
-        If no direction has an answer.
+        If no direction has a result.
 
     Examples
     --------
@@ -106,16 +109,16 @@ def respond_directions(
 
 
 def _severity(direction: RespondAzimuth) -> tuple[float, float, float]:
-    """Return what makes one direction worse than another."""
+    """Return the sort key of a direction: overturning, then peak tilt, then displacement."""
     if direction.gave_up:
         return -1.0, 0.0, 0.0
     if direction.overturned:
         return 1.0, -direction.end_s, direction.max_displacement_m
+    # rounding: round-off in the tilt of mirrored directions must not decide before the displacement does
     return 0.0, round(direction.max_rotation_rad, 12), direction.max_displacement_m
 
 
 def _direction(azimuth: float, block: Block, result: RespondBatchResult, row: int, start_s: float) -> RespondAzimuth:
-    """Return the fate of one direction."""
     fallen = bool(result.overturned[row])
     return RespondAzimuth(
         azimuth,

@@ -1,4 +1,4 @@
-"""The governing answer about one body: what it does, whichever comes, and how sure that is, also where its friction is not known."""
+"""Best-estimate response of one body: the full model, with a no-slip friction if the friction is unknown, and its probability."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from seisblock.records import Motion
 from seisblock.studies.respond.probability import Probability, respond_probability
 
 JAMMING_MARGIN = 0.8
-"""Share of Painleve's limit that is taken for the friction of feet that hold: versions vary it by a fifth, and none of them may jam."""
+"""Share of Painleve's limit used as no-slip friction: samples vary friction by a fifth, and no sample may jam."""
 
 
 @dataclass(frozen=True, eq=False)
 class BestEstimate:
-    """What a body does, and how sure that is.
+    """Best-estimate response of a body with its overturning probability.
 
     Parameters
     ----------
     response : Response
     probability : Probability or None
-        None where nobody asked.
+        None without samples (``runs=0``).
     friction_known : bool
-        False where the friction is that of feet that hold.
+        False if the friction is the no-slip friction of the body.
     """
 
     response: Response[RespondOutcome]
@@ -36,7 +36,7 @@ class BestEstimate:
 
 
 def no_slip_friction(block: Block) -> float:
-    """Return a friction, 1, at which a body hardly slips and never jams: 0.8 of Painleve's limit ([GenotBrogliato1999]_, derived there).
+    """Return a friction, 1, without slip and without jamming: 0.8 of Painleve's limit ([GenotBrogliato1999]_, derived there).
 
     Parameters
     ----------
@@ -60,19 +60,19 @@ def best_estimate(
     gravity: float = STANDARD_GRAVITY,
     runs: int = 0,
 ) -> BestEstimate:
-    """Return what a body does under a motion, whichever comes.
+    """Return the full response of a body under a motion: rest, sliding, rocking, flight or overturning.
 
     Parameters
     ----------
     block : Block
     motion : Motion
     mu, mu_kinetic : float or None, 1
-        Friction; None where nothing is known of it: feet that hold.
+        Friction; None if unknown: the no-slip friction is used.
     vertical : bool
-        Whether the vertical component acts, where there is one.
+        True to apply the vertical component, if the motion has one.
     gravity : float, m/s^2
     runs : int
-        Plausible versions behind the probability; 0 for none.
+        Samples for the probability; 0 for none.
     """
     friction = {"mu": no_slip_friction(block) if mu is None else mu, "mu_kinetic": None if mu is None else mu_kinetic}
     vertical_option = None if vertical else False

@@ -1,4 +1,4 @@
-"""Maps of what happens: one record, and rectangular blocks of all frictions and all slendernesses, or all sizes."""
+"""Maps of the governing mode: one record, rectangular blocks over friction and slenderness, or friction and size."""
 
 from __future__ import annotations
 
@@ -24,41 +24,41 @@ from seisblock.records import Motion
 from seisblock.records._validation import Gain, validate_motion, vertical_gain
 
 NO_ANSWER = N_("no answer")
-"""Body whose run was given up."""
+"""Label of a body whose run was stopped without a result."""
 
 MODES_BY_SEVERITY = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED, NO_ANSWER)
-"""Modes from the mildest to the worst, of which the worst visible one stands for a body; at the end, bodies without an answer."""
+"""Modes from the mildest to the worst; the worst visible one stands for a body. Last: bodies without a result."""
 
 VISIBLE_SLIP_M = 5e-4
-"""Slip of a rocking body, or rise of one that flies, that one could see, m."""
+"""Smallest visible slip of a rocking body, and smallest visible rise in flight, m."""
 
 CHUNK_SIZE = 200
-"""Cells between two reports of progress."""
+"""Cells between two progress reports."""
 
 
 @dataclass(frozen=True, eq=False)
 class ModeMap:
-    """Which mode governs over a grid of bodies (rows) and frictions (columns).
+    """Governing mode over a grid of bodies (rows) and friction coefficients (columns).
 
     Parameters
     ----------
     size_m : (n,) array, m
-        2R, the diagonal of each row's block as drawn.
+        2R, the diagonal of each row's block with sharp edges.
     b_over_h : (n,) array, 1
-        Half of its base, less what is worn, over the height of its centre of gravity.
+        Half of the worn base over the height of the centre of gravity.
     mu : (k,) array, 1
     governing : (n, k) array of int
-        The worst mode, an index into ``GOVERNING``: overturned; flight, where one lasted as long as a rise of half a millimetre takes;
-        slide-rock, where it rocked and slid half a millimetre in all; rock; slide; rest, where nothing moved at all; no answer, where the
-        run was given up: then lean and displacements are those of that instant.
+        Worst mode, an index into ``MODES_BY_SEVERITY``: overturned; flight, if one lasts at least as long as a rise of half a
+        millimetre takes; slide-rock, for a rocking body with a slip path of at least half a millimetre; rock; slide; rest; no
+        result, for a stopped run: tilt and displacements are then those of that instant.
     max_rotation_ratio : (n, k) array
-        Largest lean over alpha.
+        Peak tilt over alpha.
     slip_path_m, final_displacement_m : (n, k) arrays, m
-        Length slid, and where it ends, signed.
+        Length of the slip path, and residual displacement, signed.
     loading, loading_time_s : float, 1 and s
-        Largest abs(a)/(g + a_y) of the motion, and when: a block rests if neither mu nor b/h is below it.
+        Largest abs(a)/(g + a_y) of the motion, and its time: a block rests if both mu and b/h exceed it.
     friction_to_rock : (n,) array, 1
-        Friction that a corner needs if that comes as a jump, NaN where the block would not rock.
+        Friction coefficient required to rock if that loading is applied as a step, NaN for a block that would not rock.
     """
 
     size_m: FloatArray
@@ -73,7 +73,7 @@ class ModeMap:
     friction_to_rock: FloatArray
 
     def share(self, mode: str) -> float:
-        """Return the share of the cells in which a mode governs."""
+        """Return the share of the cells governed by a mode."""
         return float(np.mean(self.governing == MODES_BY_SEVERITY.index(mode)))
 
 
@@ -90,26 +90,26 @@ def mode_map(
     settle_s: float = 60.0,
     progress: Progress | None = None,
 ) -> ModeMap:
-    """Return which mode governs the motion of rectangular blocks under a record, with the limits of initiation ([Shenton1996]_).
+    """Return the governing mode of rectangular blocks under a record, with the limits of initiation ([Shenton1996]_).
 
     Parameters
     ----------
     frictions : (k,) array, 1
         Static and kinetic friction, 0 or more.
     sizes, slendernesses : (n,) and (1,), (1,) and (n,), or (n,) and (n,) arrays, m and rad
-        Diagonals 2R and alpha = atan(B/H) of the blocks as drawn.
+        Diagonals 2R and alpha = atan(B/H) of the blocks with sharp edges.
     motion : Motion
-    inset : Inset
-        How far the edges are worn, per side.
+    inset : EdgeWear
+        Edge wear, per side.
     restitution : float
         Poisson's, in [0, 1).
     vertical : bool, float or None
-        Whether the vertical component acts, or a factor on it; None: where the record has one.
+        True or a factor to apply the vertical component; None: if the record has one.
     gravity : float, m/s^2
     settle_s : float, s
-        How long bodies are followed after the record.
+        Time integrated after the record.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
 
     Raises
     ------
@@ -120,24 +120,27 @@ def mode_map(
     --------
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
-    >>> found = mode_map([0.2, 0.6], [1.0], [0.2], pulse)
-    >>> found.share("slide"), found.share("overturned")
+    >>> result = mode_map([0.2, 0.6], [1.0], [0.2], pulse)
+    >>> result.share("slide"), result.share("overturned")
     (0.5, 0.5)
     """
     mu = np.array([checks.non_negative(N_("the friction coefficient mu"), value) for value in np.atleast_1d(frictions)])
     blocks = _blocks(sizes, slendernesses, inset)
     validate_motion(motion)
+    # cells row by row: block index varies slowest
     cells = len(blocks) * mu.size
     if not cells:
-        raise ParameterError("a map needs at least one cell")
+        raise ParameterError("a mode map requires at least one cell: give at least one friction, size and slenderness")
     check_limit(N_("cells"), cells, "SEISBLOCK_CELLS")
     kinds, friction_by_cell = np.arange(cells) // mu.size, np.tile(mu, len(blocks))
     settings = RespondBatchParams(
         to_block_array(blocks)[kinds], friction_by_cell, friction_by_cell, np.full(cells, restitution), np.ones(cells), False, gravity, 0.0
     )
     alphas = settings.blocks.slendernesses.min(axis=1)
+    # Shenton's initiation limits use the same vertical motion as the runs
     up = vertical_gain(motion, vertical)
     ratio, time = peak_loading_ratio(motion, vertical=vertical, gravity=gravity)
+    # free flight to a height h and back takes sqrt(8 h/g)
     visible_flight_s = math.sqrt(8.0 * VISIBLE_SLIP_M / gravity)
     table, gave_up = np.empty((cells, 4)), 0
     for first in range(0, cells, CHUNK_SIZE):
@@ -151,6 +154,7 @@ def mode_map(
     if gave_up == cells:
         raise no_answer(cells, cells, int(result.impacts.min()))
     worst, lean, path, end = table.T.reshape(4, len(blocks), mu.size)
+    # an infinite loading ratio means that the ground falls away: no friction is defined
     required_friction = [None if math.isinf(ratio) else friction_to_rock(block, ratio) for block in blocks]
     return ModeMap(
         np.array([math.hypot(block.width, block.height) for block in blocks]),
@@ -167,22 +171,22 @@ def mode_map(
 
 
 def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: EdgeWear) -> list[Block]:
-    """Return one block per row."""
     diagonals, alphas = (np.atleast_1d(checks.float_array("sizes and slendernesses", values)) for values in (sizes, slendernesses))
     for value in diagonals:
-        checks.positive(N_("each size 2R"), float(value), "m")
+        checks.positive(N_("size 2R"), float(value), "m")
     for value in alphas:
-        checks.in_interval(N_("each slenderness alpha"), float(value), f"(0, {math.pi / 2:.4g})", "rad")
+        checks.in_interval(N_("slenderness alpha"), float(value), f"(0, {math.pi / 2:.4g})", "rad")
     if diagonals.size != alphas.size and 1 not in (diagonals.size, alphas.size):
-        raise ParameterError("a map has rows of many sizes or of many slendernesses, not of both: give one size, or one slenderness")
+        raise ParameterError("`sizes` and `slendernesses` must have the same length, or one of them a single value")
     pairs = np.broadcast(diagonals, alphas)
     return [Block(d * math.sin(a), d * math.cos(a)).with_wear(inset) for d, a in ((float(d), float(a)) for d, a in pairs)]
 
 
 def _worst_mode(result: RespondBatchResult, visible_flight_s: float) -> IntArray:
-    """Return the worst mode of each run that one could see, as an index into ``GOVERNING``."""
+    """Return the worst visible mode of each run, an index into ``MODES_BY_SEVERITY``."""
     _, slid, rocked, skidded, flew = (result.time_in_mode_s[:, i] > 0.0 for i in range(len(MODE_COLUMNS)))
     rotated = rocked | skidded | flew
+    # np.select takes the first condition that holds: from the worst to the mildest
     return np.select(
         [
             result.gave_up,

@@ -1,6 +1,6 @@
-"""How sure the fate of a pile is: plausible versions of its stones and the shaking, and the share of them in which each stone falls.
+"""Overturning probability of a pile of stones: samples of the pile and its shaking, and the share in which each stone falls.
 
-A pile is chaotic sooner than a block: a stone that strikes a little earlier falls to another side, or stays. One run is an anecdote.
+A pile is more sensitive to its input than a block: a slightly earlier impact changes the direction of a fall, or prevents it.
 """
 
 from __future__ import annotations
@@ -29,28 +29,28 @@ from seisblock.studies.parallel import map_threads
 from seisblock.studies.respond.probability import MOVED_M
 
 SIZE, AMPLITUDE, AZIMUTH, INSET, FRICTION = range(5)
-"""Columns of the draws; from the last one on there is one for each stone."""
+"""Columns of the draws; from ``FRICTION`` on, one column per stone."""
 
 
 @dataclass(frozen=True)
 class PileVariation:
-    """How far plausible versions of a pile differ from what was given; each change uniform and independent of the others.
+    """Half widths of the samples of a pile; each parameter varies uniformly and independently.
 
     Parameters
     ----------
-    size, amplitude : float
-        Half widths as shares: of all lengths of the pile, and of the shaking.
-    inset : float
-        Half width of the insets of all stones alike, a share of each: sharp edges stay sharp. On a grid of points without effect.
-    mu : float
-        Half width as a share, of the friction under each stone by itself.
+    size, amplitude : float, 1
+        Relative half widths: of all lengths of the pile, and of the shaking.
+    inset : float, 1
+        Relative half width of the insets, common to all stones: sharp edges stay sharp. No effect on a grid of contact points.
+    mu : float, 1
+        Relative half width of the friction under each stone, independent from stone to stone.
     azimuth_deg : float
-        Half width of the direction of the shaking, degrees; without effect where the record's second horizontal is unknown.
+        Half width of the direction of the shaking, degrees; no effect if the record's second horizontal is unknown.
 
     Raises
     ------
     ParameterError
-        If a width is negative, or a share 1 or more.
+        If a width is negative, or a relative width is 1 or more.
     """
 
     size: float = 0.05
@@ -60,30 +60,30 @@ class PileVariation:
     azimuth_deg: float = 10.0
 
     def __post_init__(self) -> None:
-        checks.in_interval("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.in_interval("the spread of the inset, a share,", self.inset, "[0, 1)")
-        checks.in_interval("the spread of the friction, a share,", self.mu, "[0, 1)")
-        checks.in_interval("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
+        checks.in_interval("the relative spread of the size", self.size, "[0, 1)")
+        checks.in_interval("the relative spread of the edge wear", self.inset, "[0, 1)")
+        checks.in_interval("the relative spread of the friction", self.mu, "[0, 1)")
+        checks.in_interval("the relative spread of the amplitude", self.amplitude, "[0, 1)")
         checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
 
 
 @dataclass(frozen=True)
 class StoneProbability:
-    """In which share of the versions one stone falls, and to which side.
+    """Overturning probability of one stone of a pile, and the direction of its falls.
 
     Parameters
     ----------
     name : str
     overturned : float
-        A share.
+        Share of the samples.
     interval : (float, float), 1
-        Clopper-Pearson's, 95 %, of the former.
+        Clopper-Pearson, 95 %, of `overturned`.
     moved : float
-        Share in which it ends more than `moved_m` from its place on the stone below, or falls.
+        Share with a residual displacement above `moved_m` on the stone below, or a fall.
     fell_towards_deg, fell_azimuth_deg : float or None
-        Mean direction of its falls, from +x counter-clockwise and from north clockwise; None where it never falls, or north is not known.
+        Mean direction of its falls, from +x counter-clockwise and from north clockwise; None without a fall, or if north is unknown.
     fell_alike_ratio : float or None, 1
-        Length of the mean of unit vectors along its falls: 1 where all go to one side, near 0 where they go to all.
+        Length of the mean unit vector of its falls: 1 if all fall to one side, near 0 if they scatter over all directions.
     """
 
     name: str
@@ -97,21 +97,21 @@ class StoneProbability:
 
 @dataclass(frozen=True)
 class PileProbability:
-    """In which share of the versions of a pile a stone falls, and which.
+    """Overturning probability of a pile and of each of its stones.
 
     Parameters
     ----------
     runs, left_out_count : int
-        Versions that were followed, and those that were not to their end, for they created energy.
+        Completed samples, and samples that were stopped because they created energy.
     overturned, moved : float
-        Shares in which any stone falls, and in which one ends more than `moved_m` from its place, or falls.
+        Shares in which any stone falls, and in which any has a residual displacement above `moved_m`, or falls.
     interval : (float, float), 1
-        Clopper-Pearson's, 95 %, of the former: what so many runs leave open, not what is not known of the pile.
+        Clopper-Pearson, 95 %, of `overturned`: sampling interval only, model error not included.
     moved_m : float, m
-    stones : tuple of StoneChance
+    stones : tuple of StoneProbability
         From below upwards.
-    versions : PileVersions
-        What was varied, and how far; its inset 0 on a grid of points, and less than asked where the pile would no longer stand at rest.
+    versions : PileVariation
+        Half widths in use; the inset is 0 on a grid of contact points, and reduced where the pile would not stand at rest.
     seed : int
     """
 
@@ -138,62 +138,63 @@ def stack_probability(
     workers: int | None = None,
     **options: Any,
 ) -> PileProbability:
-    """Return in which share of the plausible versions of a pile and its shaking each stone falls, and any of them.
+    """Return the overturning probability of a pile and of each of its stones, from samples of the pile and its shaking.
 
     Parameters
     ----------
     body, motion
-        As of :func:`~seisblock.models.stack.solve.solve_stack`; the middle of the versions.
+        As in :func:`~seisblock.models.stack.solve.solve_stack`; the centre of the samples.
     runs : int
-        How many versions, at least 1.
+        Number of samples, at least 1.
     moved_m : float, m
-        Distance beyond which a stone counts as moved.
-    versions : PileVersions
+        Residual displacement above which a stone counts as moved.
+    versions : PileVariation
     seed : int
-        The same seed gives the same versions, on any number of threads.
+        The same seed gives the same samples, on any number of threads.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: the number of cores.
     options
-        The others of :func:`~seisblock.models.stack.solve.solve_stack`.
+        Other options of :func:`~seisblock.models.stack.solve.solve_stack`.
 
     Raises
     ------
     ParameterError
         If there are no runs, or a number lies outside its range.
     SolverError
-        If no version can be followed.
+        If no sample completes.
 
     Examples
     --------
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
-    >>> found = stack_probability(Pile("grave", (PileStone("post", 0.2, 0.2, 1.2),)), pulse, runs=4)
-    >>> found.overturned, [stone.name for stone in found.stones if stone.overturned]
+    >>> result = stack_probability(Pile("grave", (PileStone("post", 0.2, 0.2, 1.2),)), pulse, runs=4)
+    >>> result.overturned, [stone.name for stone in result.stones if stone.overturned]
     (1.0, ['post'])
     """
     validate_inputs(body, Pile, motion)
     checks.instance(versions, PileVariation)
     checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("versions"), runs, "SEISBLOCK_RUNS")
-    checks.positive("the displacement that counts as moved", moved_m, "m")
+    check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
+    checks.positive("the residual displacement that counts as moved", moved_m, "m")
     if (mu_kinetic := options.pop("mu_kinetic", None)) is not None:
         body = body.with_kinetic_friction(mu_kinetic)
+    # wear that would tip a stone at rest is excluded before the draws, so that every sample starts from rest
     versions = replace(versions, inset=widest_wear(body, versions.inset) if options.get("points", EDGE_POINTS) == EDGE_POINTS else 0.0)
+    # all draws before the runs: the samples do not depend on the number of threads
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
     def work(draw: FloatArray) -> StackOutcome | SolverError:
-        """Follow one version as far as it can be."""
         try:
             return solve_stack(perturb_pile(body, versions, draw), perturb_motion(motion, versions, draw), **options).outcome
         except SolverError as error:
             return error
 
     results = list(map_threads(work, list(draws), progress=progress, workers=workers))
-    outcomes = [answer for answer in results if isinstance(answer, StackOutcome)]
+    outcomes = [result for result in results if isinstance(result, StackOutcome)]
     if not outcomes:
-        raise next(answer for answer in results if isinstance(answer, SolverError))
+        raise next(result for result in results if isinstance(result, SolverError))
     fates = [outcome.stones for outcome in outcomes]
     displaced = np.array([[stone.state == "fallen" or stone.residual_slip_m > moved_m for stone in stones] for stones in fates])
     fell = sum(outcome.overturned_any for outcome in outcomes)
@@ -214,12 +215,12 @@ def stack_probability(
 
 
 def perturb_pile(body: Pile, versions: PileVariation, draw: FloatArray) -> Pile:
-    """Return one version of a pile: all its lengths by one factor, its edges worn alike, and the friction under each stone by its own.
+    """Return one sample of a pile: one factor on all lengths, one on all edge wear, one on the friction under each stone.
 
     Parameters
     ----------
     body, versions
-        As of :func:`stack_probability`.
+        As in :func:`stack_probability`.
     draw : (4 + stones,) array
         In [-1, 1].
     """
@@ -231,7 +232,6 @@ def perturb_pile(body: Pile, versions: PileVariation, draw: FloatArray) -> Pile:
 
 
 def _perturb_stone(stone: PileStone, size: float, friction_factor: float, mu: float, mu_kinetic: float) -> PileStone:
-    """Return a stone of another size, on another friction."""
     return replace(
         stone,
         width=size * stone.width,
@@ -246,12 +246,12 @@ def _perturb_stone(stone: PileStone, size: float, friction_factor: float, mu: fl
 
 
 def perturb_motion(motion: Motion, versions: PileVariation, draw: FloatArray) -> Motion:
-    """Return one version of the shaking: scaled, and turned about the vertical where both its horizontals are known.
+    """Return one sample of the shaking: scaled, and rotated about the vertical if both horizontals are known.
 
     Parameters
     ----------
     motion, versions
-        As of :func:`stack_probability`.
+        As in :func:`stack_probability`.
     draw : (4 + stones,) array
         In [-1, 1].
 
@@ -262,20 +262,21 @@ def perturb_motion(motion: Motion, versions: PileVariation, draw: FloatArray) ->
     [0.0, 1.5, 0.0]
     """
     factor = 1.0 + versions.amplitude * draw[AMPLITUDE]
+    # no rotation if the transverse motion is unknown (zero)
     angle = math.radians(versions.azimuth_deg * draw[AZIMUTH]) * bool(motion.transverse.any())
     c, s = factor * math.cos(angle), factor * math.sin(angle)
-    # a copy per thread and no more: it ends with its run
+    # one copy of the motion per thread; released with its run
     longitudinal, transverse = motion.horizontal, motion.transverse
     rows = (c * longitudinal - s * transverse, s * longitudinal + c * transverse, factor * motion.vertical)
     return Motion(rows, motion.dt, name=motion.name, start_s=motion.start_s, record=motion.record)
 
 
 def _stone_probability(fates: Sequence[StoneOutcome], moved_share: float, azimuth: float | None) -> StoneProbability:
-    """Return how often one stone falls, and to which side."""
     fell = [math.radians(fate.fell_towards_deg) for fate in fates if fate.fell_towards_deg is not None]
     share, interval = len(fell) / len(fates), clopper_pearson(len(fell), len(fates))
     if not fell:
         return StoneProbability(fates[0].name, share, interval, moved_share, None, None, None)
+    # circular mean: the resultant's length measures how far the directions agree
     mean = complex(np.exp(1j * np.array(fell)).mean())
     direction = math.degrees(math.atan2(mean.imag, mean.real))
     return StoneProbability(

@@ -1,9 +1,9 @@
-"""Overturning probability of a free-standing object: the share of samples of it and its shaking that fall or move.
+"""Overturning probability of a free-standing object by Monte Carlo sampling of the object and its shaking.
 
-Samples vary around the object as it was given, which is their median in every parameter: width, height, worn edges, friction,
-restitution, amplitude and direction of the shaking. A given value varies by its own tolerance; worn edges and friction that nobody has
-measured are drawn from the ranges of the object's kind. The share is of this model's own scatter: on shaking tables 3 % of two granite
-rocks fell where none of 20 samples did, and 2 % stood where all fell.
+Samples vary around the nominal object, which is their median in every parameter: width, height, edge wear, friction, restitution,
+amplitude and direction of the shaking. A given value varies by its own tolerance; unmeasured edge wear and friction are drawn from
+the priors of the kind of object. The share covers parameter variation only: on shaking tables 3 % of two granite rocks overturned
+in runs with 0 of 20 samples overturning, and 2 % did not in runs with 20 of 20.
 """
 
 from __future__ import annotations
@@ -33,37 +33,37 @@ RUNS = 200
 MOVED_M = 0.01
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 MAX_RESTITUTION = 0.95
-"""Restitutions of versions stay below this: hops near 1 have no end."""
+"""Upper limit of sampled restitutions: near 1 a body hops without end."""
 
 HEIGHT, INSET, MU, RESTITUTION, AMPLITUDE, AZIMUTH, WIDTH = range(7)
 """Columns of the draws."""
 
 CHUNK_SIZE = 100
-"""Versions handed over at a time, so that progress can be told."""
+"""Samples between two progress reports."""
 
 
 @dataclass(frozen=True)
 class ParameterVariation:
-    """Half widths of the samples around what was given; each change uniform and independent of the others.
+    """Half widths of the samples around the nominal values; each parameter varies uniformly and independently.
 
     Parameters
     ----------
-    size, mu, amplitude : float
-        Half widths as shares of the value; size is that of the width and, independently, of the height.
-    inset : float
-        Half width of a known inset, a share of itself, as far as a fifth of the base is left: sharp edges stay sharp. Edges that nobody
-        has measured are drawn from the range of the body's kind instead; 0 takes them as known exactly, and likewise for `mu`.
+    size, mu, amplitude : float, 1
+        Relative half widths; size applies to the width and, independently, to the height.
+    inset : float, 1
+        Relative half width of a known inset, as far as a fifth of the base remains: sharp edges stay sharp. Unmeasured edges are
+        drawn from the prior of the body's kind instead; 0 takes them as known exactly, and likewise for `mu`.
     restitution : float, 1
-        Half width of the restitution. Below 0 it continues as a share of what an impact without restitution leaves of the angular
-        velocity of rocking: -0.05 stands for 0.95 of Housner's ratio, as measured on concrete. A given rocking restitution varies by
-        this share of itself.
+        Half width of the restitution. Below 0 it continues as a share of the angular velocity of rocking that an impact without
+        restitution leaves: -0.05 stands for 0.95 of Housner's ratio, as measured on concrete. A given rocking restitution varies
+        by this share of itself.
     azimuth_deg : float
-        Half width, degrees; without effect where the record's second horizontal is unknown.
+        Half width, degrees; no effect if the record's second horizontal is unknown.
 
     Raises
     ------
     ParameterError
-        If a width is negative, or a share 1 or more.
+        If a width is negative, or a relative width is 1 or more.
     """
 
     size: float = 0.05
@@ -74,36 +74,36 @@ class ParameterVariation:
     azimuth_deg: float = 10.0
 
     def __post_init__(self) -> None:
-        checks.in_interval("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.in_interval("the spread of the inset, a share,", self.inset, "[0, 1)")
-        checks.in_interval("the spread of the friction, a share,", self.mu, "[0, 1)")
+        checks.in_interval("the relative spread of the size", self.size, "[0, 1)")
+        checks.in_interval("the relative spread of the edge wear", self.inset, "[0, 1)")
+        checks.in_interval("the relative spread of the friction", self.mu, "[0, 1)")
         checks.in_interval("the spread of the restitution", self.restitution, "[0, 1)")
-        checks.in_interval("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
+        checks.in_interval("the relative spread of the amplitude", self.amplitude, "[0, 1)")
         checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
 
 
 @dataclass(frozen=True)
 class Probability:
-    """Which share of the versions falls, and which moves.
+    """Overturning probability, and probability of a residual displacement.
 
     Parameters
     ----------
     runs : int
-        Versions that have an answer.
+        Samples with a result.
     overturned, moved : float
-        Shares that fall, and that end more than `moved_m` from where they stood, or fall.
+        Shares that overturn, and that end more than `moved_m` from their place or overturn.
     interval : (float, float), 1
-        Clopper-Pearson's, 95 %, of the former: what so many runs leave open, not what is not known of the object.
+        Clopper-Pearson, 95 %, of `overturned`: sampling interval only, model error not included.
     moved_m : float, m
     final_displacement_m : dict
-        Quantiles of the displacement of those that stand, signed, by their share; empty where all fall.
-    versions : Versions
-        What was varied, and how far.
+        Quantiles of the signed residual displacement of samples that do not overturn, by their share; empty if all overturn.
+    versions : ParameterVariation
+        Half widths in use.
     seed : int
-    ranges : Ranges or None
-        Priors of the body's kind, edges and friction, from which samples were drawn instead of varying by shares.
+    ranges : ParameterRanges or None
+        Priors of the body's kind (edge wear, friction) that replace the relative half widths.
     no_answer : tuple of int
-        Numbers, from 1, of the versions that were given up. They are not among `runs`: whether they would fall is not known.
+        Numbers, from 1, of the samples that were stopped. They are not among `runs`: whether they overturn is unknown.
     """
 
     runs: int
@@ -136,28 +136,28 @@ def respond_probability(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> Probability:
-    """Return which share of the plausible versions of a body and its shaking falls, and which share moves.
+    """Return the overturning probability of a body, and the probability that it moves, from samples of the body and its shaking.
 
     Parameters
     ----------
     block, motion, mu, mu_kinetic, restitution, rocking_restitution, vertical, gravity, settle_s, tenon
         As in :func:`~seisblock.models.respond.solve.solve_respond`; the median of the samples.
     runs : int
-        How many versions, at least 1.
+        Number of samples, at least 1.
     moved_m : float, m
-        Displacement beyond which a body counts as moved.
-    versions : Versions
+        Residual displacement above which a body counts as moved.
+    versions : ParameterVariation
     seed : int
-        The same seed gives the same versions, on any number of threads.
+        The same seed gives the same samples, on any number of threads.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
 
     Raises
     ------
     ParameterError
         If there are no runs, or a number lies outside its range.
     SolverError
-        If every version hops without end.
+        If every sample hops without end.
 
     Examples
     --------
@@ -169,9 +169,10 @@ def respond_probability(
     validate_inputs(block, Block, motion)
     checks.instance(versions, ParameterVariation)
     checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("versions"), runs, "SEISBLOCK_RUNS")
+    check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
-        raise ParameterError("the displacement that counts as moved must be positive, found {found} m", found=moved_m)
+        raise ParameterError("the residual displacement that counts as moved must be positive, found {found} m", found=moved_m)
+    # validates the nominal values: perturbed ones are clipped into their ranges
     respond_params(
         block,
         mu=mu,
@@ -182,6 +183,7 @@ def respond_probability(
         tenon=tenon,
     )
     rng = np.random.default_rng(checks.seed(seed))
+    # WIDTH is drawn last, so that the other columns keep their values for a seed
     draws = np.column_stack([rng.uniform(-1.0, 1.0, (runs, 6)), rng.uniform(-1.0, 1.0, runs)])
     settings = perturbed_respond_params(
         block,
@@ -201,13 +203,14 @@ def respond_probability(
         parts.append(respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s))
         if progress is not None:
             progress(min(first + CHUNK_SIZE, runs), runs)
+    # stopped samples leave the statistics: their outcome is unknown, not stable
     gave_up, fallen, shifts = (
         np.concatenate([getattr(fates, name) for fates in parts]) for name in ("gave_up", "overturned", "final_displacement_m")
     )
     if gave_up.all():
         raise no_answer(runs, runs, min(int(fates.impacts.min()) for fates in parts))
     falls, shift = fallen[~gave_up], shifts[~gave_up]
-    standing = np.quantile(shift[~falls], QUANTILES) if not falls.all() else ()
+    displacements = np.quantile(shift[~falls], QUANTILES) if not falls.all() else ()
     count = int(falls.sum())
     return Probability(
         falls.size,
@@ -215,7 +218,7 @@ def respond_probability(
         float(np.mean(falls | (np.abs(shift) > moved_m))),
         clopper_pearson(count, falls.size),
         moved_m,
-        {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
+        {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, displacements, strict=False)},
         versions,
         seed,
         block.ranges and block.ranges.priors,
@@ -235,24 +238,26 @@ def perturbed_respond_params(
     gravity: float = STANDARD_GRAVITY,
     tenon: float = 0.0,
 ) -> RespondBatchParams:
-    """Return the samples of a body and its contact, by draws of each parameter within its half width.
+    """Return the samples of a body and its contact, from draws of each parameter within its half width.
 
     Parameters
     ----------
     block, versions, mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon
-        As of :func:`respond_probability`.
+        As in :func:`respond_probability`.
     draws : (m, 7) array
         In [-1, 1].
     """
+    # one factor on both coefficients keeps kinetic below static friction
     friction_factor = 1.0 + versions.mu * draws[:, MU]
+    # unmeasured friction: the prior of the kind, its median at the nominal value, replaces the relative width
     if versions.mu > 0.0 and block.ranges is not None and block.ranges.mu is not None:
         friction_factor = within(block.ranges.mu, mu, draws[:, MU]) / mu if mu > 0.0 else np.ones(len(draws))
     change = versions.restitution * draws[:, RESTITUTION]
     bounce = restitution + change
-    # kept on both sides of 0: a restitution below it is a loss on top of a plastic impact
-    kept = 1.0 + np.minimum(bounce, 0.0)
+    # continuous through 0: a restitution below it is a loss beyond a plastic impact
+    loss_factor = 1.0 + np.minimum(bounce, 0.0)
     if rocking_restitution is not None:
-        kept = np.minimum(rocking_restitution * (1.0 + change), max(rocking_restitution, 1.0))
+        loss_factor = np.minimum(rocking_restitution * (1.0 + change), max(rocking_restitution, 1.0))
     return RespondBatchParams(
         samples(
             block,
@@ -264,7 +269,7 @@ def perturbed_respond_params(
         mu * friction_factor,
         (mu if mu_kinetic is None else mu_kinetic) * friction_factor,
         np.clip(bounce, 0.0, max(restitution, MAX_RESTITUTION)),
-        kept,
+        loss_factor,
         rocking_restitution is not None,
         gravity,
         tenon,
@@ -272,7 +277,8 @@ def perturbed_respond_params(
 
 
 def _gains(motion: Motion, versions: ParameterVariation, draws: FloatArray, vertical: Gain | None) -> FloatArray:
-    """Return the factors on the rows along, across and up that scale and turn the shaking of each version, (runs, 3)."""
+    """Return the gains on the rows along, across and up that scale and rotate the shaking of each sample, (runs, 3)."""
     amplitude = 1.0 + versions.amplitude * draws[:, AMPLITUDE]
+    # no rotation if the transverse motion is unknown (zero): it would only reduce the amplitude
     angle = np.radians(versions.azimuth_deg) * draws[:, AZIMUTH] * bool(motion.transverse.any())
     return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * vertical_gain(motion, vertical)])

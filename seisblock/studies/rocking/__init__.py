@@ -1,1 +1,1 @@
-"""Many runs of one rocking block: margins, probabilities, spectra."""
+"""Margin, perturbation, azimuth and spectrum studies of one rocking block."""

@@ -1,4 +1,7 @@
-"""Rocking in every direction: NS and EW are the sensor's axes, and the worst azimuth is what the object may have met."""
+"""Rocking of one block in every horizontal direction of a record.
+
+NS and EW are the axes of the sensor, not of the body: an object of unknown orientation may have met the worst azimuth.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ from seisblock.studies.rocking.verdicts import parallel_verdicts
 
 @dataclass(frozen=True)
 class RockAzimuth:
-    """What became of a block that rocks when its +x points to an azimuth.
+    """Rocking of a block with its +x axis at one azimuth.
 
     Parameters
     ----------
@@ -30,13 +33,13 @@ class RockAzimuth:
         During the record or, by its energy, afterwards.
     overturned_towards : str or None
     overturning_time_s : float or None
-        When it lies, from the record's first sample.
+        Time of overturning, from the record's first sample.
     max_rotation_ratio : float
-        Largest lean over alpha of the side concerned.
+        Peak tilt over alpha of the side concerned.
     slenderness_rad : float
-        alpha of the side to which it falls more easily.
+        Smaller alpha of the two sides.
     gave_up : bool
-        Whether the run was given up, so that there is no answer in this direction, and the largest lean stands at 0.
+        True for a run that was stopped without a result; the peak tilt is then 0.
     """
 
     azimuth_deg: float
@@ -56,12 +59,10 @@ def rock_directions(
     progress: Progress | None = None,
     **options: Unpack[RockOptions],
 ) -> list[RockAzimuth]:
-    """Return what becomes of a block, or of a scan, in every direction of a record, the worst first.
+    """Return the rocking of a block, or of a scan, in every direction of a record, the worst direction first.
 
-    Directions are those of :func:`~seisblock.studies.azimuths.make_azimuth_sweep`; all of them go through the record side by side. One
-    in which it
-    falls is worse than one in which it does not, one in which it falls sooner worse than one in which it falls later, and of two in which
-    it stands the one in which it leans further over alpha is worse.
+    Directions are those of :func:`~seisblock.studies.azimuths.make_azimuth_sweep`; all are integrated in one batch. Order:
+    overturning (the earlier, the worse), then peak tilt over alpha. Directions without a result come last.
 
     Parameters
     ----------
@@ -69,9 +70,9 @@ def rock_directions(
     record : Record
         With two horizontal components of known azimuths.
     step_deg : float
-        Degrees between directions.
+        Step between directions, degrees.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
     options
         ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
@@ -88,7 +89,7 @@ def rock_directions(
     directions = []
     for row, (azimuth, block) in enumerate(zip(azimuth_sweep.azimuths.tolist(), azimuth_sweep.blocks, strict=True)):
         fallen, time = bool(verdicts.overturned[row]), float(verdicts.overturning_time_s[row])
-        if fallen and np.isnan(time):  # after the record, where energy decides
+        if fallen and np.isnan(time):  # falls after the record: energy decides, and a single run gives the time
             fall_time = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options).outcome.overturning_time_s
         else:
             fall_time = azimuth_sweep.motion.start_s + time if fallen else None
@@ -100,9 +101,10 @@ def rock_directions(
 
 
 def _severity(direction: RockAzimuth) -> tuple[bool, float]:
-    """Return what makes one direction worse than another."""
+    """Return the sort key of a direction: overturning, then peak tilt."""
     if direction.gave_up:
         return False, -1.0
     if direction.overturned:
         return True, -(direction.overturning_time_s if direction.overturning_time_s is not None else np.inf)
+    # rounding: round-off in the tilt of mirrored directions must not decide the order
     return False, round(direction.max_rotation_ratio, 12)

@@ -1,8 +1,8 @@
-"""How close it was: the factors on a record at which the verdict changes, as far as a scan finds them.
+"""Margin to overturning: the scale factors on a record at which the verdict changes.
 
-Overturning is not monotone in amplitude: above a window in which a block overturns there may be another in which it stands, and the
-boundary between both is fractal. So the whole range is scanned, and each change of verdict that is met is bisected; windows narrower
-than the step of the scan are missed, below the first fall found as above it.
+Overturning is not monotone in amplitude: above an interval of overturning factors there may be another without overturning, and the
+boundary between both is fractal. The whole range is therefore scanned, and each change of verdict is bisected; intervals narrower
+than the step of the scan are missed, below the first overturning factor as above it.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ STEP = 0.002
 """Default step of the scan, in the factor."""
 
 FLIP_TOLERANCE = 1e-6
-"""A change of verdict is located to this, in the factor."""
+"""Tolerance of the bisection of a change of verdict, in the factor."""
 
 NEARBY_SHARE = 0.02
-"""A verdict that changes within this share of the record's amplitude is fragile."""
+"""A verdict is sensitive if it changes within this share of the record's amplitude."""
 
 NEARBY_STEPS = 41
 
 
 @dataclass(frozen=True)
 class FactorRange:
-    """A range of factors with one verdict."""
+    """Range of factors with one verdict."""
 
     first: float
     last: float
@@ -51,24 +51,24 @@ class FactorRange:
 
 @dataclass(frozen=True)
 class Margin:
-    """The verdict against the factor on the record.
+    """Verdict as a function of the factor on the record.
 
     Parameters
     ----------
     overturned : bool
         Verdict at factor 1.
     windows : tuple of FactorRange
-        From 0 to the limit, alternately safe and unsafe.
+        From 0 to the limit, alternately stable and overturning.
     flips : tuple of float
-        The factors between them, in rising order.
+        Factors between them, in rising order.
     nearest_flip : float or None
-        The one nearest to 1, by ratio; None when the verdict never changes.
+        The flip nearest to 1, by ratio; None if the verdict never changes.
     first_fall : float or None
-        The smallest factor at which it was found to fall.
+        Scale factor to overturning: the smallest overturning factor of the scan.
     falls_above_first : float or None
-        Share of the factors, a step apart, from there to the limit at which it falls.
+        Share of overturning factors from there to the limit, a step apart.
     step, limit : float, 1
-        Of the scan.
+        Step and largest factor of the scan.
     """
 
     overturned: bool
@@ -90,16 +90,15 @@ def find_margin(
     progress: Progress | None = None,
     **options: Unpack[RockOptions],
 ) -> Margin:
-    """Return the factors up to a limit at which a rocking block's verdict is found to change.
+    """Return the factors up to a limit at which the verdict on a rocking block changes.
 
     Parameters
     ----------
     block, motion : Block, Motion
     limit, step : float
-        Largest factor, and distance of the factors looked at, to which those that :func:`nearest_flip` looks at are added; changes are
-        then bisected to 1e-6.
+        Largest factor and step of the scan; the factors of :func:`nearest_flip` are added. Changes are bisected to 1e-6.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
     options
         ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
@@ -116,28 +115,32 @@ def find_margin(
     0.889
     """
     if not (0.0 < step <= limit < float("inf")):
-        raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
+        raise ParameterError("the scan requires 0 < `step` <= `limit`, found step {step} and limit {limit}", step=step, limit=limit)
     params = rock_params(block, motion, **options)
     check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
     regular_factors = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    # a finer grid around 1, so that a verdict sensitive to 2 % of the amplitude is not missed
     grid = np.unique(np.concatenate([regular_factors, _nearby_factors()]))
     factors = grid[grid <= limit]
     verdicts = overturns_at(params, motion, factors, progress=progress)
     flips = _bisect_flips(params, motion, factors, verdicts)
     edges = (0.0, *flips, limit)
+    # factor 0 is stable, so windows alternate from there
     windows = tuple(FactorRange(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
     overturns_at_one = bool(verdicts[factors == 1.0][0] if limit >= 1.0 else overturns_at(params, motion, [1.0])[0])
     first = next((window.first for window in windows if window.overturned), None)
+    # only the regular grid counts for the share: the finer one around 1 would weight it
     from_first_fall = np.isin(factors, regular_factors) & (factors >= factors[int(verdicts.argmax())])
     share = float(verdicts[from_first_fall].mean()) if verdicts.any() else None
     return Margin(overturns_at_one, windows, flips, nearest, first, share, step, limit)
 
 
 def _bisect_flips(block: RockParams, motion: Motion, factors: FloatArray, verdicts: BoolArray) -> tuple[float, ...]:
-    """Return the factors at which the verdict changes, all bisected at once."""
+    """Return the factors at which the verdict changes; all brackets are bisected in one batch."""
     changes = np.flatnonzero(verdicts[1:] != verdicts[:-1])
     low, high, upper_verdicts = factors[changes], factors[changes + 1], verdicts[changes + 1]
+    # every bracket keeps its own verdict at the upper end, so one batch halves all of them
     while changes.size and (high - low).max() > FLIP_TOLERANCE:
         middle = 0.5 * (low + high)
         same = overturns_at(block, motion, middle) == upper_verdicts
@@ -146,12 +149,12 @@ def _bisect_flips(block: RockParams, motion: Motion, factors: FloatArray, verdic
 
 
 def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
-    """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
+    """Return a response with a warning if a change of the record by less than 2 % changes its verdict."""
     options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
     factor = nearest_flip(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
     if factor is not None:
-        text = "{name}: a change of the record by less than 2 %, to {factor:.3f} times itself, changes the verdict"
+        text = "{name}: verdict sensitive to the amplitude: changes within 2 % of the record, at {factor:.3f} times its amplitude"
         warnings = (*warnings, lazy_gettext(text, name=response.motion.name or "x", factor=factor))
     outcome = replace(response.outcome, verdict_flips_within_2_percent=factor is not None, flips_at_factor=factor)
     return replace(response, outcome=outcome, warnings=warnings)
@@ -160,29 +163,29 @@ def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
 def has_nearby_flip(
     block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
 ) -> bool:
-    """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
+    """Return True if a factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
     return nearest_flip(block, motion, share=share, steps=steps, **options) is not None
 
 
 def nearest_flip(
     block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
 ) -> float | None:
-    """Return the factor nearest to 1, of so many within `share` of it, whose verdict is another than that at 1.
+    """Return the factor nearest to 1, within `share` of it, with another verdict than factor 1.
 
     Parameters
     ----------
     block, motion : Block, Motion
     share : float, 1
-        How far from 1 the factors lie at most.
+        Largest distance of the factors from 1.
     steps : int
-        How many are looked at; odd, so that 1 is among them.
+        Number of factors; odd, so that 1 is among them.
     options
-        As of :func:`find_margin`.
+        As in :func:`find_margin`.
 
     Returns
     -------
     float or None
-        None where all of them agree.
+        None if all verdicts agree.
 
     Examples
     --------
@@ -198,5 +201,5 @@ def nearest_flip(
 
 
 def _nearby_factors(share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS) -> FloatArray:
-    """Return the factors near 1 that are always looked at, (steps,)."""
+    """Return the fine grid of factors around 1, (steps,)."""
     return np.linspace(1.0 - share, 1.0 + share, steps)

@@ -1,4 +1,4 @@
-"""Rocking and overturning spectra: one record, and rectangular blocks of all sizes and slendernesses."""
+"""Rocking and overturning spectra: one record, rectangular blocks over size and slenderness."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ from seisblock.studies.azimuths import make_azimuth_sweep
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 
 STEP_DEG = 10.0
-"""Between the directions of a spectrum, unless told otherwise: there are as many spectra to compute."""
+"""Default step between the directions of a spectrum, degrees: each direction costs a whole spectrum."""
 
 AFTER_RECORD_S = 1e9
-"""Time of a fall that energy decides after the record, s."""
+"""Time assigned to an overturning after the record, s."""
 
 
 @dataclass(frozen=True, eq=False)
 class RockingSpectrum(PlotMixin):
-    """The largest lean over a grid of rectangular blocks.
+    """Peak tilt over a grid of rectangular blocks.
 
     Parameters
     ----------
@@ -43,15 +43,15 @@ class RockingSpectrum(PlotMixin):
     slenderness_rad : (m,) array, rad
         alpha = atan(B/H).
     max_rotation_ratio : (n, m) array
-        Largest lean over alpha; pi/2 over alpha where the block overturns.
+        Peak tilt over alpha; pi/2 over alpha for a block that overturns.
     overturned : (n, m) array of bool
     azimuths_deg : (k,) array, degrees, or None
-        The directions that were looked in, clockwise from north, where it is one of all of them: the largest lean is then that of the worst
-        direction, and a block has overturned that falls in any.
+        Directions of an all-azimuth spectrum, clockwise from north: the peak tilt is then that of the worst direction, and a block
+        has overturned if it does in any direction.
     overturning_rate : (n, m) array or None
-        Share of those directions in which a block falls.
+        Share of those directions in which a block overturns.
     worst_azimuth_deg : (n, m) array, degrees, or None
-        That in which it falls first, or leans furthest.
+        Direction of the earliest overturning, or else of the peak tilt.
     """
 
     size_m: FloatArray
@@ -73,19 +73,19 @@ def rocking_spectrum(
     progress: Progress | None = None,
     **options: Unpack[RockOptions],
 ) -> RockingSpectrum:
-    """Return the rocking spectrum of a motion: peak lean over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
+    """Return the rocking spectrum of a motion: peak tilt over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
 
     Parameters
     ----------
     sizes : (n,) array, m
         2R, positive.
     slendernesses : (m,) array, rad
-        alpha, between 0 and pi/2; of the block as drawn, as 2R is.
+        alpha, between 0 and pi/2; of the block with sharp edges, like 2R.
     motion : Motion
-    inset : Inset
-        How far the edges are worn, per side; leans are then told over the alpha that is left.
+    inset : EdgeWear
+        Edge wear, per side; tilts are then relative to the alpha of the worn block.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
     options
         ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
@@ -119,18 +119,18 @@ def rocking_spectrum_all_azimuths(
     progress: Progress | None = None,
     **options: Unpack[RockOptions],
 ) -> RockingSpectrum:
-    """Return the rocking spectrum of a record in the worst of its directions, and in how many of them each block falls.
+    """Return the rocking spectrum of a record in the worst direction, and the share of directions in which each block overturns.
 
     Parameters
     ----------
     sizes, slendernesses : (n,), (m,) arrays, m and rad
-        As of :func:`rocking_spectrum`.
+        As in :func:`rocking_spectrum`.
     record : Record
         With two horizontal components of known azimuths.
     step_deg : float
-        Degrees between directions, over half the circle: the blocks are the same to both sides.
+        Step between directions, degrees, over half a circle: the blocks are symmetric.
     inset, progress, options
-        As of :func:`rocking_spectrum`.
+        As in :func:`rocking_spectrum`.
 
     Raises
     ------
@@ -142,8 +142,8 @@ def rocking_spectrum_all_azimuths(
     Examples
     --------
     >>> from seisblock import read
-    >>> found = rocking_spectrum_all_azimuths([0.5, 4.0], [0.2], read("synthetic_jma.csv"), step_deg=30.0)
-    >>> found.overturned.tolist(), found.overturning_rate.round(2).tolist()
+    >>> result = rocking_spectrum_all_azimuths([0.5, 4.0], [0.2], read("synthetic_jma.csv"), step_deg=30.0)
+    >>> result.overturned.tolist(), result.overturning_rate.round(2).tolist()
     ([[True], [True]], [[1.0], [0.83]])
     """
     diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
@@ -156,8 +156,9 @@ def rocking_spectrum_all_azimuths(
     for row, azimuth in enumerate(azimuth_sweep.azimuths.tolist()):
         advance = None if progress is None else _offset_progress(progress, row * count, directions * count)
         verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains[row], progress=advance)
-        # a fall after the record comes after every fall within it, and before the largest lean of what stands
+        # order: overturning during the record, overturning after it, then peak tilt without overturning
         time = np.where(verdicts.overturned, np.nan_to_num(verdicts.overturning_time_s, nan=AFTER_RECORD_S), np.inf)
+        # ties in time: no overturning so far, or both after the record; the peak tilt decides
         worse = (time < first) | ((time == first) & (verdicts.max_rotation_ratio > ratio))
         ratio, worst, first = (
             np.where(worse, new, old) for new, old in ((verdicts.max_rotation_ratio, ratio), (azimuth, worst), (time, first))
@@ -177,12 +178,11 @@ def rocking_spectrum_all_azimuths(
 
 
 def _offset_progress(progress: Progress, offset: int, total: int) -> Progress:
-    """Return the progress of a part of a study, told as that of the whole."""
+    """Return a progress callback that counts one part of a study in its total."""
     return lambda part, _: progress(offset + part, total)
 
 
 def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: EdgeWear) -> tuple[FloatArray, FloatArray, BlockArray]:
-    """Return diagonals, slendernesses and the blocks of their grid."""
     diagonal = _check_grid(sizes, N_("size 2R"), "m", math.inf)
     alpha = _check_grid(slendernesses, N_("slenderness"), "rad", math.pi / 2)
     check_limit(N_("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
@@ -190,33 +190,33 @@ def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: EdgeWear) -> tupl
 
 
 def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:
-    """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) (from [Furukawa2009]_ eq. (6))."""
+    """Return 2R, m, of rectangular blocks of frequency parameter p, rad/s: 3 g/(2 p^2) (from [Furukawa2009]_ eq. (6))."""
     return 1.5 * gravity / _check_grid(frequency_parameter, N_("frequency parameter"), "rad/s", math.inf) ** 2
 
 
 def slenderness_of(height_over_width: ArrayLike) -> FloatArray:
-    """Return alpha = atan(B/H), rad, of blocks with these H/B ([Furukawa2009]_ section 2)."""
+    """Return alpha = atan(B/H), rad, of blocks of ratio H/B ([Furukawa2009]_ section 2)."""
     return np.arctan(1.0 / _check_grid(height_over_width, N_("height over width"), "1", math.inf))
 
 
 def default_sizes(steps: int) -> FloatArray:
-    """Return 2R from 0.2 to 8 m, evenly in their logarithm: from a vase to a shrine's pavilion."""
+    """Return 2R from 0.2 to 8 m, logarithmically spaced: from a vase to a shrine pavilion."""
     return np.geomspace(0.2, 8.0, steps)
 
 
 def default_slendernesses(steps: int) -> FloatArray:
-    """Return alpha of H/B from 10 to 1.5, evenly in alpha, rad."""
+    """Return alpha of H/B from 10 to 1.5, evenly spaced in alpha, rad."""
     return np.linspace(math.atan(1 / 10), math.atan(1 / 1.5), steps)
 
 
 def _check_grid(values: ArrayLike, label: str, unit: str, limit: float) -> FloatArray:
-    """Return a grid of positive numbers below a limit, or refuse it."""
+    """Return a grid of positive numbers below a limit; raise ParameterError for any other."""
     array = np.atleast_1d(checks.float_array("sizes and slendernesses", values))
     good = np.isfinite(array) & (array > 0.0) & (array < limit)
     if array.size == 0 or not good.all():
         value_text = lazy_gettext("none") if array.size == 0 else str(array[~good][0])
-        text = "each {what} must be positive, in {unit}; found {found}"
-        bounded = "each {what} must be positive and below {limit:.4g}, in {unit}; found {found}"
+        text = N_("every {what} must be positive, in {unit}; found {found}")
+        bounded = N_("every {what} must be positive and below {limit:.4g}, in {unit}; found {found}")
         raise ParameterError(text if limit == math.inf else bounded, what=lazy_gettext(label), limit=limit, unit=unit, found=value_text)
     for end in (array.min(), array.max()):
         checks.positive(lazy_gettext(label), float(end), unit)

@@ -1,4 +1,4 @@
-"""The verdicts of many rocking runs on all cores."""
+"""Verdicts of many rocking runs on all cores."""
 
 from __future__ import annotations
 
@@ -16,28 +16,29 @@ from seisblock.records import Motion
 from seisblock.studies.parallel import cpu_count, map_batches
 
 CHUNK_SIZE = 4_000_000
-"""Samples times runs that one thread takes before it says how far it is."""
+"""Samples times runs per thread between two progress reports."""
 
 
 def parallel_verdicts(
     blocks: RockBatchParams | Sequence[RockParams], motion: Motion, gains: ArrayLike, *, progress: Progress | None = None
 ) -> Verdicts:
-    """Return the verdicts of several blocks, or of one under several gains.
+    """Return the verdicts of several blocks, or of one block under several gains.
 
     Parameters
     ----------
     blocks, motion, gains
-        As for :func:`~seisblock.models.rock.verdicts.rock_verdicts`.
+        As in :func:`~seisblock.models.rock.verdicts.rock_verdicts`.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
 
     Raises
     ------
     SolverError
-        If no run has an answer; a single one without an answer is marked in the verdicts.
+        If no run has a result; a single run without a result is marked in the verdicts.
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     runs = max(len(blocks), len(rows))
+    # small enough for a progress report and for one part per core
     size = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(runs / cpu_count())))
 
     def solve_batch(part: slice) -> Verdicts:
@@ -50,6 +51,6 @@ def parallel_verdicts(
 
 
 def overturns_at(block: RockParams, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:
-    """Return whether a block overturns under a motion times each of some factors, (m,)."""
+    """Return True for each factor on a motion at which a block overturns, (m,)."""
     scales: FloatArray = np.asarray(factors, dtype=np.float64)
     return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).answered().overturned

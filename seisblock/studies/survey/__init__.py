@@ -1,1 +1,1 @@
-"""Which share of a cemetery falls."""
+"""Overturning rates of cemeteries, and ground motion estimated from surveys of fallen stones."""

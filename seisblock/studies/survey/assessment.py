@@ -1,4 +1,4 @@
-"""What a shaking does to a cemetery: rate, interval, curve, and what dowels would save, by the criterion that is asked for."""
+"""Assessment of a cemetery under one shaking: overturning rate, interval, curve, and stones saved by dowels."""
 
 from __future__ import annotations
 
@@ -34,23 +34,23 @@ from seisblock.studies.survey.shaking import Shaking
 Criterion = Literal["furukawa", "rigid", "simulate"]
 
 LARGER_COMPONENT = N_("larger")
-"""Name of the result of the horizontal that overturns more stones."""
+"""Name of the result of the horizontal component that overturns more stones."""
 
 
 @dataclass(frozen=True)
 class AssessmentMethod:
-    """How a stone is judged.
+    """Criterion and parameters of an assessment.
 
     Parameters
     ----------
     criterion : "furukawa", "rigid" or "simulate"
         [Furukawa2009]_ eqs. (9), (10); one rigid block under a half-sine pulse; one rigid block that rocks under the motion itself.
     fits : two GravestoneFit
-        For stones without and with a dowel; furukawa only.
-    inset : Inset
-        How far the edges of the stones are worn; rigid and simulate only: the fits have it in them.
+        Criteria of stones without and with a dowel; furukawa only.
+    inset : EdgeWear
+        Edge wear of the stones; rigid and simulate only: the fits include it.
     width : float, m
-        Of stones whose width is not known; furukawa needs none.
+        Width of stones of unknown width; unused by furukawa.
     gravity : float, m/s^2
     confidence : float
         Level of the interval of a rate.
@@ -64,20 +64,20 @@ class AssessmentMethod:
     confidence: float = CONFIDENCE
 
     def limits(self, cemetery: Cemetery, frequency: float) -> FloatArray:
-        """Return the PGA beyond which each stone falls, (size,), m/s^2, for the criteria that have one."""
+        """Return the overturning PGA of each stone, (size,), m/s^2; furukawa and rigid only."""
         if self.criterion == "furukawa":
             return fitted_limits(cemetery, frequency, fits=self.fits)
         return rigid_limits(cemetery, frequency, inset=self.inset, width=self.width, gravity=self.gravity)
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the papers of the criterion."""
         return papers("gravestones as fitted" if self.criterion == "furukawa" else "gravestones as blocks")
 
 
 @dataclass(frozen=True)
 class Reinforcement:
-    """What becomes of the same cemetery when stones get dowels; keys as in :class:`CemeteryRate`."""
+    """Result for the same cemetery with dowels; keys as in :class:`CemeteryRate`."""
 
     reinforced_stones: int
     threshold_ratio: float | None
@@ -90,7 +90,7 @@ class Reinforcement:
 
 @dataclass(frozen=True)
 class CemeteryRate:
-    """What one shaking does to a cemetery; the fields are the keys of one result in the document of ``overturn-rate``.
+    """Assessment of a cemetery under one shaking; the fields are the keys of one result in the document of ``overturn-rate``.
 
     Parameters
     ----------
@@ -98,29 +98,29 @@ class CemeteryRate:
         Direction of the record, ``larger`` for the horizontal that overturns more stones, None for bare numbers.
     pga_m_s2, equivalent_frequency_hz : float
     threshold_ratio : float or None
-        Least H/B that falls without a dowel (with one where all stones have one); None where it is simulated.
+        Smallest overturning H/B without a dowel (with one if all stones have one); None if simulated.
     threshold_ratio_reinforced : float or None
-        Least H/B that falls with a dowel; None where the criterion knows none.
+        Smallest overturning H/B with a dowel; None without a criterion for dowels.
     rate : float
     rate_interval : two floats
         Clopper-Pearson.
     fallen, stones : int
     least_overturned_ratio, largest_standing_ratio : float or None
-        H/B of the stoutest stone that fell and of the most slender that stands.
+        H/B of the stoutest fallen stone and of the most slender standing one.
     reinforced : Reinforcement or None
-        The comparison with dowels, where it was asked for.
+        The comparison with dowels, if required.
     curve : tuple of CurvePoint
         The rate against PGA, at this frequency and at the standard ones.
     outside_fit : tuple of str
-        What lies outside the range of (9), (10), a sentence each; none where they are not used.
+        Warnings about values outside the range of (9), (10), a sentence each; none if these are unused.
     of : str or None
-        Which component ``larger`` is.
+        Component named ``larger``.
     usual_highpass : FilterRange or None
-        How far PGV and frequency move with the usual filters; None when by no more than 5 %, or where the rate does not rest on a PGV.
+        Change of PGV and frequency with the usual filters; None up to 5 %, or if the rate does not depend on a PGV.
     rate_range : two floats or None
-        The least and the largest rate at those frequencies.
-    models : tuple of RateOpinion
-        The rate by each model of the stones, whichever criterion was asked for.
+        Smallest and largest rate at those frequencies.
+    models : tuple of ModelRate
+        The rate by each model of the stones, independent of the criterion.
     """
 
     component: str | None
@@ -144,7 +144,7 @@ class CemeteryRate:
 
 
 def assess_stones(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod) -> BoolArray:
-    """Return which stones fall, (size,), by the criterion asked for ([Furukawa2009]_, [Housner1963]_)."""
+    """Return the stones that overturn, (size,), by the criterion of a method ([Furukawa2009]_, [Housner1963]_)."""
     if method.criterion == "simulate":
         from seisblock.studies.survey.simulation import simulated_overturns, sine_motion
 
@@ -163,9 +163,9 @@ def overturning_curve(
     *,
     progress: Progress | None = None,
 ) -> tuple[CurvePoint, ...]:
-    """Return the rate against PGA, at a shaking's frequency first and at others ([Furukawa2009]_ figs. 16, 17).
+    """Return the overturning rate against PGA, at the frequency of a shaking first and at others ([Furukawa2009]_ figs. 16, 17).
 
-    Simulated curves scale the shaking's own motion, or sines of 20 s where there is none, to 100, 200, ... 1300 gal.
+    Simulated curves scale the motion of the shaking, or sines of 20 s without one, to 100, 200, ... 1300 gal.
     """
     if method.criterion == "simulate":
         from seisblock.studies.survey.simulation import SIMULATED_PGA, simulated_curve, sine_motion
@@ -189,17 +189,17 @@ def assess_cemetery(
     reinforced_cemetery: Cemetery | None = None,
     progress: Progress | None = None,
 ) -> CemeteryRate:
-    """Return what a shaking does to a cemetery, and to the same one with more dowels ([Furukawa2009]_ section 4).
+    """Return the assessment of a cemetery under a shaking, and of the same cemetery with more dowels ([Furukawa2009]_ section 4).
 
     Parameters
     ----------
     cemetery : Cemetery
     shaking : Shaking
-    method : Method
+    method : AssessmentMethod
     reinforced_cemetery : Cemetery or None
-        The cemetery reinforced, see :meth:`Cemetery.with_dowels`; None for no comparison.
+        The reinforced cemetery, see :meth:`Cemetery.with_dowels`; None for no comparison.
     progress : callable
-        Told how many points of a simulated curve are done, and how many there are.
+        Called with the number of finished points of a simulated curve and the total.
     """
     falls = assess_stones(cemetery, shaking, method)
     highpass_range = None if method.criterion == "simulate" else shaking.usual_highpass
@@ -226,7 +226,7 @@ def assess_cemetery(
 
 
 def larger_component(rates: Sequence[CemeteryRate]) -> CemeteryRate:
-    """Return the result that overturns most stones, the larger PGA deciding a tie, under the name ``larger``."""
+    """Return the result that overturns most stones, the larger PGA breaking a tie, under the name ``larger``."""
     largest = max(rates, key=lambda rate: (rate.rate, rate.pga_m_s2))
     return replace(largest, component=LARGER_COMPONENT, of=largest.component)
 
@@ -234,33 +234,33 @@ def larger_component(rates: Sequence[CemeteryRate]) -> CemeteryRate:
 def cemetery_warnings(
     cemetery: Cemetery, shakings: Sequence[Shaking], method: AssessmentMethod, *, reinforced_cemetery: Cemetery | None = None
 ) -> list[str]:
-    """Return what should be known before believing rates, a sentence each, with the component they belong to ([Furukawa2009]_)."""
-    fitted = method.criterion == "furukawa"
+    """Return warnings about rates, a sentence each, with the component of each ([Furukawa2009]_)."""
+    uses_fit = method.criterion == "furukawa"
     messages = [
         lazy_gettext("{name}: {text}", name=shaking.component, text=text) if shaking.component else text
         for shaking in shakings
-        for text in rate_warnings(cemetery, shaking.pga, shaking.frequency, fitted=fitted)
+        for text in rate_warnings(cemetery, shaking.pga, shaking.frequency, uses_fit=uses_fit)
     ]
-    if fitted and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or reinforced_cemetery is not None):
+    if uses_fit and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or reinforced_cemetery is not None):
         messages.append(DOWELLED_NOTE)
+    # without duplicates, in order
     return list(dict.fromkeys(messages))
 
 
 def _rate_range(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod, frequencies: Sequence[float]) -> tuple[float, float]:
-    """Return the least and the largest rate at some frequencies and that of the shaking itself."""
+    """Return the smallest and the largest rate over some frequencies and that of the shaking itself."""
     rates = [float(assess_stones(cemetery, replace(shaking, frequency=f), method).mean()) for f in (shaking.frequency, *frequencies)]
     return min(rates), max(rates)
 
 
 def _threshold(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod) -> float | None:
-    """Return the least H/B that falls, None where it is simulated."""
+    """Return the smallest overturning H/B, None if simulated."""
     if method.criterion == "simulate":
         return None
     return threshold_ratio(shaking.pga, shaking.frequency, reinforced=bool(cemetery.reinforced.all()), limits=method.limits)
 
 
 def _reinforcement(reinforced_cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod, fallen: int) -> Reinforcement:
-    """Return what becomes of the reinforced cemetery."""
     rate = rate_from_stones(assess_stones(reinforced_cemetery, shaking, method), method.confidence)
     return Reinforcement(
         int(np.count_nonzero(reinforced_cemetery.reinforced)),

@@ -1,4 +1,4 @@
-"""What an estimate of shaking rests on: the criterion, its bias and scatter, the frequency's, and the level of the intervals."""
+"""Assumptions of a shaking estimate: criterion, bias, scatter, error of the frequency, and level of the intervals."""
 
 from __future__ import annotations
 
@@ -29,32 +29,32 @@ DEFAULT_LEVEL = 0.9
 """Default level of the intervals."""
 
 FREQUENCY_BAND = (0.5, 3.0)
-"""Equivalent frequencies, Hz, over which a survey is averaged where none is given: the range of the fit ([Furukawa2009]_)."""
+"""Equivalent frequencies, Hz, averaged for a survey without a frequency: the range of the fit ([Furukawa2009]_)."""
 
 BAND_STEPS = 26
 """Frequencies in that band, evenly spaced in ln f."""
 
 FREQUENCY_ERROR = 0.1
-"""Default standard deviation of a given equivalent frequency, in ln f: what filters and definitions differ by."""
+"""Default standard deviation of a given equivalent frequency, in ln f: the difference between filters and definitions."""
 
 FREQUENCY_SIGMAS, FREQUENCY_STEPS = 2.5, 11
-"""A given frequency is averaged over so many standard deviations to each side, in so many steps."""
+"""Standard deviations to each side, and steps, of the average over a given frequency."""
 
 
 @dataclass(frozen=True)
 class Assumptions:
-    """What an estimate rests on.
+    """Assumptions of a shaking estimate.
 
     Parameters
     ----------
     common_error, stone_error : float
         Standard deviations in ln PGA, of a cemetery and of each stone.
     level : float
-        Of the intervals, between 0 and 1.
+        Level of the intervals, between 0 and 1.
     limits : callable
         The criterion.
     bias : float
-        How much more PGA than the criterion's the ground must have, in ln PGA; see :mod:`seisblock.studies.survey.likelihood`.
+        Excess of the PGA of the ground over that of the criterion, in ln PGA; see :mod:`seisblock.studies.survey.likelihood`.
     frequency_error : float
         Standard deviation of a given equivalent frequency, in ln f.
     """
@@ -68,15 +68,16 @@ class Assumptions:
 
     def __post_init__(self) -> None:
         checks.in_interval("the level of the intervals", self.level, "(0, 1)")
-        checks.non_negative("the error of the frequency, in ln f,", self.frequency_error)
+        checks.non_negative("`frequency_error`, in ln f,", self.frequency_error)
 
     def frequency_band(self, frequency: float | None) -> tuple[list[float], FloatArray]:
-        """Return the frequencies that stand for a given one, or for the whole band, Hz, and the weight of each, (n,)."""
+        """Return the frequencies, Hz, that represent a given one, or the whole band, and their weights, (n,)."""
         if frequency is None:
             return np.geomspace(*FREQUENCY_BAND, BAND_STEPS).tolist(), np.full(BAND_STEPS, 1.0 / BAND_STEPS)
         if self.frequency_error == 0.0:
             return [frequency], np.ones(1)
         steps = np.linspace(-FREQUENCY_SIGMAS, FREQUENCY_SIGMAS, FREQUENCY_STEPS)
+        # normal weights over ln f
         weights = np.exp(-0.5 * steps**2)
         return (frequency * np.exp(self.frequency_error * steps)).tolist(), weights / weights.sum()
 
@@ -89,14 +90,14 @@ class Assumptions:
 
 
 def make_assumptions(edges: EdgeWear | None, **overrides: Any) -> Assumptions:
-    """Return the assumptions for stones whose worn edges are known: their bias, and less scatter ([Furukawa2009]_ eq. (9)).
+    """Return the assumptions for stones of known edge wear: their bias, and a smaller scatter ([Furukawa2009]_ eq. (9)).
 
     Parameters
     ----------
-    edges : Inset or None
-        How far in from each side the stones' edges lie; None: anything from sharp to 0.1 of the width.
+    edges : EdgeWear or None
+        Edge wear per side; None: anything from sharp to 0.1 of the width.
     overrides
-        Fields of :class:`Assumptions`; None where not given.
+        Fields of :class:`Assumptions`; None for the default.
     """
     values = {name: value for name, value in overrides.items() if value is not None}
     if edges is not None:

@@ -1,4 +1,4 @@
-"""What a survey of fallen stones says of the shaking: PGA, PGV and JMA intensity with their intervals, or bounds."""
+"""Ground motion estimated from a survey of fallen stones: PGA, PGV and JMA intensity with intervals, or bounds."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from seisblock.studies.survey.limits import Limits
 from seisblock.studies.survey.overturning_rate import threshold_ratio
 
 PLAIN_STONES, DOWELLED_STONES, ALL_STONES = N_("not reinforced"), N_("reinforced"), N_("all")
-"""Names of the groups that are judged apart, and together."""
+"""Names of the groups of stones, estimated separately and together."""
 
 Interval = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
 class ShakingEstimate:
-    """What some stones say at one frequency; the fields are the keys of one result in the document of ``infer``.
+    """Estimate from a group of stones at one frequency; the fields are the keys of one result in the document of ``infer``.
 
     Parameters
     ----------
@@ -36,19 +36,19 @@ class ShakingEstimate:
         ``not reinforced``, ``reinforced`` or ``all``.
     fallen, standing : int
     frequency_hz : float or None
-        Equivalent frequency taken for granted; None: averaged over 0.5 to 3 Hz, evenly in ln f.
+        Given equivalent frequency; None: averaged over 0.5 to 3 Hz, evenly in ln f.
     bound : str or None
-        ``upper`` when none fell, ``lower`` when all did, else None.
+        ``upper`` if none fell, ``lower`` if all did, else None.
     pga_m_s2, pga_interval_m_s2 : float or None, two of them
         Median and interval; with a bound there is no median, and the open end is None.
     pgv_m_s, pgv_interval_m_s
         The same for PGV = PGA/(2 pi f).
     threshold_ratio, threshold_ratio_interval
-        The H/B above which such stones fell; for all stones, that of those without a dowel.
+        Smallest overturning H/B; for all stones, that of stones without a dowel.
     jma_intensity, jma_intensity_interval : float or None, two of them, 1
         From PGV, the scatter of that relation included.
     jma_classes : two str or None
-        Classes of that interval's ends.
+        JMA classes of that interval's ends.
     """
 
     stones: str
@@ -70,10 +70,10 @@ class ShakingEstimate:
 def estimate_shaking(
     survey: Survey, frequency: float | None = None, assumptions: Assumptions | None = None, *, stones: str = ""
 ) -> ShakingEstimate:
-    """Return what a survey says of the shaking ([Furukawa2009]_ eqs. (9), (10) read backwards; [Midorikawa1999]_).
+    """Return the ground motion estimated from a survey ([Furukawa2009]_ eqs. (9), (10) inverted; [Midorikawa1999]_).
 
-    Flat prior in ln PGA; see :mod:`seisblock.studies.survey.likelihood` for the errors. Where no stone fell, the upper bound is the
-    PGA at which that has the probability of one tail, (1 - level)/2; where all fell, likewise the lower one.
+    Flat prior in ln PGA; see :mod:`seisblock.studies.survey.likelihood` for the errors. If no stone fell, the upper bound is the PGA
+    at which that has the probability of one tail, (1 - level)/2; if all fell, likewise the lower bound.
 
     Parameters
     ----------
@@ -97,8 +97,8 @@ def estimate_shaking(
     --------
     >>> from seisblock.bodies.cemetery.table import read_cemetery
     >>> from seisblock.studies.survey.likelihood import counted_survey
-    >>> found = estimate_shaking(counted_survey(read_cemetery("aoyama.csv"), 35, 100), 2.75)
-    >>> round(found.pga_m_s2, 1)
+    >>> estimate = estimate_shaking(counted_survey(read_cemetery("aoyama.csv"), 35, 100), 2.75)
+    >>> round(estimate.pga_m_s2, 1)
     9.5
     """
     checks.instance(survey, Survey)
@@ -111,6 +111,7 @@ def estimate_shaking(
     pga = _summary(*_average_likelihoods(parts, [0.0] * len(parts), weights), bound, settings.level)
     pgv = _summary(*_average_likelihoods(parts, [math.log(2.0 * math.pi * f) for f in band], weights), bound, settings.level)
     name = stones or _kind(survey.cemetery)
+    # the threshold H/B is the criterion's own: the bias between records and sines is taken out of the PGA
     bias_factor = math.exp(-settings.bias)
     ratio = (
         (None, None, None)
@@ -128,6 +129,7 @@ def estimate_shaking(
         (pga[0], pga[2]),
         pgv[1],
         (pgv[0], pgv[2]),
+        # a higher PGA means a lower threshold H/B: the ends change places
         ratio[1],
         (ratio[2], ratio[0]),
         intensity[1],
@@ -137,9 +139,9 @@ def estimate_shaking(
 
 
 def stone_groups(survey: Survey) -> Iterator[tuple[str, Survey]]:
-    """Yield the stones without a dowel, those with one, and all together; only what there is ([Furukawa2009]_ eqs. (9), (10)).
+    """Yield stones without a dowel, with one, and all together, as far as present ([Furukawa2009]_ eqs. (9), (10)).
 
-    A count of stones of both kinds cannot be told apart and stays whole.
+    A count of stones of both kinds cannot be separated and stays whole.
     """
     name = _kind(survey.cemetery)
     if name == ALL_STONES and survey.counts is None:
@@ -153,16 +155,18 @@ def stone_groups(survey: Survey) -> Iterator[tuple[str, Survey]]:
 def frequency_contour(
     survey: Survey, assumptions: Assumptions | None = None, frequencies: Sequence[float] | None = None
 ) -> list[ShakingEstimate]:
-    """Return the estimates along the trade-off of PGA and frequency: PGA grows with f as a(f) does ([Furukawa2009]_ eq. (8))."""
+    """Return estimates along the trade-off of PGA and frequency: PGA grows with f like a(f) ([Furukawa2009]_ eq. (8))."""
     grid = [round(0.1 * i, 1) for i in range(5, 31)] if frequencies is None else frequencies
     return [estimate_shaking(survey, f, assumptions) for f in grid]
 
 
 def _average_likelihoods(parts: Sequence[Likelihood], shifts: Sequence[float], weights: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the weighted mean of likelihoods over frequency against ln PGA less a shift of each."""
+    """Return the weighted mean of likelihoods over frequency, against ln PGA minus the shift of each."""
     starts = [part.log_pga[0] - shift for part, shift in zip(parts, shifts, strict=True)]
     ends = [part.log_pga[-1] - shift for part, shift in zip(parts, shifts, strict=True)]
+    # parts share one step, so a common grid interpolates without loss
     step = float(parts[0].log_pga[1] - parts[0].log_pga[0])
+    # the union of the shifted grids
     grid = np.arange(min(starts), max(ends) + step, step)
     total = np.zeros(grid.size)
     for part, shift, weight in zip(parts, shifts, weights, strict=True):
@@ -171,24 +175,25 @@ def _average_likelihoods(parts: Sequence[Likelihood], shifts: Sequence[float], w
 
 
 def _summary(grid: FloatArray, value: FloatArray, bound: str | None, level: float) -> tuple[float | None, float | None, float | None]:
-    """Return lower end, median and upper end of a quantity whose logarithm the grid holds."""
+    """Return lower end, median and upper end of a quantity; `grid` holds its logarithm."""
     tail = (1.0 - level) / 2.0
     if bound == "upper":
+        # with a bound the likelihood is the probability of the survey itself, monotone in ln PGA
         return None, None, float(np.exp(np.interp(-tail, -value, grid)))
     if bound == "lower":
         return float(np.exp(np.interp(tail, value, grid))), None, None
+    # trapezoidal posterior under the flat prior in ln PGA
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
     low, middle, high = (float(np.exp(np.interp(share * cumulative[-1], cumulative, grid))) for share in (tail, 0.5, 1.0 - tail))
     return low, middle, high
 
 
 def _ratio(pga: float | None, frequency: float, name: str, limits: Limits) -> float | None:
-    """Return the H/B that just falls at a PGA."""
     return None if pga is None else threshold_ratio(pga, frequency, reinforced=name == DOWELLED_STONES, limits=limits)
 
 
 def _intensities(pgv: tuple[float | None, float | None, float | None], level: float) -> tuple[float | None, float | None, float | None]:
-    """Return lower end, middle and upper end of the JMA intensity: the spread of PGV and of the relation added as variances."""
+    """Return lower end, median and upper end of the JMA intensity: variances of ln PGV and of the relation are added."""
     from scipy.special import ndtri
 
     spread = SCATTER * float(ndtri(0.5 + level / 2.0))
@@ -201,18 +206,16 @@ def _intensities(pgv: tuple[float | None, float | None, float | None], level: fl
 
 
 def _class(intensity: float | None) -> str | None:
-    """Return the JMA class of an intensity."""
     return None if intensity is None else jma_class(intensity)
 
 
 def _kind(cemetery: Cemetery) -> str:
-    """Return which kinds of stones a cemetery has."""
     reinforced = cemetery.reinforced
     return DOWELLED_STONES if reinforced.all() else ALL_STONES if reinforced.any() else PLAIN_STONES
 
 
 def split_stone_label(stones: str) -> tuple[str, str]:
-    """Return the place, empty where there is one only, and the kind of the stones of an estimate.
+    """Return the place, empty for a single one, and the kind of the stones of an estimate.
 
     Examples
     --------
@@ -224,7 +227,7 @@ def split_stone_label(stones: str) -> tuple[str, str]:
 
 
 def estimate_warnings(estimate: ShakingEstimate) -> list[str]:
-    """Return what should be known before believing an estimate, a sentence each ([Furukawa2009]_, [Midorikawa1999]_)."""
+    """Return warnings about an estimate, a sentence each ([Furukawa2009]_, [Midorikawa1999]_)."""
     low, high = FITTED_INTENSITY
     place, kind = split_stone_label(estimate.stones)
     messages: list[str] = [DOWELLED_NOTE] if kind != PLAIN_STONES else []
@@ -232,10 +235,10 @@ def estimate_warnings(estimate: ShakingEstimate) -> list[str]:
     if estimate.frequency_hz is not None and estimate.pga_m_s2 is not None:
         messages += fit_range_warnings(estimate.pga_m_s2, estimate.frequency_hz)
     if estimate.bound == "upper":
-        messages.append(lazy_gettext("{which} stones: none fell, so that there is an upper bound only", which=stone_label))
+        messages.append(lazy_gettext("{which} stones: upper bound only (none fell)", which=stone_label))
     if estimate.bound == "lower":
-        messages.append(lazy_gettext("{which} stones: all fell, so that there is a lower bound only", which=stone_label))
+        messages.append(lazy_gettext("{which} stones: lower bound only (all fell)", which=stone_label))
     if estimate.jma_intensity is not None and not low <= estimate.jma_intensity <= high:
-        text = "JMA intensity {found:.1f} lies outside the relation with PGV, {low:g} to {high:g}"
+        text = "JMA intensity {found:.1f} is outside the range of its relation with PGV, {low:g} to {high:g}"
         messages.append(lazy_gettext(text, found=estimate.jma_intensity, low=low, high=high))
     return messages

@@ -1,4 +1,4 @@
-"""Several cemeteries of one shaking: one estimate from all, or a contradiction in words."""
+"""Joint estimate of one shaking from several cemeteries, with a test of their agreement."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ from seisblock.studies.survey.estimate import Interval, ShakingEstimate, estimat
 from seisblock.studies.survey.likelihood import Survey
 
 MIN_AGREEMENT = 0.01
-"""Below this probability, that cemeteries under one shaking differ as much, they contradict each other."""
+"""Cemeteries contradict each other if differences as large have a lower probability under one shaking."""
 
 
 @dataclass(frozen=True)
 class JointEstimate:
-    """What several cemeteries say of one shaking, each with an error of its own ([Furukawa2009]_ eqs. (9), (10)).
+    """Estimate of one shaking from several cemeteries with independent errors ([Furukawa2009]_ eqs. (9), (10)).
 
     Parameters
     ----------
     names : tuple of str
     frequency_hz : float or None
     pga_m_s2, pga_interval_m_s2 : float, two of them
-        Of all together.
+        Joint estimate.
     apart : tuple of ShakingEstimate
-        Each by itself.
+        Separate estimates.
     agreement : float
-        Probability that cemeteries under one shaking differ at least as much; 1 for one.
+        Probability of differences at least as large under one shaking; 1 for a single cemetery.
     contradicts : tuple of (str, str)
-        Pairs whose own intervals do not meet, where the agreement is below 0.01.
+        Pairs with disjoint intervals, if the agreement is below 0.01.
     """
 
     names: tuple[str, ...]
@@ -50,7 +50,7 @@ class JointEstimate:
 def joint_estimate(
     surveys: Sequence[tuple[str, Survey]], frequency: float | None = None, assumptions: Assumptions | None = None
 ) -> JointEstimate:
-    """Return what several cemeteries say of one PGA: the product of their likelihoods, each with its own common error.
+    """Return the estimate of one PGA from several cemeteries: the product of their likelihoods with independent common errors.
 
     Parameters
     ----------
@@ -62,22 +62,25 @@ def joint_estimate(
     Raises
     ------
     ParameterError
-        If there is none, or in all of them no stone fell, or all did.
+        If there is no survey, or no stone, or every stone, fell in all of them.
     """
     settings = assumptions or Assumptions()
     if not surveys:
-        raise ParameterError("an estimate needs at least one survey")
+        raise ParameterError("an estimate requires at least one survey")
     fell, stone_count = sum(survey.fell for _, survey in surveys), sum(survey.stone_count for _, survey in surveys)
     if fell in (0, stone_count):
         raise ParameterError(
-            "{fell} of {judged} stones fell in all cemeteries together: that bounds the shaking on one side only",
+            "{fell} of {judged} stones fell in all cemeteries together: no joint estimate, the shaking is bounded on one side only; add a "
+            "cemetery with fallen and standing stones",
             fell=fell,
             judged=stone_count,
         )
     band, weights = settings.frequency_band(frequency)
     grid = np.arange(math.log(0.02), math.log(200.0), settings.common_error / 40.0)
+    # errors are independent at one frequency; the frequency is common, so the product is averaged over it
     total, single = np.zeros(grid.size), np.zeros((len(surveys), grid.size))
     for f, weight in zip(band, weights, strict=True):
+        # each likelihood is scaled to a maximum of 1, against underflow of the product
         values = np.array([part.interpolate(grid) for _, survey in surveys for part in settings.likelihoods(survey, [f])])
         total += weight * np.prod(values / values.max(axis=1, keepdims=True), axis=0)
         single += weight * values
@@ -94,7 +97,7 @@ def joint_estimate(
 
 
 def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float, float, float]:
-    """Return lower end, median and upper end of what the grid holds the logarithm of."""
+    """Return lower end, median and upper end of a quantity; `grid` holds its logarithm."""
     cumulative = np.concatenate([[0.0], np.cumsum(0.5 * (value[1:] + value[:-1]))])
     tail = (1.0 - level) / 2.0
     low, middle, high = (float(np.exp(np.interp(q * cumulative[-1], cumulative, grid))) for q in (tail, 0.5, 1.0 - tail))
@@ -102,7 +105,7 @@ def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float
 
 
 def _agreement(values: FloatArray, grid: FloatArray) -> float:
-    """Return the probability of a likelihood ratio as large as that of one shaking against one for each (chi-squared)."""
+    """Return the probability of a likelihood ratio as large: one shaking against one per cemetery (chi-squared, Wilks)."""
     from scipy.special import chdtrc
 
     if values.shape[0] == 1:
@@ -113,18 +116,18 @@ def _agreement(values: FloatArray, grid: FloatArray) -> float:
 
 
 def _intervals_overlap(first: Interval, second: Interval) -> bool:
-    """Whether two intervals, or bounds, have something in common."""
+    """Return True if two intervals, or bounds, overlap."""
     low = max(-math.inf if end is None else end for end in (first[0], second[0]))
     high = min(math.inf if end is None else end for end in (first[1], second[1]))
     return low <= high
 
 
 def joint_warnings(estimate: JointEstimate) -> list[Message]:
-    """Return in words whether the cemeteries can be of one shaking."""
+    """Return a warning for each pair of contradicting cemeteries."""
     return [
         lazy_gettext(
-            "{first} and {second} contradict each other: under one shaking such a difference has a probability of {chance:.2g}; was "
-            "the ground or the setting of the stones another?",
+            "{first} and {second} contradict each other (probability of such a difference under one shaking {chance:.2g}); check the "
+            "ground and the setting of the stones",
             first=first,
             second=second,
             chance=estimate.agreement,

@@ -1,16 +1,16 @@
-"""Shaking read back from fallen stones: the likelihood of a survey over PGA and equivalent frequency.
+"""Likelihood of a survey of fallen stones over PGA and equivalent frequency.
 
-A stone falls when ln PGA - b + e + s exceeds the logarithm of its limit by [Furukawa2009]_ eq. (9), or (10) with a dowel. The bias b and
-the error e, normal, are common to a cemetery (the criterion, the ground, the record); the error s, normal, is each stone's own.
+A stone falls if ln PGA - b + e + s exceeds the logarithm of its limit by [Furukawa2009]_ eq. (9), or (10) with a dowel. The bias b and
+the normal error e are common to a cemetery (criterion, ground, record); the normal error s is independent for each stone.
 The prior is flat in ln PGA.
 
-What they are was measured against another generator than the criterion: rigid blocks, 8 sun wide and proportioned as Aoyama's stones, under
-21 recorded accelerograms of 0.5 to 3 Hz, 0.35 to 1.6 times the median limit. Eq. (9), fitted to sines, takes less PGA than
-records do: by a factor of 1.68 for sharp blocks and of 1.25 for blocks worn by 0.1 of their width per side, with a scatter of 0.28 and 0.27
-in ln PGA from record to record. Between the two edges b = 0.33 and e = 0.3, with f known to a tenth, hold the truth of 87 to 95 % of such
-surveys in an interval of 90 %. The half sine on a rigid block of the same edges has no bias (0.0, -0.04) and a scatter of 0.24.
-A stone's own limit scatters by 0.2.
-Of the six surveyed rates of table 6, taken as of 100 stones each, the interval holds five recorded PGAs.
+Both were measured against a generator independent of the criterion: rigid blocks, 8 sun wide and proportioned like Aoyama's stones,
+under 21 recorded accelerograms of 0.5 to 3 Hz, 0.35 to 1.6 times the median limit. Eq. (9), fitted to sines, requires less PGA than
+records do: by a factor of 1.68 for sharp blocks and of 1.25 for blocks worn by 0.1 of their width per side, with a scatter of 0.28 and
+0.27 in ln PGA from record to record. Between the two edges b = 0.33 and e = 0.3, with f known to a tenth, the 90 % interval covers the
+true PGA of 87 to 95 % of such surveys. The half sine on a rigid block of the same edges has no bias (0.0, -0.04) and a scatter of 0.24.
+The limit of a single stone scatters by 0.2.
+Of the six surveyed rates of table 6, taken as of 100 stones each, the interval covers five recorded PGAs.
 """
 
 from __future__ import annotations
@@ -30,39 +30,39 @@ from seisblock.core.typing import FloatArray, IntArray
 from seisblock.studies.survey.limits import Limits, fitted_limits
 
 COMMON_ERROR = 0.3
-"""Default standard deviation of what is common to a cemetery, in ln PGA."""
+"""Default standard deviation of the error common to a cemetery, in ln PGA."""
 
 STONE_ERROR = 0.2
-"""Default standard deviation of what is each stone's own, in ln PGA."""
+"""Default standard deviation of the error of each stone, in ln PGA."""
 
 BIAS = 0.33
-"""Default bias of eqs. (9), (10) of [Furukawa2009]_, in ln PGA: records need this much more than sines to fell a block."""
+"""Default bias of eqs. (9), (10) of [Furukawa2009]_, in ln PGA: records require this much more than sines to overturn a block."""
 
 SHARP_BIAS, WEAR_BIAS_SLOPE, KNOWN_WEAR_ERROR = 0.52, -2.9, 0.29
-"""Bias for sharp edges, its change with the share of the width by which each edge is worn, and the common error where that is known."""
+"""Bias of sharp edges, its slope with the relative edge wear, and the common error for known edge wear."""
 
 MIN_ERROR = 0.01
-"""Neither error may be smaller: the likelihood would be a step."""
+"""Lower limit of both errors: at 0 the likelihood would be a step."""
 
 GRID_SIGMAS = 7.0
-"""The grid of ln PGA reaches so many standard deviations beyond the limits of all stones."""
+"""Standard deviations by which the grid of ln PGA extends beyond the limits of all stones."""
 
 POINTS_PER_ERROR = 16
-"""Points of the grid per standard deviation; the integrals of smooth functions are then good to 1e-10."""
+"""Grid points per standard deviation; integrals of smooth functions are then accurate to 1e-10."""
 
 
 @dataclass(frozen=True, eq=False)
 class Survey:
-    """How many of which stones fell.
+    """Counts of fallen and standing stones.
 
     Parameters
     ----------
     cemetery : Cemetery
-        The stones: those judged one by one, or the population of which others were counted.
+        The stones: marked one by one, or the population of which others were counted.
     fallen, standing : (rows,) array of int
-        Stones of each row of the cemetery that fell and that stand; zero where only a rate is known.
+        Fallen and standing stones of each row of the cemetery; zero if only a rate is known.
     counts : two ints or None
-        Fallen and all of a count of stones as these are; None where the stones themselves are marked.
+        Fallen stones and all stones of a count; None for marked stones.
     """
 
     cemetery: Cemetery
@@ -72,7 +72,7 @@ class Survey:
 
     @functools.cached_property
     def rows(self) -> Cemetery:
-        """The cemetery with each row taken for one stone."""
+        """The cemetery with each row as one stone."""
         return self.cemetery.rows()
 
     @property
@@ -82,12 +82,12 @@ class Survey:
 
     @property
     def stone_count(self) -> int:
-        """Number of stones of which it is known."""
+        """Number of surveyed stones."""
         return self.counts[1] if self.counts else self.fell + int(np.sum(self.standing))
 
 
 def marked_survey(cemetery: Cemetery) -> Survey:
-    """Return the survey of a cemetery whose stones are marked fallen or standing; those that are not marked are left out.
+    """Return the survey of a cemetery with stones marked fallen or standing, without unmarked stones.
 
     Parameters
     ----------
@@ -111,26 +111,26 @@ def marked_survey(cemetery: Cemetery) -> Survey:
             "{source}: no stone is marked fallen or standing; add a column fallen (0 or 1), or give a rate such as 35/100",
             source=cemetery.source or cemetery.name,
         )
-    marked = cemetery.select(lambda stone: stone.fallen is not None)
-    counts = np.array([stone.count for stone in marked.stones], dtype=np.int64)
-    fell = np.array([bool(stone.fallen) for stone in marked.stones])
-    return Survey(marked, np.where(fell, counts, 0), np.where(fell, 0, counts))
+    marked_stones = cemetery.select(lambda stone: stone.fallen is not None)
+    counts = np.array([stone.count for stone in marked_stones.stones], dtype=np.int64)
+    fell = np.array([bool(stone.fallen) for stone in marked_stones.stones])
+    return Survey(marked_stones, np.where(fell, counts, 0), np.where(fell, 0, counts))
 
 
 def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
-    """Return a survey that counted how many of so many stones fell, in a place whose stones are proportioned as these.
+    """Return a survey that counted fallen stones, in a place whose stones are proportioned like those of a cemetery.
 
     Parameters
     ----------
     cemetery : Cemetery
         The proportions of the stones.
     fallen, stones : int
-        How many fell, of how many that were looked at.
+        Fallen stones, and all stones of the count.
 
     Raises
     ------
     ParameterError
-        If the counts make no sense.
+        If the counts are not whole numbers with 0 <= fallen <= stones and at least one stone.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
     is_integer = isinstance(fallen, Integral) and isinstance(stones, Integral)
     if not (is_integer and 0 <= fallen <= stones and stones > 0):
         raise ParameterError(
-            "a rate needs whole numbers, 0 <= fallen <= stones, and at least one stone, found {fallen}/{stones}",
+            "a rate requires whole numbers with 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}",
             fallen=fallen,
             stones=stones,
         )
@@ -157,7 +157,7 @@ def parse_rate(text: str) -> tuple[int, int]:
     Raises
     ------
     ParameterError
-        If it is not two whole numbers: how many were counted decides how far a rate can be trusted.
+        If the text is not two whole numbers: the interval depends on the number of stones.
 
     Examples
     --------
@@ -166,12 +166,12 @@ def parse_rate(text: str) -> tuple[int, int]:
     """
     match = re.fullmatch(r"\s*(\d+)\s*/\s*(\d+)\s*", text)
     if match is None:
-        raise ParameterError("the rate {text!r} is not FALLEN/STONES: write both numbers, for example 35/100", text=text)
+        raise ParameterError("the rate {text!r} is not of the form FALLEN/STONES; give both numbers, for example 35/100", text=text)
     return int(match[1]), int(match[2])
 
 
 def log_likelihood(survey: Survey, log_pga: FloatArray, frequency: float, stone_error: float, limits: Limits = fitted_limits) -> FloatArray:
-    """Return the logarithm of the survey's likelihood without the common error, (n,), up to a constant ([Furukawa2009]_ eqs. (9), (10)).
+    """Return the log likelihood of a survey without the common error, (n,), up to a constant ([Furukawa2009]_ eqs. (9), (10)).
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def log_likelihood(survey: Survey, log_pga: FloatArray, frequency: float, stone_
     frequency : float, Hz
         Equivalent frequency.
     stone_error : float
-        Standard deviation of each stone's own error, in ln PGA.
+        Standard deviation of the error of each stone, in ln PGA.
     limits : callable
         The criterion.
     """
@@ -189,7 +189,7 @@ def log_likelihood(survey: Survey, log_pga: FloatArray, frequency: float, stone_
 
 
 def _log_likelihood(survey: Survey, log_pga: FloatArray, log_limits: FloatArray, stone_error: float) -> FloatArray:
-    """Return the same, given the logarithm of each row's limit, (rows,)."""
+    """Return the same from the logarithm of each row's limit, (rows,)."""
     from scipy.special import log_ndtr, logsumexp
 
     x = (log_pga[:, None] - log_limits[None, :]) / stone_error
@@ -197,6 +197,7 @@ def _log_likelihood(survey: Survey, log_pga: FloatArray, log_limits: FloatArray,
     if survey.counts is None:
         total: FloatArray = falls @ survey.fallen.astype(np.float64) + stands @ survey.standing.astype(np.float64)
         return total
+    # a count: every stone is a draw from the population, whose mean probability is that of the mixture
     weights = np.array([stone.count for stone in survey.cemetery.stones]) / survey.cemetery.size
     fallen, stones = survey.counts
     log_rate, log_rest = (logsumexp(logs, axis=1, b=weights) for logs in (falls, stands))
@@ -206,7 +207,7 @@ def _log_likelihood(survey: Survey, log_pga: FloatArray, log_limits: FloatArray,
 
 @dataclass(frozen=True, eq=False)
 class Likelihood:
-    """The likelihood over ln PGA at one frequency, the common error integrated out.
+    """Likelihood over ln PGA at one frequency, marginalised over the common error.
 
     Parameters
     ----------
@@ -214,7 +215,7 @@ class Likelihood:
     log_pga : (n,) array
         Evenly spaced, ln of m/s^2.
     value : (n,) array
-        Up to a constant factor; where none or all fell it is the probability of that.
+        Up to a constant factor; if none or all fell, the probability of that.
     """
 
     frequency: float
@@ -222,7 +223,7 @@ class Likelihood:
     value: FloatArray
 
     def interpolate(self, log_pga: FloatArray) -> FloatArray:
-        """Return the likelihood elsewhere; beyond its ends it stays as it is there."""
+        """Return the likelihood at other values of ln PGA; constant beyond the ends."""
         return np.interp(log_pga, self.log_pga, self.value)
 
 
@@ -245,25 +246,26 @@ def likelihood(
     common_error, stone_error : float
         Standard deviations in ln PGA, at least 0.01.
     bias : float
-        How much more PGA than the criterion's the ground must have, in ln PGA.
+        Excess of the PGA of the ground over that of the criterion, in ln PGA.
     limits : callable
         The criterion.
 
     Raises
     ------
     ParameterError
-        If an error is smaller than 0.01, or the bias is no number.
+        If an error is smaller than 0.01, or the bias is not finite.
     """
     if not math.isfinite(bias):
-        raise ParameterError("the bias, in ln PGA, must be a number, found {bias}", bias=bias)
+        raise ParameterError("`bias`, in ln PGA, must be a finite number, found {bias}", bias=bias)
     for name, error in (("common", common_error), ("stone", stone_error)):
         if not (math.isfinite(error) and error >= MIN_ERROR):
             raise ParameterError(
-                "the {name} error, in ln PGA, must be at least {least}, found {error}",
+                "`{name}_error`, in ln PGA, must be at least {least}, found {error}",
                 name=name,
                 least=MIN_ERROR,
                 error=error,
             )
+    # relative to the lowest limit and rounded: frequencies with equal relative limits share a cached curve
     centres = np.log(limits(survey.rows, frequency))
     lowest = float(centres.min())
     grid, value = _likelihood_curve(survey, tuple(np.round(centres - lowest, 12).tolist()), common_error, stone_error)
@@ -276,13 +278,16 @@ def _likelihood_curve(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the likelihood over ln PGA, both relative to the lowest limit.
 
-    Where the limits of all stones change alike with frequency ([Furukawa2009]_ eqs. (8), (9)), one curve serves for every frequency.
+    The limits of all stones scale alike with frequency ([Furukawa2009]_ eqs. (8), (9)): one cached curve serves every frequency.
     """
+    # the step resolves the narrower of both errors
     spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
     reach = math.ceil(GRID_SIGMAS * spread / step)
     grid = step * np.arange(-reach, math.ceil(max(log_limits) / step) + reach + 1, dtype=np.float64)
     stone_log_likelihood = _log_likelihood(survey, grid, np.array(log_limits), stone_error)
+    # marginalisation over the normal common error is a convolution on the even grid
     half = math.ceil(GRID_SIGMAS * common_error / step)
     kernel = np.exp(-0.5 * (step * np.arange(-half, half + 1) / common_error) ** 2)
+    # the maximum is scaled to 1 against underflow; constant ends where none or all stones fall
     padded = np.pad(np.exp(stone_log_likelihood - stone_log_likelihood.max()), half, mode="edge")
     return grid, np.convolve(padded, kernel / kernel.sum(), mode="valid")

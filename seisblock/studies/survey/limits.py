@@ -1,4 +1,4 @@
-"""The PGA beyond which each stone of a cemetery falls: the criteria that have a closed form, stone by stone."""
+"""Overturning PGA of each stone of a cemetery by criteria in closed form."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overt
 from seisblock.criteria.pulses import half_sine_ratio
 
 Limits = Callable[[Cemetery, float], FloatArray]
-"""A criterion: from a cemetery and a frequency (Hz) to the PGA (m/s^2) beyond which each stone falls, (size,)."""
+"""Criterion: from a cemetery and a frequency (Hz) to the overturning PGA (m/s^2) of each stone, (size,)."""
 
 
 def fitted_limits(cemetery: Cemetery, frequency: float, *, fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED)) -> FloatArray:
-    """Return the PGA beyond which each stone falls by the fit of its kind ([Furukawa2009]_ eqs. (9), (10)).
+    """Return the overturning PGA of each stone by the gravestone criterion of its kind ([Furukawa2009]_ eqs. (9), (10)).
 
     Parameters
     ----------
     cemetery : Cemetery
     frequency : float, Hz
-        Of a sine, or equivalent; zero or more.
+        Frequency of a sine, or equivalent frequency; zero or more.
     fits : two GravestoneFit
-        For stones without and with a dowel.
+        Criteria of stones without and with a dowel.
 
     Returns
     -------
@@ -42,20 +42,20 @@ def fitted_limits(cemetery: Cemetery, frequency: float, *, fits: tuple[Graveston
 def rigid_limits(
     cemetery: Cemetery, frequency: float, *, inset: EdgeWear = DEFAULT_WEAR, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY
 ) -> FloatArray:
-    """Return the PGA beyond which each stone falls as one rigid block under a half-sine pulse ([Housner1963]_).
+    """Return the overturning PGA of each stone as one rigid block under a half-sine pulse ([Housner1963]_).
 
-    It is alpha g X, X the exact factor for a slender block, and at least the g B/H that starts rocking ([Furukawa2009]_ eq. (2)).
+    It is alpha g X, X the exact factor of a slender block, and at least the rocking threshold g B/H ([Furukawa2009]_ eq. (2)).
 
     Parameters
     ----------
     cemetery : Cemetery
-        Stones that stand loose: a dowelled pile is no such block.
+        Stones without dowels: a dowelled pile is not a rigid block.
     frequency : float, Hz
         As for :func:`fitted_limits`.
-    inset : Inset
-        How far the edges are worn; a length or a share of the width, per side.
+    inset : EdgeWear
+        Edge wear: a length, or a share of the width, per side.
     width : float, m
-        Of stones whose width is not known.
+        Width of stones of unknown width.
     gravity : float, m/s^2
 
     Returns
@@ -69,22 +69,23 @@ def rigid_limits(
     """
     require_undowelled(cemetery)
     if not frequency >= 0.0:
-        raise ParameterError("the frequency must be zero or positive, in Hz; found {frequency}", frequency=frequency)
+        raise ParameterError("`frequency` must be zero or positive, found {frequency} Hz", frequency=frequency)
+    # equal stones share one limit: cemeteries have many of one size
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     return np.array([_rigid_limit(Block(b, b * ratio).with_wear(inset), frequency, gravity) for ratio, b in sizes.tolist()])[index.ravel()]
 
 
 def _rigid_limit(stone: Block, frequency: float, gravity: float) -> float:
-    """Return the amplitude of the half sine that overturns one stone, m/s^2."""
+    """Return the amplitude of the overturning half sine of one stone, m/s^2 ([Housner1963]_; at least [Furukawa2009]_ eq. (2))."""
     w = 2.0 * np.pi * frequency / stone.frequency_parameter(gravity)
     factor = half_sine_ratio(w) if w > 0.0 else 1.0
     return max(stone.rocking_threshold(gravity), gravity * stone.slenderness * factor)
 
 
 def require_undowelled(cemetery: Cemetery) -> None:
-    """Refuse reinforced stones where each is judged as one rigid block: eq. (10) of [Furukawa2009]_ is not that of such a block."""
+    """Raise ParameterError for reinforced stones: a rigid block does not represent [Furukawa2009]_ eq. (10)."""
     if cemetery.reinforced.any():
         raise ParameterError(
-            "{source}: a rigid block knows no dowel, but some stones are reinforced; judge them with the criterion furukawa",
+            "{source}: some stones are reinforced, and a rigid block does not model dowels; use the criterion furukawa",
             source=cemetery.source or cemetery.name,
         )

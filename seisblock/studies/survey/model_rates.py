@@ -1,4 +1,4 @@
-"""Which share of a cemetery falls by each model of its stones."""
+"""Overturning rate of a cemetery by each model of its stones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from seisblock.studies.survey.simulation import simulated_overturns
 
 @dataclass(frozen=True)
 class ModelRate:
-    """Which share of a cemetery falls by one model: of the half sine with its frequency, Hz, on edges worn or not."""
+    """Overturning rate by one model; the half sine with its frequency, Hz, and with worn or sharp edges."""
 
     model: str
     rate: float
@@ -34,18 +34,18 @@ def rates_by_model(
     width: float = PAPER_WIDTH,
     gravity: float = STANDARD_GRAVITY,
 ) -> tuple[ModelRate, ...]:
-    """Return which share of a cemetery falls by each model of its stones ([Furukawa2009]_ eq. (9), [Housner1963]_).
+    """Return the overturning rate of a cemetery by each model of its stones ([Furukawa2009]_ eq. (9), [Housner1963]_).
 
     Parameters
     ----------
     cemetery : Cemetery
-        With reinforced stones only the criterion made for them is asked: a rigid block knows no dowel.
+        With reinforced stones only the gravestone criterion applies: a rigid block does not model dowels.
     pga, frequency : float, m/s^2 and Hz
-        The shaking, for the models that have a closed form.
+        The shaking, for models in closed form.
     motion : Motion or None
-        The shaking itself, for those that are simulated.
+        The shaking, for simulated models.
     width : float, m
-        Of stones whose width is not known.
+        Width of stones of unknown width.
     gravity : float, m/s^2
     """
     rates = [ModelRate(GRAVESTONES, float(np.mean(pga > fitted_limits(cemetery, frequency))))]

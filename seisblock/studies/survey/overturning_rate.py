@@ -1,4 +1,4 @@
-"""Which share of a cemetery falls: a criterion applied to every stone, and an interval for what so few stones can tell."""
+"""Overturning rate of a cemetery: a criterion applied to every stone, with a Clopper-Pearson interval."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ CURVE_PGA = tuple(round(0.5 * i, 1) for i in range(1, 37))
 """Accelerations of the curves, m/s^2: 50 to 1800 gal as in [Furukawa2009]_ figs. 16, 17."""
 
 MAX_ITERATIONS = 200
-"""Steps to a threshold H/B; a rigid block under a fast pulse needs some fifty."""
+"""Iterations for a threshold H/B; a rigid block under a short pulse requires about fifty."""
 
 MIN_PLAUSIBLE_PGA = 20.0 * GAL
-"""A PGA below this, m/s^2, was probably given in another unit than gal: not even H/B = 40 would fall."""
+"""A lower PGA, m/s^2, was probably given in another unit than gal: not even H/B = 40 overturns."""
 
 
 @dataclass(frozen=True)
 class OverturningRate:
-    """The share of stones that overturn.
+    """Overturning rate of a cemetery.
 
     Parameters
     ----------
     rate : float, 1
-        Fallen over all.
+        Fallen over all stones.
     rate_interval : two floats, 1
-        Clopper-Pearson interval for a cemetery of which these stones are a random sample; it holds what so few stones leave open,
-        not what the criterion does.
+        Clopper-Pearson interval for a cemetery of which these stones are a random sample: sampling interval only, error of the
+        criterion not included.
     fallen, stones : int
     confidence : float, 1
         Level of the interval.
@@ -54,7 +54,7 @@ class OverturningRate:
 
 @dataclass(frozen=True)
 class CurvePoint:
-    """A point of a rate curve; the fields are the keys of the JSON document."""
+    """Point of a rate curve; the fields are the keys of the JSON document."""
 
     pga_m_s2: float
     frequency_hz: float
@@ -64,7 +64,7 @@ class CurvePoint:
 def overturning_rate(
     cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits, confidence: float = CONFIDENCE
 ) -> OverturningRate:
-    """Return the share of stones that a criterion lets fall, by default those whose H/B exceeds (9) or (10) ([Furukawa2009]_ section 4(2)).
+    """Return the share of stones that overturn, by default those with an H/B above (9) or (10) ([Furukawa2009]_ section 4(2)).
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def overturning_rate(
 
     Returns
     -------
-    Rate
+    OverturningRate
 
     Raises
     ------
@@ -102,7 +102,7 @@ def overturning_rate(
 
 
 def overturned_stones(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits) -> BoolArray:
-    """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
+    """Return the stones that overturn, (size,): those whose limit is below a PGA (m/s^2) ([Furukawa2009]_ eqs. (9), (10))."""
     checks.instance(cemetery, Cemetery)
     checks.positive("the peak ground acceleration", pga, "m/s^2")
     checks.finite("the frequency", frequency, "Hz")
@@ -112,18 +112,19 @@ def overturned_stones(cemetery: Cemetery, pga: float, frequency: float, *, limit
 
 
 def threshold_ratio(pga: float, frequency: float, *, reinforced: bool = False, limits: Limits = fitted_limits) -> float:
-    """Return the least H/B that a criterion lets fall, that of an 8-sun stone where size matters ([Furukawa2009]_ eqs. (7)-(10)).
+    """Return the smallest overturning H/B by a criterion, of an 8-sun stone if size matters ([Furukawa2009]_ eqs. (7)-(10)).
 
     Parameters
     ----------
     pga, frequency : float, m/s^2 and Hz
     reinforced : bool
-        Whether the stone has a dowel.
+        True for a stone with a dowel.
     limits : callable
         The criterion.
     """
     ratio = 1.0
-    for _ in range(MAX_ITERATIONS):  # limits fall with H/B, by (7) exactly as 1/(H/B): the first step is the last one
+    # fixed point; limits decrease with H/B, by (7) exactly as 1/(H/B), where the first step is the last
+    for _ in range(MAX_ITERATIONS):
         previous = ratio
         ratio *= float(limits(Cemetery((Stone(ratio, reinforced=reinforced),)), frequency)[0]) / pga
         if abs(ratio - previous) <= 1e-14 * ratio:
@@ -132,7 +133,7 @@ def threshold_ratio(pga: float, frequency: float, *, reinforced: bool = False, l
 
 
 def rate_from_stones(falls: BoolArray, confidence: float = CONFIDENCE) -> OverturningRate:
-    """Return the rate and its interval from who fell.
+    """Return the overturning rate and its interval from the fallen stones.
 
     Parameters
     ----------
@@ -152,7 +153,7 @@ def rate_curve(
     *,
     limits: Limits = fitted_limits,
 ) -> tuple[CurvePoint, ...]:
-    """Return the rate against PGA for each frequency ([Furukawa2009]_ figs. 16, 17).
+    """Return the overturning rate against PGA for each frequency ([Furukawa2009]_ figs. 16, 17).
 
     Parameters
     ----------
@@ -165,7 +166,7 @@ def rate_curve(
     Returns
     -------
     tuple of CurvePoint
-        Frequency by frequency, PGA in the order given.
+        Frequency by frequency, PGA in the order of `pga`.
 
     Examples
     --------
@@ -178,37 +179,38 @@ def rate_curve(
     grid = np.atleast_1d(checks.float_array("the peak ground accelerations", pga))
     points = []
     for frequency in np.atleast_1d(checks.float_array("the frequencies", frequencies)).tolist():
+        # side="left": a stone falls at a PGA above its limit, not at it
         rates = np.searchsorted(np.sort(limits(cemetery, frequency)), grid, side="left") / cemetery.size
         points += [CurvePoint(float(a), float(frequency), float(rate)) for a, rate in zip(grid, rates, strict=True)]
     return tuple(points)
 
 
 def stones_saved(cemetery: Cemetery, pga: float, frequency: float, *, most_fragile: int | None = None) -> int:
-    """Return how many stones stay up because all, or the most slender, get a dowel ([Furukawa2009]_ eqs. (9), (10)).
+    """Return the number of stones saved by dowels in all, or in the most slender, stones ([Furukawa2009]_ eqs. (9), (10)).
 
     Parameters
     ----------
     cemetery : Cemetery
-        Stones that have a dowel keep it.
+        Stones with a dowel keep it.
     pga, frequency : float, m/s^2 and Hz
         The shaking.
     most_fragile : int or None
-        How many stones are reinforced, the most slender first; None for all.
+        Number of reinforced stones, the most slender first; None for all.
     """
     reinforced_cemetery = cemetery.with_dowels(most_fragile)
     return overturning_rate(cemetery, pga, frequency).fallen - overturning_rate(reinforced_cemetery, pga, frequency).fallen
 
 
-def rate_warnings(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = True) -> tuple[str, ...]:
-    """Return what the user should know before believing a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3)).
+def rate_warnings(cemetery: Cemetery, pga: float, frequency: float, *, uses_fit: bool = True) -> tuple[str, ...]:
+    """Return warnings about a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3)).
 
     Parameters
     ----------
     cemetery : Cemetery
     pga, frequency : float, m/s^2 and Hz
-    fitted : bool
-        Whether the range of the fit matters.
+    uses_fit : bool
+        True if the range of the fit applies.
     """
     if pga < MIN_PLAUSIBLE_PGA:
-        return (lazy_gettext("a PGA of {pga:.3g} gal overturns nothing: was m/s^2 given where gal is meant?", pga=pga / GAL),)
-    return fit_range_warnings(pga, frequency, cemetery.ratios) if fitted else ()
+        return (lazy_gettext("PGA {pga:.3g} gal is too low to overturn any stone: check the unit (gal, not m/s^2)", pga=pga / GAL),)
+    return fit_range_warnings(pga, frequency, cemetery.ratios) if uses_fit else ()

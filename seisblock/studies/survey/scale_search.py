@@ -1,8 +1,8 @@
-"""How strong a candidate record must have been: every factor on it at which an object moves as far as was observed.
+"""Factors on a candidate record that reproduce an observed displacement.
 
-Displacements are not monotone in amplitude, and those of a block that jumps are not even continuous: a scan finds every change of
-sign, bisection the factor, and a factor at which the displacement leaps across the observed one is marked. What happens between two
-steps of the scan and back can be missed.
+Displacements are not monotone in amplitude, and those of a jumping block are discontinuous: a scan finds every change of sign,
+bisection the factor, and a factor at which the displacement is discontinuous across the observed value is marked. A crossing and
+its return between two steps of the scan can be missed.
 """
 
 from __future__ import annotations
@@ -36,26 +36,26 @@ STEPS = 300
 """Default number of steps of the scan."""
 
 FACTOR_TOLERANCE = 1e-10
-"""Factors are located to this."""
+"""Tolerance of a factor."""
 
 DISCONTINUITY_TOLERANCE = 1e-3
-"""A displacement that misses the observed one by more than this share at the factor found leaps across it."""
+"""Relative misfit at the crossing above which the displacement is discontinuous there."""
 
 
 @dataclass(frozen=True)
 class ScaleFactor:
-    """One factor that gives the observed displacement.
+    """A factor that gives the observed displacement.
 
     Parameters
     ----------
     scale : float
         Factor on the record.
     pga_m_s2 : float
-        Of the component so scaled.
+        PGA of the scaled component.
     displacement_m : float
         Absolute displacement at this factor.
     leaps : bool
-        The displacement leaps across the observed one here: it is met by no factor.
+        True if the displacement is discontinuous across the observed value: no factor gives exactly that.
     """
 
     scale: float
@@ -66,18 +66,18 @@ class ScaleFactor:
 
 @dataclass(frozen=True)
 class ScaleFactors:
-    """Every factor up to a limit; the fields are the keys of one result in the document of ``infer``.
+    """All factors up to a limit; the fields are the keys of one result in the document of ``infer``.
 
     Parameters
     ----------
     component : str
     observed_m : float
     pga_m_s2 : float
-        Of the component as it is.
+        PGA of the unscaled component.
     scale_factors : tuple of ScaleFactor
-        In rising order; empty when the object never moves so far.
+        In rising order; empty if the object never moves so far.
     displacement_at_1_m : float
-        Under the record as it is.
+        Under the unscaled record.
     largest_displacement_m, largest_at_scale : float
         Largest displacement of the scan, and its factor.
     limit : float
@@ -106,7 +106,7 @@ def scale_factors(
     steps: int = STEPS,
     progress: Progress | None = None,
 ) -> ScaleFactors:
-    """Return every factor on a motion at which an object is displaced as observed.
+    """Return every factor on a motion at which an object is displaced by the observed length.
 
     Parameters
     ----------
@@ -119,9 +119,9 @@ def scale_factors(
     limit : float
         Largest factor, positive.
     steps : int
-        Of the scan, at least 1.
+        Steps of the scan, at least 1.
     progress : callable
-        Told the number of runs done and the number in all.
+        Called with the number of finished runs and the total.
 
     Raises
     ------
@@ -131,8 +131,8 @@ def scale_factors(
     Examples
     --------
     >>> motion = Motion.from_arrays([0.0, 2.0, 0.0], 0.1)
-    >>> found = scale_factors(lambda s: s * (2.0 - s) if s < 2.0 else 0.0, 0.75, motion)
-    >>> [round(f.scale, 6) for f in found.scale_factors]
+    >>> result = scale_factors(lambda s: s * (2.0 - s) if s < 2.0 else 0.0, 0.75, motion)
+    >>> [round(f.scale, 6) for f in result.scale_factors]
     [0.5, 1.5]
     """
     checks.function("the displacement", displacement)
@@ -146,6 +146,7 @@ def scale_factors(
     peak = float(np.abs(motion.horizontal).max())
     factors = []
     for i in range(1, len(grid)):
+        # a sign change brackets a factor; a step may bracket a discontinuity as well
         if (values[i - 1] < observed) != (values[i] < observed):
             factor = _bisect_factor(displacement, observed, grid[i - 1], grid[i], values[i] < observed)
             crossing = displacement(factor)
@@ -157,7 +158,7 @@ def scale_factors(
 
 @dataclass(frozen=True)
 class DisplacementFunction:
-    """How far an object is displaced, m, against the factor on a motion: of many factors side by side, or of one.
+    """Displacement of an object, m, against the factor on a motion, for one factor or a batch.
 
     Parameters
     ----------
@@ -173,7 +174,7 @@ class DisplacementFunction:
 
 
 def _scan(displacement: Callable[[float], float], factors: list[float], progress: Progress | None) -> list[float]:
-    """Return the displacement at some factors, on all cores."""
+    """Return the displacement at each factor, on all cores."""
     if not isinstance(displacement, DisplacementFunction):
         return list(map_threads(displacement, factors, progress=progress))
     rows = np.array(factors)
@@ -189,18 +190,19 @@ def _bisect_factor(displacement: Callable[[float], float], observed: float, low:
             high = middle
         else:
             low = middle
+    # the end on the side of the larger displacement, so that the observed one is reached
     return high if not short_above else low
 
 
 def scale_motion(motion: Motion, factor: float) -> Motion:
-    """Return a motion multiplied by a factor; it no longer belongs to its record."""
+    """Return a motion multiplied by a factor, without its record."""
     return Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s)
 
 
 def jump_displacement(
     block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, first: bool = False, **options: Any
 ) -> Callable[[float], float]:
-    """Return how far a two-layer block is displaced, m, against the factor on a motion ([Sugimoto2017]_ table 1).
+    """Return the displacement of a two-layer block, m, against the factor on a motion ([Sugimoto2017]_ table 1).
 
     Parameters
     ----------
@@ -209,9 +211,9 @@ def jump_displacement(
     flight_only : bool
         Count the jump alone, not the rocking-sliding after it.
     first : bool
-        The first chain of the record counts, else all are added up. A chain in which the block topples counts as no displacement.
+        Count the first chain of the record only; default: the sum of all. A chain in which the block overturns counts as none.
     options
-        Its ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity``.
+        ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity`` of ``solve_jump``.
 
     Examples
     --------
@@ -238,30 +240,30 @@ def jump_displacement(
     def vectorized(factors: FloatArray) -> FloatArray:
         result = jump_many([block], motion, contacts=[contact], factors=factors, first=first, **rows)
         for factor in factors[result.jammed][:1]:
-            single(factor)  # which says at what time, and why
+            single(factor)  # raises the error of the single run, with time and cause
         return np.abs(result.total_displacement_m)
 
     return DisplacementFunction(vectorized)
 
 
 def slide_displacement(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
-    """Return how far an object slides on a level base, m, against the factor on a motion ([Fujino1978]_).
+    """Return the displacement of an object on a level base, m, against the factor on a motion ([Fujino1978]_).
 
     Parameters
     ----------
     base, motion
         As in :func:`seisblock.models.slide.solve.solve_slide`.
     largest : bool
-        The largest slip counts, not the one left when the record ends.
+        True for the maximum slip, not the residual one.
     options
-        Its ``vertical`` and ``gravity``.
+        ``vertical`` and ``gravity`` of ``solve_slide``.
 
     Raises
     ------
     ParameterError
         If a coefficient lies outside its range.
     ComponentError
-        If the vertical motion is asked of a record without one.
+        If the vertical motion is required and the record has none.
 
     Examples
     --------
@@ -271,7 +273,7 @@ def slide_displacement(base: SlidingBase | float, motion: Motion, *, largest: bo
     >>> round(displacement(1.0), 2), displacement(0.1)
     (0.44, 0.0)
     """
-    start = solve_slide(base, motion, **options)  # what cannot be solved is refused here
+    start = solve_slide(base, motion, **options)  # validates base, motion and options
     p, up = parameters(start.body, start.options["gravity_m_s2"]), start.options["vertical"]
 
     def vectorized(factors: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""What shakes a cemetery: the numbers that a criterion asks for, from a record or as given."""
+"""Shaking of a cemetery: PGA and equivalent frequency, from a record or as numbers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FrequencyKind = Literal["pga_pgv", "fourier", "pulse_width"]
 
 @dataclass(frozen=True, eq=False)
 class Shaking:
-    """What shakes a cemetery: the numbers of a criterion, and the motion behind them where there is one.
+    """PGA and equivalent frequency of a criterion, and the motion behind them if there is one.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class Shaking:
         Direction of a record; None for bare numbers.
     motion : Motion or None
     usual_highpass : FilterRange or None
-        How far the frequency moves with the usual filters, where it rests on a PGV and moves by more than 5 %.
+        Change of the frequency with the usual filters, if it depends on a PGV and changes by more than 5 %.
     """
 
     pga: float
@@ -47,27 +47,27 @@ def component_shakings(
     Parameters
     ----------
     record : Record
-        Prepared as it shall be judged.
+        With its processing applied.
     components : sequence of str
         Horizontal codes, or azimuths.
     kind : "pga_pgv", "fourier" or "pulse_width"
         Definition of the equivalent frequency; the paper's choice is PGA/(2 pi PGV), both of one component.
     frequency : float, Hz
-        Overrides it.
+        Overrides the equivalent frequency of the record.
     conventions : Conventions
-        Filter behind the PGV.
+        Filter of the PGV.
 
     Raises
     ------
     ParameterError
-        If a component has no such frequency.
+        If a component has no equivalent frequency of this kind.
     """
     shakings = []
     for m in measure(record, components, conventions=conventions).components:
         f = getattr(m.equivalent_frequency_hz, kind) if frequency is None else frequency
         if f is None or not m.pga_m_s2 > 0.0:
             raise ParameterError(
-                "component {component} has no equivalent frequency {kind}: choose another kind, or give a frequency",
+                "component {component} has no equivalent frequency of kind {kind}; choose another kind, or give a frequency",
                 component=m.component,
                 kind=kind,
             )

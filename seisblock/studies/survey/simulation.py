@@ -1,8 +1,8 @@
-"""Which stones of a cemetery fall when each is let rock as one rigid block, beside the formula fitted to whole piles.
+"""Simulated overturning of the stones of a cemetery, each as one rocking rigid block.
 
-A block that turns about the edges of its base needs more shaking than [Furukawa2009]_ eq. (9) says; under sines it comes within a tenth of
-(9) about edges worn by 0.1 of its width per side, where the outermost of 5 x 5 contact points lie. Stones stand on edges worn by the median
-of gravestones (:data:`~seisblock.bodies.edge_wear.DEFAULT_WEAR`) unless an inset is given.
+A block that rocks about the edges of its base requires more shaking than [Furukawa2009]_ eq. (9), fitted to whole piles; under sines
+it agrees within a tenth for edges worn by 0.1 of the width per side, the position of the outermost of 5 x 5 contact points. The
+default wear is the median of gravestones (:data:`~seisblock.bodies.edge_wear.DEFAULT_WEAR`).
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from seisblock.studies.survey.limits import require_undowelled
 from seisblock.studies.survey.overturning_rate import CurvePoint
 
 SIMULATED_PGA = tuple(float(i) for i in range(1, 14))
-"""Amplitudes at which curves are simulated, m/s^2: those of [Furukawa2009]_ section 3(3)a."""
+"""Amplitudes of simulated curves, m/s^2 ([Furukawa2009]_ section 3(3)a)."""
 
 SINE_DURATION = 20.0
 """Length of the sines, s ([Furukawa2009]_ section 3(3)a)."""
 
 SINE_SAMPLES_PER_PERIOD = 200
-"""Straight lines between so many samples miss the sine by 1.2e-4 of its amplitude."""
+"""Samples per period: linear interpolation misses the sine by 1.2e-4 of its amplitude."""
 
 
 def sine_motion(pga: float, frequency: float) -> Motion:
-    """Return the sine base motion of [Furukawa2009]_ section 3(3)a, 20 s from its zero.
+    """Return the sine base motion of [Furukawa2009]_ section 3(3)a: 20 s, starting at zero.
 
     Parameters
     ----------
@@ -56,13 +56,13 @@ def sine_motion(pga: float, frequency: float) -> Motion:
 
 
 def sao(height_over_width: float, width: float = PAPER_WIDTH, *, inset: EdgeWear = DEFAULT_WEAR) -> Block:
-    """Return the top stone of a grave as a rigid block with worn edges.
+    """Return the upper stone (sao) of a grave as a rigid block with worn edges.
 
     Parameters
     ----------
     height_over_width, width : float, 1 and m
         H/B and B of the homogeneous stone.
-    inset : Inset
+    inset : EdgeWear
         Per side.
 
     Raises
@@ -82,19 +82,19 @@ def simulated_overturns(
     width: float = PAPER_WIDTH,
     gravity: float = STANDARD_GRAVITY,
 ) -> BoolArray:
-    """Return which stones overturn under a motion when each rocks alone as a rigid block ([Housner1963]_), (size,).
+    """Return the stones that overturn under a motion, each rocking as one rigid block ([Housner1963]_), (size,).
 
     Parameters
     ----------
     cemetery : Cemetery
-        Stones that stand loose: a dowelled pile is no such block.
+        Stones without dowels: a dowelled pile is not a rigid block.
     motion : Motion
     scale : float
         Factor on the motion.
-    inset : Inset
+    inset : EdgeWear
         As for :func:`sao`.
     width : float, m
-        For stones whose width is not known.
+        Width of stones of unknown width.
     gravity : float, m/s^2
 
     Raises
@@ -103,6 +103,7 @@ def simulated_overturns(
         If a stone is reinforced, or the inset leaves nothing of a base.
     """
     require_undowelled(cemetery)
+    # equal stones share one run
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     ratio, b = sizes.T
     stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, gravity=gravity)
@@ -119,19 +120,19 @@ def simulated_curve(
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
 ) -> tuple[CurvePoint, ...]:
-    """Return the simulated rate against PGA under scaled motions ([Furukawa2009]_ sections 3(3)a, 3(5)).
+    """Return the simulated overturning rate against PGA under scaled motions ([Furukawa2009]_ sections 3(3)a, 3(5)).
 
     Parameters
     ----------
     cemetery : Cemetery
     motions : sequence of (Motion, float)
-        Each with its frequency, or equivalent frequency, Hz.
+        With the frequency, or equivalent frequency, of each, Hz.
     pga : sequence of float, m/s^2
-        To which each motion is scaled.
+        Levels to which each motion is scaled.
     inset, width, gravity
         As for :func:`simulated_overturns`.
     progress : callable
-        Told the number of points done and the number in all.
+        Called with the number of finished points and the total.
     """
     points: list[CurvePoint] = []
     for motion, frequency in motions:
