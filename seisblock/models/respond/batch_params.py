@@ -1,4 +1,4 @@
-"""What many runs are given, as arrays: bodies and their contact with the ground, without an object for each."""
+"""Parameters of many full-response runs as arrays, without one object per row."""
 
 from __future__ import annotations
 
@@ -14,19 +14,18 @@ from seisblock.models.respond.params import JAM_WARNING_RATIO, SMALL_RATE, Initi
 
 @dataclass(frozen=True, eq=False)
 class RespondBatchParams:
-    """Many settings; bit by bit what a :class:`~seisblock.models.respond.params.RespondParams` says of each.
+    """Parameters of m runs; each row equals a :class:`~seisblock.models.respond.params.RespondParams` bit by bit.
 
     Parameters
     ----------
-    blocks : Blocks
+    blocks : BlockArray
     mu, mu_kinetic, restitution : (m,) arrays, 1
     rocking : (m,) array, 1
-        Angular velocity after over that before a rocking impact where `rocking_given`; else over that of an impact without losses beyond
-        the impact law's, at most 1.
+        With `rocking_given` the ratio of angular velocities in a rocking impact, else the share of Housner's ratio, at most 1.
     rocking_given : bool
-        Whether `rocking` stands in place of the impact law.
+        True where `rocking` replaces the impact law.
     gravity, tenon : float, m/s^2; float, m
-        The same for all.
+        Common to all rows.
 
     Raises
     ------
@@ -47,14 +46,14 @@ class RespondBatchParams:
         is_valid = (self.mu < np.inf) & (self.mu_kinetic >= 0.0) & (self.mu_kinetic <= self.mu)
         is_valid &= (self.restitution >= 0.0) & (self.restitution < 1.0)
         is_valid &= (self.rocking >= 0.0) & (self.rocking <= 1.0)
-        # what is the same for all, or wrong in one, is refused in the words of one
+        # argmin is the first invalid row, or row 0: its RespondParams raises the message for it and for the common values
         self.row_params(int(np.argmin(is_valid)))
 
     def __len__(self) -> int:
         return len(self.blocks)
 
     def __getitem__(self, index: slice) -> RespondBatchParams:
-        """Return some of them."""
+        """Return a slice of the rows."""
         return replace(
             self,
             blocks=self.blocks[index],
@@ -65,7 +64,7 @@ class RespondBatchParams:
         )
 
     def row_params(self, row: int) -> RespondParams:
-        """Return one of them, by its number; nobody knows its mass and name."""
+        """Return the parameters of one row, with unit mass and an empty name."""
         right, left, height, gyration = (float(column[row]) for column in self.blocks.columns)
         rocking = float(self.rocking[row])
         return RespondParams(
@@ -80,7 +79,7 @@ class RespondBatchParams:
         )
 
     def parameters(self, dt: float, *, duration_s: float = 0.0, ground_at_rest: bool = False) -> FloatArray:
-        """Return the parameters of the model in the order of its names, (m, 15)."""
+        """Return the parameter vectors of the model, (m, 15)."""
         table = np.tile(self.row_params(0).parameters(dt, duration_s=duration_s, ground_at_rest=ground_at_rest), (len(self), 1))
         largest = self.blocks.radii.max(axis=1)
         kappa = self.blocks.gyration_squared / (largest * largest)
@@ -93,5 +92,5 @@ class RespondBatchParams:
         return table
 
     def states(self, initial: Initial) -> FloatArray:
-        """Return the states of the bodies put down upright and at rest, or with the six numbers given for all."""
+        """Return the initial states, (1 or m, 15): upright and at rest, or from `initial` for all rows."""
         return np.array([self.row_params(row).state(initial) for row in range(1 if initial is None else len(self))])
