@@ -31,7 +31,7 @@ BLOCK = Block(0.4, 1.0)
         ({"mu": 0.3, "rocking_restitution": 1.1}, r"\[0, 1\]"),
         ({"mu": 0.3, "gravity": 0.0}, "gravity"),
         ({"mu": 0.3, "tenon": -0.01}, "tenon"),
-        ({"mu": 0.3, "settle_s": -1.0}, "settle"),
+        ({"mu": 0.3, "settle_s": -1.0}, "settling time"),
         ({"mu": 0.3, "initial": (0.0, 0.5, 0.0)}, "six finite numbers"),
         ({"mu": 0.3, "initial": (0, 0.4, 0, 0, 0, 0)}, "below the ground"),
         ({"mu": 0.3, "initial": (0, 2.0, 1.6, 0, 0, 0)}, "pi/2"),
