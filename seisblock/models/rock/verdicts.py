@@ -51,7 +51,7 @@ class Verdicts:
     overturning_time_s: FloatArray
     gave_up: BoolArray
 
-    def answered(self) -> Verdicts:
+    def require_complete(self) -> Verdicts:
         """Return these verdicts if every run is complete.
 
         Raises
@@ -87,9 +87,9 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     >>> [rock_verdict(Block(0.24, 0.8), pulse, scale=scale).overturned for scale in (0.5, 1.0)]
     [False, True]
     """
-    checks.finite("`scale` (factor on the ground acceleration)", scale)
+    checks.finite("the scale factor", scale)
     params = rock_params(block, motion, **options)
-    verdicts = rock_verdicts([params], motion, params.gains(scale)).answered()
+    verdicts = rock_verdicts([params], motion, params.gains(scale)).require_complete()
     return Verdict(bool(verdicts.overturned[0]), float(verdicts.max_rotation_ratio[0]))
 
 

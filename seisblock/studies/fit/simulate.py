@@ -58,7 +58,7 @@ def outcome_shares(
             params, gains = family.versions(
                 np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
             )
-            verdicts = rock_verdicts(params, shaking.motion, gains).answered()
+            verdicts = rock_verdicts(params, shaking.motion, gains).require_complete()
             hits = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
             happened[part] = hits.reshape(-1, run_count).sum(axis=1)
         return happened * (SHARE_DENOMINATOR // run_count)

@@ -52,4 +52,4 @@ def parallel_verdicts(
 def overturns_at(block: RockParams, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:
     """Return whether a block overturns under a motion times each of some factors, (m,)."""
     scales: FloatArray = np.asarray(factors, dtype=np.float64)
-    return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).answered().overturned
+    return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).require_complete().overturned
