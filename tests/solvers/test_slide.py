@@ -57,7 +57,7 @@ def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(scale):
     falls = (G + scale * motion.vertical).min() < 0.0
     for mu in (0.1, 0.9, 5.0):
         assert solve_slide(sliding_base(mu), motion, vertical=scale).outcome.lifted_off == falls
-        with pytest.raises(ParameterError, match="not defined in the air") if falls else contextlib.nullcontext():
+        with pytest.raises(ParameterError, match="one-way sliding is not defined") if falls else contextlib.nullcontext():
             assert not solve_slide(sliding_base(mu, one_way=True), motion, vertical=scale).outcome.lifted_off
 
 
@@ -108,7 +108,7 @@ def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
     response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0), motion)
     assert response.outcome.final_slip_m is None
     assert response.outcome.slides_at_end
-    assert any("for ever" in warning for warning in response.warnings)
+    assert any("does not stop" in warning for warning in response.warnings)
     assert sliding_base(0.3, kappa=0.5, slope_deg=12.0).never_stops
     assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).never_stops
 
