@@ -17,9 +17,8 @@ from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.dynamics.buffers import LONGEST, TOTAL
 from seisblock.dynamics.cancellation import cancel_scope, current_events
 from seisblock.models.respond import constants
-from seisblock.models.respond.batch_params import RespondBatchParams
 from seisblock.models.respond.describe import FLIGHT, REST, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.models.respond.params import Initial, RespondParams
+from seisblock.models.respond.params import Initial, RespondBatchParams, RespondParams
 from seisblock.models.respond.run import check_settling, zero_motion
 from seisblock.records import Motion
 from seisblock.records._validation import validate_motion
