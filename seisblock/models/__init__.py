@@ -1,1 +1,1 @@
-"""One model per file: from a motion and a body to a response."""
+"""Mechanical models: the response of a body to a ground motion, one subpackage per model."""

@@ -101,7 +101,7 @@ def test_a_body_is_needed(name):
     [
         (lambda: sb.response_spectrum(MOTION, 0.01), "accelerations are needed, found a Motion: give motion.horizontal and motion.dt"),
         (lambda: sb.response_spectrum(MOTION.horizontal, 0.0), "the sampling interval must be positive, found 0 s"),
-        (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "the damping must be one of modal, dashpots, found 'modl'"),
+        (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "`damping` must be one of modal, dashpots, found 'modl'"),
         (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers, 0 <= fallen <= stones, .* found 3.5/10"),
         (lambda: sb.solve_slide(0.2, MOTION, vertical="yes"), "the vertical gain must be a number, found 'yes'"),
         (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
@@ -128,7 +128,7 @@ def test_a_body_is_needed(name):
         (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be a whole number, 1 or more, found True"),
         (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be a whole number"),
         (lambda: sb.solve_stack(PILE, MOTION, points=2.5), "the number of points along each side of a joint must be a whole number, 2"),
-        (lambda: sb.uplift_thresholds(SPRINGS, "a"), "the frequency ratios must be numbers, found 'a'"),
+        (lambda: sb.uplift_thresholds(SPRINGS, "a"), "`frequency_ratio` must be numbers, found 'a'"),
         (lambda: sb.mode_map([0.3], None, [0.2], MOTION), "sizes and slendernesses must be numbers, found None"),
         (lambda: sb.rocking_spectrum(["a"], [0.2], MOTION), "sizes and slendernesses must be numbers, found \\['a'\\]"),
         (lambda: sb.read(3), "expected a path or a list of paths, found int"),

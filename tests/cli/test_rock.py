@@ -240,7 +240,7 @@ def test_wider_than_tall_is_allowed_and_said(run, pulse):
     """A block wider than tall is solved, and its threshold above 1 g is said."""
     answer = run(pulse, "--width", 1.0, "--height", 0.5)
     assert answer.exit_code == 0
-    assert "rocks only above 2.00 g" in answer.stderr
+    assert "rocking threshold 2.00 g" in answer.stderr
 
 
 def test_vertical_needs_a_vertical_component(run, tmp_path):

@@ -57,7 +57,7 @@ ASKED = {
     "shakings": (["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"], 3, "8100000 shakings"),
     "points of a joint": (["stack", "--contact", "grid=1000000000"], 2, "1000000000 points along each side of a joint, and 25 are allowed"),
     "steps of a pile": (["stack", "--step", "1e-12"], 3, "will not do for the rigid stones"),
-    "time to settle": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
+    "settling time": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
     "padding of a filter": (["measure", "--highpass", "1e-6"], 3, "samples of padding"),
     "stones of a cemetery": (["overturn-rate", "--cemetery", "huge.csv"], 3, "200000000 gravestones, and 1000000 are allowed"),
     "bytes of a device": (["measure", "/dev/zero"], 3, "is a device"),

@@ -116,7 +116,7 @@ def test_very_wide_block_stops_at_the_impact():
     response = solve_rock(block, Motion.from_arrays(np.zeros(300), 0.01), initial=(0.1, 0.0))
     assert [event.name for event in response.events] == ["comes to rest"]
     assert response.outcome.impacts == 1
-    assert "rocks only above 1.50 g" in response.warnings[0]
+    assert "rocking threshold 1.50 g" in response.warnings[0]
 
 
 def test_block_that_never_loses_energy_is_told_from_one_that_falls():

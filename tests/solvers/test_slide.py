@@ -57,7 +57,7 @@ def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(scale):
     falls = (G + scale * motion.vertical).min() < 0.0
     for mu in (0.1, 0.9, 5.0):
         assert solve_slide(sliding_base(mu), motion, vertical=scale).outcome.lifted_off == falls
-        with pytest.raises(ParameterError, match="not defined in the air") if falls else contextlib.nullcontext():
+        with pytest.raises(ParameterError, match="one-way sliding is not defined") if falls else contextlib.nullcontext():
             assert not solve_slide(sliding_base(mu, one_way=True), motion, vertical=scale).outcome.lifted_off
 
 
@@ -65,9 +65,9 @@ def test_a_one_way_object_held_back_lifts_off_all_the_same():
     """Pushed where it cannot slide, a one-way object loses contact when the base falls: refused with the time, in studies too."""
     motion = Motion.from_arrays(np.full(9, 5.0), 0.01, vertical=[0, 0, 0, -4.0, -10.0, -4.0, 0, 0, 0], name="EW")
     at = 0.03 + 0.01 * (G - 4.0) / 6.0
-    with pytest.raises(ParameterError, match=f"EW: at {at:.3f} s the base falls away"):
+    with pytest.raises(ParameterError, match=f"EW: contact lost at {at:.3f} s"):
         solve_slide(sliding_base(0.5, one_way=True), motion, vertical=1.0)
-    with pytest.raises(ParameterError, match=f"EW: at {at:.3f} s the base falls away"):
+    with pytest.raises(ParameterError, match=f"EW: contact lost at {at:.3f} s"):
         slide_study([0.4, 0.5], motion, one_way=True, vertical=[0.5, 1.0])
 
 
@@ -108,7 +108,7 @@ def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
     response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0), motion)
     assert response.outcome.final_slip_m is None
     assert response.outcome.slides_at_end
-    assert any("for ever" in warning for warning in response.warnings)
+    assert any("does not stop" in warning for warning in response.warnings)
     assert sliding_base(0.3, kappa=0.5, slope_deg=12.0).never_stops
     assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).never_stops
 

@@ -48,7 +48,7 @@ def test_respond_probability_counts_only_versions_with_an_answer(lossy):
 def test_respond_probability_refuses_where_no_version_has_an_answer(lossy):
     """Without any answer there is no share."""
     lossy(probability, None)
-    with pytest.raises(SolverError, match="20 of 20 runs were given up"):
+    with pytest.raises(SolverError, match="20 of 20 runs have no result"):
         probability.respond_probability(BLOCK, PULSE, mu=0.5, runs=20)
 
 

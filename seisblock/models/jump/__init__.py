@@ -1,4 +1,4 @@
-"""The two-layer block: rocking, impact, jump, landing, rocking-sliding."""
+"""Jump of a two-layer block: rocking, impact, flight, landing and rocking-sliding ([Sugimoto2017]_)."""
 
 import lazy_loader
 

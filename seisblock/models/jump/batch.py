@@ -1,4 +1,4 @@
-"""Many two-layer blocks, or one under many factors, side by side through one motion: chain after chain, with no Python for each row."""
+"""Batch solver of the jump: many two-layer blocks, or one block at many scale factors, under one motion."""
 
 from __future__ import annotations
 
@@ -51,22 +51,26 @@ def jump_many(
     first: bool = False,
     gravity: float = STANDARD_GRAVITY,
 ) -> JumpBatchResult:
-    """Return the fates of many two-layer blocks under one motion; bit by bit those of single runs ([Sugimoto2017]_).
+    """Solve many two-layer blocks under one motion, bit by bit as single runs ([Sugimoto2017]_).
 
-    A run that has to be given up is marked in the fates.
+    An abandoned run is marked in `gave_up` of the result.
 
     Parameters
     ----------
     blocks, contacts : sequences of TwoLayerBlock and of Contact
         One per row, or a single one for all.
     motion : Motion
-        Only its horizontal row acts.
+        Only the horizontal row acts.
     factors : float or (m,) array
-        On the motion.
+        Scale factors on the motion.
     drop : float or (m,) array, m
-        Height of the floor above the ground.
+        Height of the supporting level above the ground.
     spin, direction, landing, first, gravity
-        As of :func:`~seisblock.models.jump.solve.solve_jump`.
+        See :func:`~seisblock.models.jump.solve.solve_jump`.
+
+    Returns
+    -------
+    JumpBatchResult
 
     Raises
     ------
@@ -78,27 +82,29 @@ def jump_many(
     >>> import numpy as np
     >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
     >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.pi * np.linspace(0, 1, 101)), np.zeros(200)]), 0.01)
-    >>> found = jump_many([load_two_layer("chozusha")], pulse, contacts=[load_contact("chozusha")], factors=[0.5, 1.0])
-    >>> found.outcomes
+    >>> result = jump_many([load_two_layer("chozusha")], pulse, contacts=[load_contact("chozusha")], factors=[0.5, 1.0])
+    >>> result.outcomes
     ['did not rock', 'jumped']
     """
     validate_motion(motion)
-    factor, floor = np.atleast_1d(checks.float_array("the factors", factors)), np.atleast_1d(checks.float_array("the drop", drop))
-    check_options(floor.min(initial=0.0), direction, landing, gravity)
+    factor, drops = np.atleast_1d(checks.float_array("`factors`", factors)), np.atleast_1d(checks.float_array("`drop`", drop))
+    check_options(drops.min(initial=0.0), direction, landing, gravity)
     for item, kind in [*((block, TwoLayerBlock) for block in blocks), *((contact, Contact) for contact in contacts)]:
         checks.instance(item, kind)
-    counts = {len(blocks), len(contacts), factor.size, floor.size}
+    counts = {len(blocks), len(contacts), factor.size, drops.size}
     runs = max(counts)
     if not counts <= {1, runs} or 0 in counts:
-        raise ParameterError("blocks, contacts, factors and drops must be one each, or one for all; found {counts}", counts=sorted(counts))
+        raise ParameterError(
+            "`blocks`, `contacts`, `factors` and `drop` must have length 1 or one common length, found {counts}", counts=sorted(counts)
+        )
     return _run_chains(
-        _RowParameters.from_bodies(blocks, contacts, spin, direction, landing, gravity, motion.dt, runs), motion, factor, floor, first
+        _RowParameters.from_bodies(blocks, contacts, spin, direction, landing, gravity, motion.dt, runs), motion, factor, drops, first
     )
 
 
 @dataclass(frozen=True, eq=False)
 class _RowParameters:
-    """What many runs are of, a row each: sizes, thresholds of the onset, parameters of rocking and flight, and ratios at the impact."""
+    """Parameters of m runs, one per row: sizes, onset thresholds, rocking and flight parameters, ratios at the impact."""
 
     sizes: flying.Sizes
     onset: FloatArray
@@ -120,7 +126,7 @@ class _RowParameters:
         dt: float,
         runs: int,
     ) -> _RowParameters:
-        """Gather the rows of blocks and contacts, of which a single one is that of all."""
+        """Return the rows of `runs` runs; a single block or contact applies to all."""
         count = max(len(blocks), len(contacts))
         pairs = list(zip(_repeat(blocks, count), _repeat(contacts, count), strict=True))
 
@@ -140,19 +146,19 @@ class _RowParameters:
         )
 
     def select_sizes(self, index: IntArray) -> flying.Sizes:
-        """Return the sizes of some rows."""
+        """Return the sizes of the rows `index`."""
         return flying.Sizes(*(getattr(self.sizes, field.name)[index] for field in fields(flying.Sizes)))
 
 
 def _repeat(items: Sequence[Item], count: int) -> list[Item]:
-    """Return one for each row."""
+    """Return `count` items, a single item repeated."""
     return list(items) * (count if len(items) == 1 else 1)
 
 
-def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, floor: FloatArray, first: bool) -> JumpBatchResult:
-    """Follow all rows from chain to chain, as long as one of them has another."""
+def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, drops: FloatArray, first: bool) -> JumpBatchResult:
+    """Solve all rows chain by chain until no row has a further onset of rocking."""
     runs = len(rows.ratio)
-    factor, floor_drop = (np.array(np.broadcast_to(value, runs)) for value in (factor, floor))
+    factor, floor_drop = (np.array(np.broadcast_to(value, runs)) for value in (factor, drops))
     instants = Instants(np.zeros(runs, dtype=np.int64), np.zeros(runs))
     codes, jammed, has_jumped = np.zeros(runs, dtype=np.int64), np.zeros(runs, dtype=np.bool_), np.zeros(runs, dtype=np.bool_)
     total, displacement, friction = np.zeros(runs), np.zeros(runs), np.full(runs, np.nan)
@@ -186,6 +192,7 @@ def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, floor:
         total[active_rows] += np.where(np.isin(step.chains.outcome_code, (JUMP, OVERTURNS_LANDED)), step.displacement, 0.0)
         displacement[active_rows] += step.displacement
         friction[active_rows] = np.fmax(friction[active_rows], step.chains.friction_needed)
+        # after a landing the block stands on the ground: no further drop
         floor_drop[active_rows] = np.where(np.isnan(step.chains.friction_needed), floor_drop[active_rows], 0.0)
         instants.sample[active_rows], instants.tau[active_rows] = step.end
         continues = (
@@ -199,7 +206,7 @@ def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, floor:
 
 @dataclass(frozen=True, eq=False)
 class _ChainStep:
-    """One chain of each of some rows: what becomes of it, how far it moves the centroid, m, where it ends, and whether it was given up."""
+    """One chain of each active row: chain table, displacement of the centroid, m, end instants, jammed and abandoned rows."""
 
     chains: ChainTable
     jammed: BoolArray
@@ -217,7 +224,7 @@ def _run_chain(
     gains: FloatArray,
     onset: Instants,
 ) -> _ChainStep:
-    """Follow one chain of some rows from its onset, each in the frame in which it goes forward."""
+    """Solve one chain of the active rows from its onset, each in the frame of its forward direction."""
     sizes = rows.select_sizes(active_rows)
     p = rows.rocking[active_rows]
     rocking_run = continue_batch_after_record(rocking.ROCKING_MODEL, motion, p, np.zeros(2), rocking.ROCK, gains=gains, start=onset)
@@ -242,7 +249,7 @@ def _run_chain(
         )
         gave_up[jump_rows] = flight_run.failed
         side, final_mode = flight_run.final[:, flying.SIDE], flight_run.final_mode
-        # the end names no corner: it is that which landed last
+        # a terminal mode has no corner: take the corner of the last landing
         mode = np.where(final_mode < 0, 1 + (side > 0.0), final_mode)
         displacement[jump_rows] = flying.centroid(rows.select_sizes(active_rows[jump_rows]), floor_drop[jump_rows], mode, flight_run.final)[
             0

@@ -1,4 +1,4 @@
-"""What becomes of many two-layer blocks, as arrays: an entry for each run, and one for each of their chains."""
+"""Batch results of the jump: arrays with one entry per run, and a table with one row per chain."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from seisblock.models.jump.chain import (
 from seisblock.models.jump.solve import DID_NOT_ROCK
 
 OUTCOMES = (DID_NOT_ROCK, NO_JUMP, JUMPED, OVERTURNED_ROCKING, OVERTURNED_LANDED, ENDED_ROCKING, ENDED_FLYING, ENDED_LANDED)
-"""What becomes of a block, or of a chain, by the numbers in :class:`JumpBatchResult`."""
+"""Outcomes of a block or a chain, indexed by `outcome_code` of :class:`JumpBatchResult`."""
 
 NO_ROCKING, IMPACT, JUMP, OVERTURNS, OVERTURNS_LANDED, ROCKS, FLIES, MOVES = range(len(OUTCOMES))
 
 
 @dataclass(frozen=True, eq=False)
 class ChainTable:
-    """The chains of many runs in the order of time, arrays with one entry per chain, (n,).
+    """Chains of many runs in chronological order; arrays of shape (n,), one entry per chain.
 
     Parameters
     ----------
     row, outcome_code : int
-        Whose it is, and how it ended, a place in ``FATES``.
+        Row of the run, and index into ``OUTCOMES``.
     onset_s, landing_s : s
-        After the motion's first sample; NaN where it did not land.
+        After the motion's first sample; NaN without a landing.
     friction_needed : 1
-        Largest friction that a landing needed; NaN where it did not land.
+        Largest friction coefficient required by a landing; NaN without a landing.
     energy_before_j, energy_after_j : J
-        Kinetic energy before and after the landing that kept the largest share.
+        Kinetic energy before and after the landing with the largest ratio of the two.
     """
 
     row: IntArray
@@ -54,22 +54,22 @@ class ChainTable:
 
 @dataclass(frozen=True, eq=False)
 class JumpBatchResult:
-    """The ends of many runs, arrays with one entry per row, (m,).
+    """Results of m runs; arrays of shape (m,).
 
     Parameters
     ----------
     outcome_code : int
-        A place in ``FATES``; as `outcome` of :class:`~seisblock.models.jump.solve.JumpOutcome` has it.
+        Index into ``OUTCOMES``, see `outcome` of :class:`~seisblock.models.jump.solve.JumpOutcome`.
     jammed : bool
-        Whether a foot that landed jammed, so that there is no answer.
+        True where a landed foot jammed: no result.
     total_displacement_m, final_displacement_m : m
-        Sum over the chains, and where the centroid is in the end; signed.
+        Sum over the chains, and residual displacement of the centroid; signed.
     friction_needed_at_landing : 1
-        Largest that a landing needed; NaN where it never landed.
+        Largest friction coefficient required by a landing; NaN without a landing.
     rocking_threshold_m_s2, spin_ratio : m/s^2, 1
-    chains : Chains
+    chains : ChainTable
     gave_up : bool
-        Runs without an answer: their other entries are those of the chains before.
+        Abandoned runs without a result: their other entries refer to the preceding chains.
     """
 
     outcome_code: IntArray
@@ -84,11 +84,11 @@ class JumpBatchResult:
 
     @property
     def outcomes(self) -> list[str]:
-        """In words."""
+        """Outcome texts of the rows."""
         return [OUTCOMES[code] for code in self.outcome_code.tolist()]
 
     def row_dict(self, row: int) -> dict[str, Any]:
-        """Return the scalars of one run, by their names in its outcome; None where there is no such thing."""
+        """Return the scalars of one run by their field names in the outcome; None for missing values."""
         friction = float(self.friction_needed_at_landing[row])
         return {
             "outcome": OUTCOMES[self.outcome_code[row]],
@@ -100,7 +100,7 @@ class JumpBatchResult:
         }
 
     def row_chains(self, row: int, start_s: float) -> tuple[Chain, ...]:
-        """Return the chains of one run, with what is known of them; times on a clock that shows `start_s` at the first sample, s."""
+        """Return the chains of one run, with the fields of the table; times count from `start_s` at the first sample, s."""
         result = []
         for n in np.flatnonzero(self.chains.row == row).tolist():
             friction = float(self.chains.friction_needed[n])
@@ -118,7 +118,7 @@ class JumpBatchResult:
 
 
 def concatenate_chains(tables: Sequence[ChainTable]) -> ChainTable:
-    """Return the chains of all rows."""
+    """Return several tables of chains as one."""
     if not tables:
         return ChainTable(np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64), *(np.empty(0) for _ in range(5)))
     return ChainTable(*(np.concatenate([getattr(table, field.name) for table in tables]) for field in fields(ChainTable)))

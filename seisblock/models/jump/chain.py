@@ -1,4 +1,4 @@
-"""One chain of the jump: what was followed, and the column of [Sugimoto2017]_ table 1 that it fills."""
+"""One chain of motion of the jump: trajectories, and the results of [Sugimoto2017]_ table 1."""
 
 from __future__ import annotations
 
@@ -30,47 +30,47 @@ REST, ROCKING, FLIGHT, LANDED = N_("rest"), N_("rocking"), N_("flight"), N_("roc
 """Names of the phases."""
 
 CHUNK_SIZE = 2**12
-"""Samples at a time among which the end of a stretch is looked for."""
+"""Samples per chunk in the search for the end of the time above the threshold."""
 
 SLIPPING_KINDS = (flying.SLIP_BACKWARD, flying.SLIP_FORWARD, flying.FLAT_BACKWARD, flying.FLAT_FORWARD)
-"""Kinds of motion in which the foot slips."""
+"""Kinds of motion with a slipping foot."""
 
 
 @dataclass(frozen=True)
 class Chain:
-    """One chain of motion, a column of [Sugimoto2017]_ table 1.
+    """Results of one chain of motion, a column of [Sugimoto2017]_ table 1.
 
-    Times in s from the record's first sample; None where the chain did not get so far. Displacements of the
-    centroid relative to the ground, m, positive towards the component's positive direction.
+    Times in s from the record's first sample; None if the chain ended earlier. Displacements of the centroid relative to the
+    ground, m, positive in the component's positive direction.
 
     Parameters
     ----------
     outcome : str
     direction : "+" or "-"
-        Sign of the ground acceleration that starts it, and of the jump.
+        Sign of the ground acceleration that starts the chain, and of the jump.
     rocking_start_s, impact_s, landing_s, end_s : float
     rocking_duration_s, jump_duration_s, rock_slide_duration_s : float
     max_rotation_rad : float
-        Largest tilt while rocking, a magnitude.
+        Peak tilt in rocking, magnitude.
     impact_velocity_rad_s : float
-        Angular velocity at the impact, a magnitude.
+        Angular velocity at the impact, magnitude.
     max_rise_m : float
-        Largest rise of the centroid in flight above its height at rest, whether or not it lands before the top of its path.
+        Largest rise of the centroid in flight above its height at rest.
     jump_displacement_m, rock_slide_displacement_m, total_displacement_m : float
     time_above_threshold_s : float
-        How long the ground acceleration stays above the rocking threshold from the start of the rocking.
+        Time from the onset of rocking during which the ground acceleration exceeds the rocking threshold.
     foot_rise_m : float
-        Largest height in flight of the lower of the two lower corners above the floor.
+        Largest height in flight of the lower of the two lower corners above the supporting level.
     landing_corner : "leading" or "trailing"
-        Leading: on the side towards which the block jumps.
+        Leading: on the side of the jump direction.
     slid : bool
-        Whether the landed foot slipped ([Sugimoto2017]_ eq. (14)).
+        True if the landed foot slipped ([Sugimoto2017]_ eq. (14)).
     friction_needed_at_landing : float, 1
-        Largest P_x/P_y of its landings; infinite where the ground would have to pull.
+        Largest P_x/P_y of the landings; infinite where a tensile ground force would be required.
     landing_energy_j : two floats, J
-        Kinetic energy before and after the landing that keeps the largest share of it.
+        Kinetic energy before and after the landing with the largest ratio of the two.
     end_angular_velocity_rad_s, end_slip_velocity_m_s : float
-        What is left of the foot's motion when the tilt is back at zero, magnitudes: the paper's model ends there.
+        Angular velocity and slip velocity of the foot when the tilt returns to zero, magnitudes; the paper's model ends there.
     """
 
     outcome: str
@@ -100,18 +100,18 @@ class Chain:
 
 @dataclass(frozen=True, eq=False)
 class ChainPath:
-    """A chain as the engine followed it, in the frame in which it goes forward.
+    """Trajectories of a chain, in the frame of its forward direction.
 
     Parameters
     ----------
     sign : float
-        +1 when that frame is the component's own, -1 when it is its mirror image.
+        +1 if this frame is that of the component, -1 if mirrored.
     rocking_path : Trajectory
         From the onset to the impact.
     launch : Launch or None
         Velocities after the impact.
     flight_path : Trajectory or None
-        From the impact to the end, when the block jumps.
+        From the impact to the end, if the block jumps.
     """
 
     motion: Motion
@@ -126,38 +126,38 @@ class ChainPath:
 
     @property
     def onset_s(self) -> float:
-        """Start of the rocking, s from the record's first sample."""
+        """Onset of rocking, s from the record's first sample."""
         return self.motion.start_s + self.start.sample * self.motion.dt + self.start.tau
 
     @property
     def impact_s(self) -> float:
-        """End of the rocking."""
+        """End of rocking, s from the record's first sample."""
         return self.motion.start_s + self.rocking_path.end_time
 
     @property
     def has_impact(self) -> bool:
-        """Whether the rocking ended in an impact."""
+        """True if rocking ended in an impact."""
         return self.rocking_path.final_mode == rocking.IMPACT
 
     @property
     def first_landing(self) -> GuardEvent | None:
-        """The first landing."""
+        """Event of the first landing, None without one."""
         return next((change for change in self.flight_path.events if change.source == flying.FLIGHT), None) if self.flight_path else None
 
     @property
     def end(self) -> Instant:
-        """Where the chain ended."""
+        """Last instant of the chain."""
         return self.flight_path.end if self.flight_path else self.rocking_path.end
 
     @property
     def is_complete(self) -> bool:
-        """Whether it came to its own end before the record did."""
+        """True if the chain reached a terminal mode before the time limit."""
         trajectory = self.flight_path or self.rocking_path
         return trajectory.final_mode < 0
 
 
 def summarise_chain(path: ChainPath) -> Chain:
-    """Return the numbers of a chain ([Sugimoto2017]_ table 1)."""
+    """Return the results of a chain ([Sugimoto2017]_ table 1)."""
     onset, impact = path.onset_s, path.impact_s
     entries: dict[str, Any] = {
         "direction": "+" if path.sign > 0 else "-",
@@ -182,14 +182,14 @@ def summarise_chain(path: ChainPath) -> Chain:
 
 
 def _flight_outcome(path: ChainPath) -> str:
-    """Return in words how a chain that jumped ended."""
+    """Return the outcome of a chain with a jump."""
     assert path.flight_path is not None
     outcome = ENDED_FLYING if path.flight_path.final_mode == flying.FLIGHT else ENDED_LANDED
     return {flying.END: JUMPED, flying.OVERTURNED: OVERTURNED_LANDED}.get(path.flight_path.final_mode, outcome)
 
 
 def _flight_results(path: ChainPath) -> dict[str, Any]:
-    """Return the entries of a chain from the impact on."""
+    """Return the fields of a chain from the impact on."""
     assert path.flight_path is not None and path.launch is not None
     flight, takeoff, first_landing = path.flight_path, path.launch, path.first_landing
     entries: dict[str, Any] = {
@@ -229,7 +229,7 @@ def _flight_results(path: ChainPath) -> dict[str, Any]:
 
 
 def _time_above_threshold(path: ChainPath) -> float:
-    """Return how long the acceleration stays above the rocking threshold from the onset on, s."""
+    """Return the time from the onset during which the acceleration stays above the rocking threshold, s."""
     motion, start = path.motion, path.start
     threshold = path.block.rocking_threshold(path.gravity)
     for begin in range(start.sample + 1, motion.samples, CHUNK_SIZE):
@@ -245,7 +245,7 @@ def _time_above_threshold(path: ChainPath) -> float:
 
 
 def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
-    """Return the phases and events of a chain, tilts in the house sign (positive when leaning to +x)."""
+    """Return the phases and events of a chain; tilt positive to +x."""
     tilt = -path.sign
     onset, impact = path.onset_s, path.impact_s
     rest, final_tilt = np.zeros(1), tilt * path.rocking_path.final[:1]
@@ -268,7 +268,7 @@ def phases_and_events(path: ChainPath) -> tuple[tuple[Phase, ...], tuple[Event, 
 
 
 def chain_curves(path: ChainPath) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return time (s), tilt (rad), displacement and rise of the centroid (m), each (m,), in the component's frame."""
+    """Return time, s, tilt, rad, displacement and rise of the centroid, m, (n,) each, in the component's frame."""
     block, t0 = path.block, path.motion.start_s
     times, states, _ = path.rocking_path.table()
     time = np.concatenate([[path.onset_s], times + t0])
@@ -278,7 +278,7 @@ def chain_curves(path: ChainPath) -> tuple[FloatArray, FloatArray, FloatArray, F
     rise = block.radius * np.cos(lean) - block.centroid_height
     if path.flight_path is not None:
         times, states, modes = path.flight_path.table()
-        # the end's second limit names no corner: it is the first one over again
+        # the terminal row has no corner: use the mode of the row before, its state is the same
         modes = np.where(modes < 0, np.roll(modes, 1), modes)
         xs, rises = flying.centroid(block, path.drop, modes, states)
         time, theta = np.concatenate([time, times + t0]), np.concatenate([theta, states[:, flying.THETA]])

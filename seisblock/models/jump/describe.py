@@ -1,4 +1,4 @@
-"""A run of the jump told over the whole motion: curves, phases, events, and what must be known before believing it."""
+"""Time histories, phases, events and warnings of a jump run over the whole motion."""
 
 from __future__ import annotations
 
@@ -30,26 +30,25 @@ from seisblock.models.jump.chain import (
 from seisblock.records import Motion
 
 COLUMNS = 10
-"""Rows of a day that are held while curves are made: the clock, the parts and the whole of each."""
+"""Arrays of the motion's length allocated for the time histories, for the memory check."""
 
 ROUND_OFF = 1e-9
-"""What is no more than this over a limit, as a share, meets it."""
+"""Tolerance of a limit, relative and absolute."""
 
 
 def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tuple[str, ...]:
-    """Return what a user should know before believing the chains of a run ([Sugimoto2017]_ 3.10), a sentence each."""
+    """Return the warnings of a run: incomplete chains, friction and energy of landings ([Sugimoto2017]_ section 3.10)."""
     name, messages = motion.name or "motion", []
     for chain in chains:
         if chain.outcome in (ENDED_ROCKING, ENDED_FLYING, ENDED_LANDED):
-            text = N_("{name}: {outcome}; the chain that began at {start:.3f} s is not complete")
+            text = N_("{name}: {outcome}; the chain of motion from {start:.3f} s is incomplete")
             messages.append(lazy_gettext(text, name=name, outcome=lazy_gettext(chain.outcome), start=chain.rocking_start_s))
     landings = [chain for chain in chains if chain.friction_needed_at_landing is not None]
     needs = [chain.friction_needed_at_landing or 0.0 for chain in landings if exceeds(chain.friction_needed_at_landing, mu)]
     if needs and math.isinf(max(needs)):
         messages.append(
             lazy_gettext(
-                "{name}: the ground would have to pull to stop the foot as {count} of {landed} landings do; the landing rule friction lets "
-                "it slip on",
+                "{name}: {count} of {landed} landings stop the foot by a tensile ground force; with landing rule friction the foot slips",
                 name=name,
                 count=sum(math.isinf(need) for need in needs),
                 landed=len(landings),
@@ -58,8 +57,8 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
     elif needs:
         messages.append(
             lazy_gettext(
-                "{name}: {count} of {landed} landings stop the foot with more than friction can, mu {mu:g}: they need up to {most:.2f}; "
-                "the landing rule friction lets it slip on",
+                "{name}: {count} of {landed} landings require friction of up to {most:.2f} to stop the foot, more than mu {mu:g}; with "
+                "landing rule friction the foot slips",
                 name=name,
                 count=len(needs),
                 landed=len(landings),
@@ -75,8 +74,8 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
         energy_before, energy_after = worst_landing.landing_energy_j or (0.0, 0.0)
         messages.append(
             lazy_gettext(
-                "{name}: {count} of {landed} landings make energy, as at {time:.3f} s, {before:.3g} J before and {after:.3g} J after; the "
-                "landing rule friction never does",
+                "{name}: {count} of {landed} landings increase the energy (at {time:.3f} s from {before:.3g} J to {after:.3g} J); landing "
+                "rule friction never does",
                 name=name,
                 count=len(energy_gains),
                 landed=len(landings),
@@ -89,13 +88,13 @@ def chain_warnings(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tupl
 
 
 def exceeds(value: float | None, limit: float) -> bool:
-    """Return whether more is needed than is given, by more than round-off ([Sugimoto2017]_ eq. (14))."""
+    """Return whether a value exceeds a limit by more than round-off ([Sugimoto2017]_ eq. (14))."""
     return value is not None and value > limit * (1.0 + ROUND_OFF) + ROUND_OFF
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A stretch of the whole motion: a chain, or the rest between two, at which the block has been moved and raised by so much, m."""
+    """Part of the motion: a chain, or the rest between two chains, with displacement and rise of the block at its start, m."""
 
     begin_s: float
     finish_s: float
@@ -105,7 +104,7 @@ class Segment:
 
 
 def split_segments(motion: Motion, paths: Sequence[ChainPath]) -> tuple[Segment, ...]:
-    """Return the chains, and the rests before, between and after them, in the order of time."""
+    """Return the chains and the rests before, between and after them, in chronological order."""
     segments: list[Segment] = []
     time, displacement, total_rise = motion.start_s, 0.0, 0.0
     last = motion.start_s + motion.dt * float(motion.samples - 1)
@@ -120,13 +119,13 @@ def split_segments(motion: Motion, paths: Sequence[ChainPath]) -> tuple[Segment,
 
 
 def final_displacement(segments: Sequence[Segment]) -> float:
-    """Return where the centroid is in the end, m, relative to where it stood."""
+    """Return the residual displacement of the centroid, m."""
     segment = segments[-1]
     return segment.displacement_m if segment.chain is None else segment.displacement_m + chain_end(segment.chain)[1]
 
 
 def all_phases_and_events(motion: Motion, segments: Sequence[Segment]) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
-    """Return phases and events over the whole motion."""
+    """Return the phases and events of the whole motion."""
     phases: list[Phase] = []
     events: list[Event] = []
     last = motion.start_s + motion.dt * float(motion.samples - 1)
@@ -134,14 +133,14 @@ def all_phases_and_events(motion: Motion, segments: Sequence[Segment]) -> tuple[
         if segment.chain is None:
             phases.append(Phase(REST, segment.begin_s, min(segment.finish_s, last)))
         else:
-            some_phases, some_events = phases_and_events(segment.chain)
-            phases.extend(some_phases)
-            events.extend(some_events)
+            chain_phases, chain_events = phases_and_events(segment.chain)
+            phases.extend(chain_phases)
+            events.extend(chain_events)
     return tuple(phases), tuple(events)
 
 
 def jump_histories(motion: Motion, block: TwoLayerBlock, segments: Sequence[Segment]) -> Histories:
-    """Return the curves over the whole motion: the chains and the rest between them."""
+    """Return the time histories of the whole motion, chains and rests."""
     check_curve_memory(motion.samples, COLUMNS)
     clock = motion.time
     columns: list[tuple[np.ndarray, ...]] = []
@@ -163,7 +162,7 @@ def jump_histories(motion: Motion, block: TwoLayerBlock, segments: Sequence[Segm
 
 
 def chain_end(path: ChainPath) -> tuple[float, float, float]:
-    """Return the last of each of :func:`chain_curves`, but the tilt: time (s), displacement and rise of the centroid (m)."""
+    """Return time, s, displacement and rise of the centroid, m, at the end of a chain, as in :func:`chain_curves`."""
     block, trajectory = path.block, path.flight_path or path.rocking_path
     time = path.motion.start_s + (trajectory.events[-1].time if trajectory.final_mode < 0 else trajectory.end_time)
     if path.flight_path is None:

@@ -1,20 +1,19 @@
-"""Flight of the two-layer block, its landing on a lower corner, and the motion about that corner ([Sugimoto2017]_ sections 3.8 to 3.11).
+"""Flight model of the two-layer block, with landing and motion about the landed corner ([Sugimoto2017]_ sections 3.8 to 3.11).
 
 Assumptions
-    How a corner that lands is stopped is said in :mod:`seisblock.models.jump.landing`. Whether one that stands still then slips is
-    decided once, at landing, by static friction; a corner that slips stays under kinetic friction, and is held where kinetic friction can
-    hold it when its slip comes to rest. The chain ends when the tilt returns to zero, or at pi/2 (overturned); by the rule ``friction`` it
-    goes on until the base, flat again, has slid to rest.
+    Landing rules are those of :mod:`seisblock.models.jump.landing`. Static friction is tested once, at the landing: the corner sticks or
+    slips. A slipping corner stays under kinetic friction, and stops where kinetic friction can hold it. A chain ends when the tilt returns
+    to zero, or at pi/2 (overturned); with landing rule ``friction`` it continues until the flat base has slid to rest.
 State
-    theta (counter-clockwise) and omega; x, vx: displacement of the centroid and its rate in flight, of the foot that touches
-    afterwards, both relative to the ground; y, vy: rise of the centroid above its height at rest, and its rate, in flight. Of landings:
-    side of the last, -1 or +1, 0 before it; largest friction needed; energy before and after the one that kept the largest share of it, J.
+    theta (counter-clockwise) and omega; x, vx: displacement and velocity relative to the ground, of the centroid in flight, of the landed
+    foot afterwards; y, vy: rise of the centroid above its height at rest and its rate, in flight. Of the landings: side of the last one,
+    -1 or +1, 0 before it; largest friction demand; energy before and after the landing with the largest ratio of the two, J.
 Modes
-    FLIGHT; then for each corner STICK (no slip), HOLD (slip at rest under kinetic friction), BACK and FORTH (slip to -x, +x); FLAT_BACK and
-    FLAT_FORTH when the base slides, the tilt at zero.
+    FLIGHT; for each corner STICK (no slip), HOLD (stopped under kinetic friction), SLIP_BACKWARD and SLIP_FORWARD (to -x, +x);
+    FLAT_BACKWARD and FLAT_FORWARD for sliding of the flat base.
 Symbols
-    psi = beta + tau with beta = pi/2 - alpha, and tau the tilt towards the corner that touches: the centroid is at
-    (-R cos psi, R sin psi) from the right corner. Motion about the left corner is its mirror image.
+    psi = beta + tau with beta = pi/2 - alpha and tau the tilt towards the corner in contact: the centroid is at
+    (-R cos psi, R sin psi) from the right corner. Motion about the left corner is the mirror image.
 """
 
 from __future__ import annotations
@@ -87,7 +86,7 @@ _t = types()
 
 @kernel(_t.int64(VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX), inline=True)
 def _flight_series(y, f, p, order, c, g):
-    """Write eqs. (9), which are cubics, and the heights of both lower corners above the ground as guards (eq. (11))."""
+    """Write the cubic series of [Sugimoto2017]_ eqs. (9), and the heights of both lower corners as guards (eq. (11))."""
     c[THETA, 0], c[THETA, 1], c[THETA, 2], c[THETA, 3] = y[THETA], y[OMEGA], 0.0, 0.0
     c[OMEGA, 0], c[OMEGA, 1], c[OMEGA, 2], c[OMEGA, 3] = y[OMEGA], 0.0, 0.0, 0.0
     c[X, 0], c[X, 1], c[X, 2], c[X, 3] = y[X], y[VX], -f[0, 0] / 2, -f[0, 1] / 6
@@ -98,7 +97,7 @@ def _flight_series(y, f, p, order, c, g):
     dt = p[DT]
     lowest_height = min(y[Y], y[Y] + dt * (y[VY] - dt * p[GRAVITY] / 2)) + p[DROP]
     if lowest_height > p[HALF_WIDTH] * (abs(y[THETA]) + abs(y[OMEGA]) * dt):
-        # too high for a corner to reach the ground within a sample, whatever the tilt
+        # no corner can reach the ground within the sample, at any tilt
         g[LEFT, 0] = g[RIGHT, 0] = OFF
         return 3
     c[SIN, 0], c[COS, 0] = np.sin(y[THETA]), np.cos(y[THETA])
@@ -119,7 +118,7 @@ def _flight_series(y, f, p, order, c, g):
 
 @kernel(_t.int64(_t.float64, VECTOR, MATRIX, VECTOR, MATRIX, MATRIX), inline=True)
 def _flat_sliding_series(slip, y, f, p, c, g):
-    """Write the sliding of a base that lies flat: x'' = -z'' - mu' g sgn(x'), a cubic ([Fujino1978]_ eq. (7))."""
+    """Write the cubic series of flat sliding, x'' = -z'' - mu' g sgn(x') ([Fujino1978]_ eq. (7))."""
     for i in range(6):
         c[i, 0] = y[i]
         c[i, 1] = c[i, 2] = c[i, 3] = 0.0
@@ -134,7 +133,7 @@ def _flat_sliding_series(slip, y, f, p, c, g):
 
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
-    """Write the series of the flight, or of the motion about the corner that touches."""
+    """Write the series of flight, of motion about the corner in contact, or of flat sliding; return the degree."""
     c[SIDE, 1] = c[FRICTION_NEEDED, 1] = c[ENERGY_BEFORE, 1] = c[ENERGY_AFTER, 1] = OFF
     if mode == FLIGHT:
         return _flight_series(y, f, p, order, c, g)
@@ -176,7 +175,7 @@ def flight_series(mode, y, f, p, order, c, g):
             shaking_moment = side * (f[0, 0] * c[SIN, k] + (f[0, 1] * c[SIN, k - 1] if k > 0 else 0.0))
             c[TAU2, k] = -p[MASS] * r * (p[GRAVITY] * c[COS, k] + shaking_moment) / corner_inertia
             c[NORMAL, k] = p[MASS] * (c[SINK, k] + r * product(c[COS], c[TAU2], k))
-        # what the foot must be pushed with to follow the ground, per unit mass; the foot's acceleration is what is missing of it
+        # tangential force per unit mass needed for a sticking foot; the deficit is the acceleration of the foot
         need = shake + r * (product(c[SIN], c[TAU2], k) + product(c[COS], c[SPEED2], k))
         if slides:
             g[FRICTION, k] = slip * side * c[VX, k]
@@ -209,7 +208,10 @@ def flight_series(mode, y, f, p, order, c, g):
 
 @kernel(_t.int64(_t.int64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def _slip_mode(corner, slip, s, c, p):
-    """Return the mode of a foot that slips, `slip` seen from the left corner's side, where eqs. (13) have a solution."""
+    """Return the mode of a slipping foot, ``JAMMED`` where [Sugimoto2017]_ eqs. (13) have no solution.
+
+    `slip` is the slip direction in the mirrored frame of `corner`.
+    """
     if p[CENTROID_INERTIA] + p[MASS] * p[RADIUS] ** 2 * c * (c - slip * p[MU_KINETIC] * s) <= 0.0:
         return JAMMED
     return contact_mode(corner, SLIP_FORWARD if slip * (2 * corner - 1) > 0.0 else SLIP_BACKWARD)
@@ -217,7 +219,7 @@ def _slip_mode(corner, slip, s, c, p):
 
 @kernel(_t.int64(_t.int64, VECTOR, VECTOR), inline=True)
 def _current_slip_mode(corner, y, p):
-    """Return the mode of a foot that slips already."""
+    """Return the mode of a foot with non-zero slip velocity."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     return _slip_mode(corner, side * np.sign(y[VX]), np.sin(psi), np.cos(psi), p)
@@ -225,7 +227,7 @@ def _current_slip_mode(corner, y, p):
 
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.float64, _t.int64), inline=True)
 def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
-    """Return the mode after a test of friction, eqs. (12b), (12c), (14): `stick_kind` where it suffices, else a slip opposing the need."""
+    """Return the mode after the friction test of [Sugimoto2017]_ eqs. (12b), (12c), (14): `stick_kind` if friction suffices, else slip."""
     side = 2 * corner - 1
     r = p[RADIUS]
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
@@ -237,13 +239,13 @@ def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
     need = side * f[0, 0] + r * s * turning + r * c * tilting**2
     if abs(need) <= mu * normal:
         return contact_mode(corner, stick_kind)
-    # a foot that would have to be pushed forward is left behind
+    # the foot slips against the direction of the force that it lacks
     return _slip_mode(corner, -1.0 if need > 0.0 else 1.0, s, c, p)
 
 
 @kernel(RESET)
 def flight_reset(mode, guard, y, f, p):
-    """Land, stop slipping, slip again, lift off again, or end."""
+    """Return the mode after a landing, a stop or restart of slip, a lift-off, or the end of the chain."""
     if mode == FLIGHT:
         flying_x, flying_y, flying_spin = y[VX], y[VY], y[OMEGA]
         if p[BY_FRICTION] == 0.0:

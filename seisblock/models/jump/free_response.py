@@ -1,4 +1,4 @@
-"""Ground that stands still once the record has ended: what the record began comes to its end, as it does for `rock` and `slide`."""
+"""Continuation of a jump run on ground at rest after the record."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.dynamics import Ensemble, Instant, Instants, Model, Path, Traject
 from seisblock.records import Motion
 
 CHUNK_S, MAX_FREE_S = 4.0, 60.0
-"""Still ground is added in stretches of so many seconds, and at most so long."""
+"""Length of one segment of ground at rest, and largest total length, s."""
 
 
 def continue_after_record(
@@ -26,10 +26,10 @@ def continue_after_record(
     gains: Sequence[float],
     start: Instant,
 ) -> Trajectory:
-    """Follow a model through a motion and, from its last sample on, for at most 60 s of still ground.
+    """Integrate a model through a motion and then through at most 60 s of ground at rest.
 
-    Parameters are those of :func:`seisblock.dynamics.integrate`. The ground stops at once: its acceleration leaps from that of the last
-    sample to zero. The trajectory counts samples on, as if the record had gone on.
+    Parameters are those of :func:`seisblock.dynamics.integrate`. The ground acceleration jumps from its last sample to zero. Sample numbers
+    of the trajectory continue beyond the record.
     """
     count = math.ceil(CHUNK_S / motion.dt) + 1
     zero_motion = Motion(np.zeros((3, count)), motion.dt)
@@ -48,7 +48,7 @@ def continue_after_record(
 
 
 def _shift_time(trajectory: Trajectory, samples: int) -> Trajectory:
-    """Return a trajectory that was followed on a clock which started so many samples late."""
+    """Return a trajectory shifted in time by `samples` samples."""
     seconds = samples * trajectory.dt
     extrema = trajectory.extrema.copy()
     extrema[:, 1::2] += seconds
@@ -63,7 +63,7 @@ def _shift_time(trajectory: Trajectory, samples: int) -> Trajectory:
 
 
 def _concatenate(head: Trajectory, tail: Trajectory) -> Trajectory:
-    """Return one trajectory from one that reached a sample and its continuation from there."""
+    """Return a trajectory and its continuation as one."""
     higher = tail.extrema[:, 0] > head.extrema[:, 0]
     lower = tail.extrema[:, 2] < head.extrema[:, 2]
     extrema = head.extrema.copy()
@@ -73,6 +73,7 @@ def _concatenate(head: Trajectory, tail: Trajectory) -> Trajectory:
     def walk() -> Iterator[Path]:
         yield from head.iter_paths()
         for path in tail.iter_paths():
+            # the first sample of the continuation repeats the last one of the head
             overlap = 1 if path.first == head.end.sample else 0
             yield replace(path, first=path.first + overlap, states=path.states[overlap:], modes=path.modes[overlap:])
 
@@ -89,9 +90,9 @@ def continue_batch_after_record(
     gains: ArrayLike,
     start: Instants,
 ) -> BatchEnds:
-    """Follow many as :func:`continue_after_record` follows one, bit by bit.
+    """Integrate many runs through a motion and ground at rest, bit by bit as :func:`continue_after_record`.
 
-    Parameters are those of :func:`seisblock.dynamics.integrate_many`, with a row each of parameters and gains.
+    Parameters are those of :func:`seisblock.dynamics.integrate_many`, with one row of parameters and gains per run.
     """
     p, scale = np.asarray(parameters, dtype=np.float64), np.asarray(gains, dtype=np.float64)
     runs, last = len(p), motion.samples - 1
@@ -108,7 +109,7 @@ def continue_batch_after_record(
         result.store(shaken_rows, ensemble, 0)
     active_rows = np.flatnonzero((result.final_mode >= 0) & ~result.failed)
     if active_rows.size:
-        # what begins on still ground has a stretch more, as it has alone
+        # a run that starts after the record gets one more segment, as in the single run
         chunk = math.ceil(CHUNK_S / motion.dt)
         is_late = start.sample[active_rows] >= last
         first_sample = np.where(is_late, 0, chunk)
@@ -124,16 +125,16 @@ def continue_batch_after_record(
 
 @dataclass(frozen=True, eq=False)
 class BatchEnds:
-    """The ends of many that were followed on.
+    """Final states of many runs.
 
     Parameters
     ----------
     final, final_mode : (m, n_states), (m,) arrays
     end : Instants
     first_event_time : (m,) array, s after sample 0
-        Time of the first event, NaN where there was none.
+        Time of the first event, NaN without one.
     failed : (m,) array of bool
-        Rows that were given up.
+        Abandoned rows.
     """
 
     final: FloatArray
@@ -143,7 +144,7 @@ class BatchEnds:
     failed: BoolArray
 
     def store(self, rows: IntArray, ensemble: Ensemble, samples: IntArray | int) -> None:
-        """Write what some rows came to on a clock that started so many samples late."""
+        """Store the ends of `rows` from an ensemble whose time origin is sample `samples`."""
         self.final[rows], self.final_mode[rows] = ensemble.final, ensemble.final_mode
         self.end.sample[rows], self.end.tau[rows] = ensemble.end.sample + samples, ensemble.end.tau
         self.failed[rows] = ensemble.failed

@@ -1,4 +1,4 @@
-"""The impact that turns rocking into a jump: velocities, spin, and whether the foot leaves the floor ([Sugimoto2017]_ 3.6, 3.7)."""
+"""Impact from rocking into flight: launch velocities, spin, and jump condition ([Sugimoto2017]_ sections 3.6, 3.7)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.core.typing import FloatArray
 Number: TypeAlias = "float | FloatArray"
 
 SPIN_RULES = ("momentum", "printed", "ratio=Q")
-"""How the spin after the impact is found."""
+"""Rules for the spin after the impact, see :func:`spin_ratio`."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Launch:
     spin : float, rad/s
         [Sugimoto2017]_ eq. (10c).
     jumps : bool
-        Whether both lower corners leave the floor ([Sugimoto2017]_ eq. (8b) in the limit of small time).
+        True if both lower corners leave the support ([Sugimoto2017]_ eq. (8b) in the limit of small time).
     """
 
     horizontal: float
@@ -37,26 +37,26 @@ class Launch:
 
 
 def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitution_y: float) -> float:
-    """Return theta'_2 / theta'_1, the spin after the impact over the angular velocity before it, both counter-clockwise.
+    """Return theta'_2 / theta'_1, the ratio of the spin after the impact to the angular velocity before ([Sugimoto2017]_ eq. (7a)).
 
-    Before a jump forward theta'_1 is negative (clockwise); a positive ratio therefore is a clockwise spin, which lands on
-    the right corner, and a negative one lands on the left.
+    Both are counter-clockwise. Before a forward jump theta'_1 is negative; a positive ratio is therefore a clockwise spin with a landing
+    on the right corner, a negative ratio leads to a landing on the left corner.
 
     Parameters
     ----------
     block : TwoLayerBlock
     rule : str
         ``momentum``: angular momentum about the centroid of the velocity field of [Sugimoto2017]_ eq. (6),
-        (e_x Ixx - e_y Iyy)/I_G, which is [Sugimoto2017]_ eq. (7a) with its misprints mended;
-        ``printed``: [Sugimoto2017]_ eq. (7a) to the letter, with the missing depth W supplied (differs: its first brace holds
-        y_G where h_2 belongs, and its sense is mixed); ``ratio=Q``: this number, to calibrate against the paper's tables.
+        (e_x Ixx - e_y Iyy)/I_G, which is [Sugimoto2017]_ eq. (7a) with its misprints corrected;
+        ``printed``: [Sugimoto2017]_ eq. (7a) as printed, with the missing depth W supplied (differs: y_G instead of h_2 in its first
+        brace, and mixed signs); ``ratio=Q``: the number Q, for calibration against the paper's tables.
     restitution_x, restitution_y : float
         Ratios of velocities, horizontal and vertical.
 
     Raises
     ------
     ParameterError
-        If the rule is none of these.
+        If `rule` is not one of these.
 
     Examples
     --------
@@ -75,11 +75,11 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
             ratio = math.nan
         if math.isfinite(ratio):
             return ratio
-    raise ParameterError("the spin rule must be momentum, printed or ratio=NUMBER, found {rule!r}", rule=rule)
+    raise ParameterError("`spin` must be momentum, printed or ratio=NUMBER, found {rule!r}", rule=rule)
 
 
 def _printed_ratio(block: TwoLayerBlock, restitution_x: float, restitution_y: float) -> float:
-    """Return the factor on theta'_1 of [Sugimoto2017]_ eq. (7a) as printed, times the missing depth."""
+    """Return the factor on theta'_1 of [Sugimoto2017]_ eq. (7a) as printed, multiplied by the missing depth."""
     b, h, h2, y = block.width, block.height, block.lower_height, block.centroid_height
     area = block.width * block.depth
     rho1 = block.upper_mass / (area * block.upper_height)
@@ -103,8 +103,8 @@ def launch(block: TwoLayerBlock, omega: float, ratio: float, restitution_x: floa
 
     Notes
     -----
-    The lower corners rise at -e_y theta'_1 B/2 +- theta'_2 B/2, so both leave the floor exactly when e_y > abs(ratio), whatever
-    the amplitude. Differs from the paper, which samples eq. (8b) every 1e-4 s and finds no jump in its case 1.
+    The lower corners rise at -e_y theta'_1 B/2 +- theta'_2 B/2, so that both leave the support exactly for e_y > abs(ratio), at any
+    amplitude. Differs from the paper, which samples eq. (8b) every 1e-4 s and obtains no jump in its case 1.
     """
     horizontal, vertical, spin = launch_velocities(omega, ratio, restitution_x, restitution_y, block.centroid_height, block.width)
     return Launch(horizontal, vertical, spin, jumps=omega < 0.0 and restitution_y > abs(ratio))
@@ -113,20 +113,21 @@ def launch(block: TwoLayerBlock, omega: float, ratio: float, restitution_x: floa
 def launch_velocities(
     omega: Number, ratio: Number, restitution_x: Number, restitution_y: Number, height: Number, width: Number
 ) -> tuple[Any, Any, Any]:
-    """Return horizontal and vertical velocity and spin after an impact, of one block or of many ([Sugimoto2017]_ eqs. (6), (10))."""
+    """Return horizontal velocity, vertical velocity and spin after an impact, of one or many blocks ([Sugimoto2017]_ eqs. (6), (10))."""
     return -restitution_x * omega * height, -restitution_y * omega * width / 2, ratio * omega
 
 
 def centroid_rise(speed: float, gravity: float, flight_s: float) -> float:
-    """Return the largest rise of a centroid thrown upwards that flies so long, m; before its top or not ([Sugimoto2017]_ eq. (9b))."""
+    """Return the largest rise of the centroid within `flight_s` after launch at vertical velocity `speed`, m ([Sugimoto2017]_ eq. (9b))."""
     top = min(speed / gravity, flight_s)
     return speed * top - gravity * top**2 / 2
 
 
 def foot_rise(block: TwoLayerBlock, takeoff: Launch, gravity: float) -> float:
-    """Return the largest height of the lower of both lower corners, m, where its velocity upwards vanishes ([Sugimoto2017]_ eq. (8a))."""
+    """Return the largest height of the lower of both lower corners, m ([Sugimoto2017]_ eq. (8a))."""
     y, half, spin = block.centroid_height, block.width / 2, abs(takeoff.spin)
     low, high = 0.0, takeoff.vertical / gravity
+    # bisection for the zero of the corner's vertical velocity
     for _ in range(60):
         t = 0.5 * (low + high)
         rate = takeoff.vertical - gravity * t - spin * (half * math.cos(spin * t) - y * math.sin(spin * t))

@@ -1,12 +1,12 @@
-"""How a corner that comes down is stopped, and how it leaves the ground again.
+"""Landing rules of the two-layer block, and lift-off from a corner.
 
-The rules
-    ``paper``: tilt and angular velocity stay, and the corner starts with zero slip ([Sugimoto2017]_ 3.10; the table agrees). What the
-    foot's horizontal velocity was does not matter, so that the friction this takes has no limit, and energy may even grow.
-    ``friction``: a plastic impulse at the corner, tangential to normal at most the kinetic friction, along Routh's path: while the corner
-    slips friction opposes it, when it stops it sticks or slips on, and the impulse ends when the corner goes down no more. Slip starts
-    with what is left ([WangMason1992]_). When the tilt is back at zero the base lands plastically on both corners, with the same friction,
-    and slides to rest ([Moreau1988]_; the paper ends there).
+Rules
+    ``paper``: tilt and angular velocity are continuous and the corner starts without slip ([Sugimoto2017]_ section 3.10; its table 1
+    agrees). The horizontal velocity of the foot is removed at any friction demand, and the energy may even increase.
+    ``friction``: plastic impulse at the corner along Routh's path with at most kinetic friction: friction opposes the slip, a corner that
+    stops sticks or reverses, and the impulse ends when the corner's downward velocity is zero. Sliding continues with the remaining slip
+    velocity ([WangMason1992]_). When the tilt returns to zero the base lands plastically on both corners with the same friction and slides
+    to rest ([Moreau1988]_; the paper's model ends there).
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ from seisblock.models.jump.modes import (
 )
 
 LANDING_RULES = ("paper", "friction")
-"""How a corner that lands is stopped."""
+"""Landing rules."""
 
 _t = types()
 
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
 def touch_down(corner, y, p):
-    """Turn the state of the flight into that of the corner that touches: where it is, with zero slip ([Sugimoto2017]_ 3.10)."""
+    """Convert the flight state into that of the landed corner, without slip ([Sugimoto2017]_ section 3.10)."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     y[X] += side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
@@ -61,10 +61,10 @@ def _energy(vx, vy, omega, p):
 
 @kernel(_t.void(_t.int64, _t.float64, _t.float64, _t.float64, VECTOR, VECTOR), inline=True)
 def record_landing(corner, vx, vy, omega, y, p):
-    """Keep what a landing took that turned these velocities of the flight into those of a state about a corner ([Sugimoto2017]_ 3.10).
+    """Record friction demand and energies of a landing in the state, from the flight velocities before it ([Sugimoto2017]_ section 3.10).
 
-    The friction it needed is abs(P_x)/P_y of its impulse, infinite where the ground would have to pull. Of several landings the largest is
-    kept, and the energies of the one that kept the largest share.
+    The friction demand is abs(P_x)/P_y of the impulse, infinite for a tensile P_y. Of several landings the largest demand is stored, and
+    the energies of the landing with the largest ratio after/before.
     """
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
@@ -88,7 +88,7 @@ def record_landing(corner, vx, vy, omega, y, p):
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
 def take_off(corner, y, p):
-    """Turn the state about a corner into that of the flight: position and velocity of the centroid."""
+    """Convert the state about a corner into a flight state: position and velocity of the centroid."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     tilting = -side * y[OMEGA]
@@ -100,10 +100,10 @@ def take_off(corner, y, p):
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
 def touch_down_by_friction(corner, y, p):
-    """Turn the state of the flight into that of the corner that touches, after a plastic impulse within the cone of friction.
+    """Convert the flight state into that of the landed corner, by a plastic impulse within the friction cone.
 
     Per unit mass, with the corner at (rx, ry) from the centroid and w the clockwise spin, (dx', dy', dw) = (T, P, (ry T - rx P)/k^2);
-    u is the corner's velocity upwards, v that along the ground (derived here; [WangMason1992]_).
+    u is the corner's upward velocity, v its velocity along the ground (derived here; [WangMason1992]_).
     """
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
@@ -117,7 +117,7 @@ def touch_down_by_friction(corner, y, p):
     w = -y[OMEGA]
     u = y[VY] - rx * w
     v = y[VX] + ry * w
-    # at most: slip, stop, slip on the other way or stick
+    # at most three segments: slip, stop, then stick or reverse slip
     for _ in range(3):
         if v != 0.0:
             friction_ratio = -np.sign(v) * mu
@@ -135,7 +135,7 @@ def touch_down_by_friction(corner, y, p):
         if stop_impulse < end_impulse:
             v = 0.0
             continue
-        # a corner that sticks gains nothing but round-off
+        # exact zero for a sticking corner, whose velocity change is round-off
         v = 0.0 if v == 0.0 and abs(a_tn) <= mu * a_tt else v + gain * impulse
         break
     touch_down(corner, y, p)
@@ -145,7 +145,7 @@ def touch_down_by_friction(corner, y, p):
 
 @kernel(_t.void(VECTOR, VECTOR), inline=True)
 def land_flat_by_friction(y, p):
-    """Turn the state about a corner, its tilt back at zero, into that of a base that slides flat with what is left ([Moreau1988]_)."""
+    """Convert the state about a corner at zero tilt into flat sliding after a plastic impact of the base ([Moreau1988]_)."""
     fall_speed = p[HALF_WIDTH] * abs(y[OMEGA])
     slip_speed = y[VX] - p[HEIGHT] * y[OMEGA]
     y[THETA] = 0.0

@@ -1,4 +1,4 @@
-"""States, modes and parameters of the flight and of the motion about the corner that lands ([Sugimoto2017]_ 3.8-3.11)."""
+"""Indices of states, modes, guards and parameters of flight and landing ([Sugimoto2017]_ sections 3.8-3.11)."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ _t = types()
 
 @kernel(_t.int64(_t.int64, _t.int64), inline=True)
 def contact_mode(corner, kind):
-    """Return the mode of a kind of motion about a corner."""
+    """Return the mode of motion `kind` about `corner`."""
     return 1 + 2 * kind + corner
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def contact_corner(mode):
-    """Return the corner that touches."""
+    """Return the corner in contact, ``LEFT`` or ``RIGHT``."""
     return (mode - 1) % 2
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def contact_kind(mode):
-    """Return the kind of motion about the corner."""
+    """Return the kind of motion, ``STICK`` to ``FLAT_FORWARD``."""
     return (mode - 1) // 2
 
 
 def flight_parameters(
     block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float, rule: str = "paper"
 ) -> FloatArray:
-    """Return the parameters of the model; `dt` is the sampling interval, the longest step, `rule` that of landings."""
+    """Return the parameter vector of the model, (12,); `dt` is the sampling interval, `rule` the landing rule."""
     return np.array(
         [
             block.slenderness,
@@ -65,7 +65,7 @@ def flight_parameters(
 
 @dataclass(frozen=True, eq=False)
 class Sizes:
-    """What many blocks measure, (m,) arrays: R, alpha, B, and the height of the centroid; m and rad."""
+    """Sizes of many blocks, (m,) arrays: R, m, alpha, rad, B, m, and height of the centroid, m."""
 
     radius: FloatArray
     slenderness: FloatArray
@@ -74,9 +74,9 @@ class Sizes:
 
 
 def centroid(block: TwoLayerBlock | Sizes, drop: float | FloatArray, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return displacement x and rise y of the centroid, (n,), m, from states of this model: of one block, or of one each.
+    """Return displacement x and rise y of the centroid, (n,), m, from states (n, 10) of one block, or of one block per row.
 
-    After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
+    After a landing X is the slip of the foot; the centroid follows from the tilt about the corner in contact.
     """
     side = np.where(modes == FLIGHT, 0, 2 * ((modes - 1) % 2) - 1)
     psi = np.pi / 2 - block.slenderness - side * states[:, THETA]

@@ -1,12 +1,12 @@
-"""Rocking of the two-layer block about its lower left corner, from rest to the impact ([Sugimoto2017]_ sections 3.2-3.5).
+"""Rocking model of the two-layer block about its lower left corner, from rest to the impact ([Sugimoto2017]_ sections 3.2-3.5).
 
 Assumptions
-    The foot neither slides nor lifts while the block rocks (a tenon holds it); horizontal ground motion only. Ground acceleration
-    z'' > 0 tips the block to -x about its left corner; z'' < 0 is the exact mirror image and is solved with a negative gain.
+    A tenon prevents sliding and lift-off of the foot; horizontal ground motion only. Ground acceleration z'' > 0 tilts the block to -x
+    about its left corner; z'' < 0 is the exact mirror image and is solved with a negative gain.
 State
-    theta, the tilt, counter-clockwise, and omega = theta'.
+    Tilt theta, counter-clockwise, and omega = theta'.
 Modes
-    REST until abs(z'') exceeds g x_G/y_G; ROCK until theta returns to zero (impact) or reaches pi/2 (overturned).
+    REST up to abs(z'') = g x_G/y_G; ROCK until theta returns to zero (impact) or reaches pi/2 (overturned).
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def rocking_series(mode, y, f, p, order, c, g):
 
 @kernel(SKIP)
 def rocking_skip(mode, acceleration, gains, sample, p):
-    """Pass over the samples at which a resting block feels less than its threshold."""
+    """Return the last sample up to which a block at rest stays below its rocking threshold."""
     if mode != REST:
         return sample
     index = sample
@@ -74,7 +74,7 @@ def rocking_skip(mode, acceleration, gains, sample, p):
 
 @kernel(RESET)
 def rocking_reset(mode, guard, y, f, p):
-    """End the search for the onset, or the rocking."""
+    """Return the terminal mode of the onset search or of rocking."""
     if mode == REST:
         return ROSE_FORWARD if guard == 0 else ROSE_BACKWARD
     if guard == 0:
@@ -97,7 +97,7 @@ ROCKING_MODEL = Model(
 
 
 def rocking_parameters(block: TwoLayerBlock, gravity: float, direction: str) -> FloatArray:
-    """Return the parameters of the model; a direction not asked for has an infinite threshold."""
+    """Return the parameter vector of the model, (5,); an excluded direction has an infinite threshold."""
     per_inertia = block.mass * block.radius / block.corner_inertia
     threshold = block.rocking_threshold(gravity)
     forward = threshold if direction in ("+", "both") else math.inf

@@ -1,4 +1,4 @@
-"""The jump of a two-layer block: chains of rocking, impact, flight, landing and rocking-sliding ([Sugimoto2017]_)."""
+"""Jump solver of a two-layer block: chains of rocking, impact, flight, landing and rocking-sliding ([Sugimoto2017]_)."""
 
 from __future__ import annotations
 
@@ -36,22 +36,22 @@ DID_NOT_ROCK = N_("did not rock")
 
 @dataclass(frozen=True)
 class JumpOutcome:
-    """What became of the block under one component.
+    """Result of a jump run under one component.
 
     Parameters
     ----------
     outcome : str
-        What became of it in the end: how its last chain ended, "jumped" if it stands again after one that did, or "did not rock".
+        Outcome of the last chain, "jumped" if the block stands after any chain with a jump, or "did not rock".
     chains : tuple of Chain
-        In the order of time.
+        In chronological order.
     total_displacement_m : float
         Sum over the chains, signed.
     final_displacement_m : float
-        Where the centroid is in the end, relative to where it stood; that of the total unless it toppled.
+        Residual displacement of the centroid; equal to the total unless the block overturned.
     landing : "paper" or "friction"
-        The rule by which a corner that lands is stopped.
+        Landing rule.
     friction_needed_at_landing : float or None, 1
-        Largest P_x/P_y that its landings need, infinite where the ground would have to pull; None when it never landed.
+        Largest P_x/P_y of the landings, infinite where a tensile ground force would be required; None without a landing.
     rocking_threshold_m_s2 : float
         [Sugimoto2017]_ eq. (2).
     spin_ratio : float
@@ -69,12 +69,12 @@ class JumpOutcome:
 
 
 SAMPLE_TOLERANCE = 1e-9
-"""A window begins on a sample that it misses by no more than this share of the sampling interval."""
+"""Distance of a window's start from a sample, over the sampling interval, below which it starts on the sample."""
 
 
 @dataclass(frozen=True)
 class _RunContext:
-    """What every chain of one run shares."""
+    """Inputs common to all chains of a run."""
 
     motion: Motion
     block: TwoLayerBlock
@@ -97,46 +97,46 @@ def solve_jump(
     windows: Sequence[TimeWindow] = (),
     gravity: float = STANDARD_GRAVITY,
 ) -> Response[JumpOutcome]:
-    """Follow a two-layer block through rocking, impact, jump and landing ([Sugimoto2017]_ eqs. (1)-(15), corrected).
+    """Solve rocking, impact, jump and landing of a two-layer block ([Sugimoto2017]_ eqs. (1)-(15), corrected).
 
-    Rocking starts where the piecewise-linear horizontal acceleration exceeds g x_G/y_G, and the foot does not slide before the
-    impact; flight is ballistic; the chain ends when the landed block's tilt returns to zero, and chain follows chain. What moves
-    when the record ends comes to its end on still ground. Vertical motion is not part of the model.
+    Rocking starts where the piecewise linear horizontal acceleration exceeds g x_G/y_G, without slip of the foot before the impact;
+    flight is ballistic; a chain ends when the tilt of the landed block returns to zero, and further chains may follow. A motion in progress
+    at the end of the record is continued on ground at rest. The model has no vertical ground motion.
 
     Parameters
     ----------
     block : TwoLayerBlock
     motion : Motion
-        Only its horizontal row acts.
+        Only the horizontal row acts.
     contact : Contact
         Friction of the landed foot and restitution of the impact.
     drop : float, m
-        Height of the floor on which the block stands above the ground on which it lands ([Sugimoto2017]_ eq. (11)).
+        Height of the supporting level above the ground on which the block lands ([Sugimoto2017]_ eq. (11)).
     spin : str
         ``momentum``, ``printed`` or ``ratio=Q``, see :func:`seisblock.models.jump.impact.spin_ratio`.
     direction : "+", "-" or "both"
         Sign of the ground acceleration that may start a chain; the mirror image is exact.
     landing : "paper" or "friction"
-        How a corner that lands is stopped, see :mod:`seisblock.models.jump.landing`.
+        Landing rule, see :mod:`seisblock.models.jump.landing`.
     first : bool
-        Whether only the first chain, of each window, is followed, as the paper does; after the block has landed below its floor it
-        stands on the ground, and there is no further drop.
+        Solve only the first chain of each window, as the paper does. After a landing the block stands on the ground, without a
+        further drop.
     windows : sequence of (float or None, float or None), s
-        Stretches in which rocking may start, after the record's first sample; motion goes on beyond them. Everywhere when left out.
+        Intervals in which rocking may start, on the record's time axis; motion continues beyond them. Default: the whole record.
     gravity : float, m/s^2
 
     Returns
     -------
     Response of JumpOutcome
         Channels ``rotation`` (rad, positive when the block leans to +x), ``displacement`` (m, of the centroid) and ``height`` (m,
-        its height above the floor). A block that topples is a result, not an error.
+        its height above the supporting level). Overturning is a result, not an error.
 
     Raises
     ------
     ParameterError
         If an option is outside its range.
     SolverError
-        If kinetic friction is so large that the landed foot jams (a rigid contact has no solution there).
+        If the landed foot jams: rigid contact has no solution at this kinetic friction.
 
     References
     ----------
@@ -197,7 +197,7 @@ def solve_jump(
 
 
 def _final_outcome(chains: tuple[Chain, ...]) -> str:
-    """Return what became of the block in the end."""
+    """Return the outcome of a run."""
     if not chains:
         return DID_NOT_ROCK
     last = chains[-1].outcome
@@ -205,25 +205,25 @@ def _final_outcome(chains: tuple[Chain, ...]) -> str:
 
 
 def check_options(drop: float, direction: str, landing: str, gravity: float) -> None:
-    """Refuse options outside their range."""
+    """Raise ParameterError for an option outside its range."""
     checks.gravity(gravity)
-    checks.non_negative("the drop", drop, "m")
+    checks.non_negative("`drop`", drop, "m")
     if direction not in DIRECTIONS:
-        raise ParameterError("direction must be one of {known}, found {found}", known=DIRECTIONS, found=repr(direction))
+        raise ParameterError("`direction` must be one of {known}, found {found}", known=DIRECTIONS, found=repr(direction))
     if landing not in LANDING_RULES:
-        raise ParameterError("the landing rule must be one of {known}, found {found}", known=tuple(LANDING_RULES), found=repr(landing))
+        raise ParameterError("`landing` must be one of {known}, found {found}", known=tuple(LANDING_RULES), found=repr(landing))
 
 
 def _window_instants(motion: Motion, first: float | None, last: float | None) -> tuple[Instant, float]:
-    """Return where a window begins, and when it ends, s after sample 0."""
+    """Return the first instant of a window, and its end, s after sample 0."""
     end = motion.dt * (motion.samples - 1)
     begin = 0.0 if first is None else max(first - motion.start_s, 0.0)
     finish = math.inf if last is None else last - motion.start_s
     if begin > end or finish < 0.0 or not begin < finish:
         label = ":".join("" if edge is None else f"{edge:g}" for edge in (first, last))
         raise ParameterError(
-            "the window {shown} holds nothing of the motion, which lasts from {start:g} to {end:g} s",
-            shown=label,
+            "window {window} does not overlap the motion, which lasts from {start:g} to {end:g} s",
+            window=label,
             start=motion.start_s,
             end=motion.start_s + end,
         )
@@ -233,7 +233,7 @@ def _window_instants(motion: Motion, first: float | None, last: float | None) ->
 
 
 def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, windows: Sequence[tuple[Instant, float]]) -> list[ChainPath]:
-    """Follow chain after chain, or the first of each stretch."""
+    """Solve chain by chain, or the first chain of each window only."""
     paths: list[ChainPath] = []
     current_instant, floor_drop = Instant(), drop
     for begin, finish in sorted(windows, key=lambda window: (window[0].sample, window[0].tau)):
@@ -252,7 +252,7 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
 
 
 def _next_onset(run: _RunContext, direction: str, start: Instant) -> tuple[Instant, float] | None:
-    """Return when rocking starts next, and the sign of the acceleration that starts it."""
+    """Return the next onset of rocking and the sign of its acceleration, None without one."""
     thresholds = rocking.rocking_parameters(run.block, run.gravity, direction)
     search = integrate(rocking.ROCKING_MODEL, run.motion, thresholds, [0.0, 0.0], rocking.REST, start=start, keep_path=False)
     if search.status != STOPPED:
@@ -261,7 +261,7 @@ def _next_onset(run: _RunContext, direction: str, start: Instant) -> tuple[Insta
 
 
 def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> ChainPath:
-    """Follow one chain from its onset, in the frame in which it goes forward."""
+    """Solve one chain from its onset, in the frame of its forward direction."""
     motion, block, contact, gains = run.motion, run.block, run.contact, (sign, 0.0, 0.0)
     make_path = partial(ChainPath, motion, block, run.gravity, drop, start, sign)
     parameters = rocking.rocking_parameters(block, run.gravity, "both")
@@ -276,7 +276,7 @@ def _run_chain(run: _RunContext, drop: float, start: Instant, sign: float) -> Ch
     flight_run = continue_after_record(FLIGHT_MODEL, motion, parameters, initial_state, flying.FLIGHT, gains=gains, start=rocking_run.end)
     if flight_run.final_mode == flying.JAMMED:
         raise SolverError(
-            "jump: the foot that lands at {time:.3f} s jams: kinetic friction {kinetic} is more than a rigid contact can bear",
+            "jump: the foot landing at {time:.3f} s jams; rigid contact has no solution at kinetic friction {kinetic}: use a smaller value",
             time=motion.start_s + flight_run.end_time,
             kinetic=contact.kinetic,
         )

@@ -1,4 +1,4 @@
-"""What a free-standing rigid block does: it rests, slides, rocks, slides while rocking, flies and falls, whichever comes."""
+"""Full response of a free-standing rigid block in five modes: rest, sliding, rocking, slide-rocking and flight."""
 
 import lazy_loader
 

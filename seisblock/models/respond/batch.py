@@ -1,4 +1,4 @@
-"""Many runs at once: rows of settings and factors through one record and on to rest, with no Python between the samples."""
+"""Batch solver of the full-response model: many parameter rows and gains under one motion, in compiled loops and threads."""
 
 from __future__ import annotations
 
@@ -17,18 +17,17 @@ from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.dynamics.buffers import LONGEST, TOTAL
 from seisblock.dynamics.cancellation import cancel_scope, current_events
 from seisblock.models.respond import constants
-from seisblock.models.respond.batch_params import RespondBatchParams
 from seisblock.models.respond.describe import FLIGHT, REST, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.models.respond.params import Initial, RespondParams
+from seisblock.models.respond.params import Initial, RespondBatchParams, RespondParams
 from seisblock.models.respond.run import check_settling, zero_motion
 from seisblock.records import Motion
 from seisblock.records._validation import validate_motion
 
 MIN_ROWS_PER_TASK = 8
-"""Rows that a thread takes at a time, at least: some fall at once, others hop for a minute."""
+"""Smallest number of rows per task: run times differ, from immediate overturning to a minute of rebounds."""
 
 SAMPLES_PER_TASK = 10_000
-"""Samples times rows that a thread takes at a time, where the motion is short."""
+"""Samples times rows per task of a short motion."""
 
 MODE_COLUMNS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
 """Modes as columns of :attr:`RespondBatchResult.time_in_mode_s`."""
@@ -36,26 +35,26 @@ MODE_COLUMNS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
 
 @dataclass(frozen=True, eq=False)
 class RespondBatchResult:
-    """The ends of many runs, arrays with one entry per row, (m,) unless told.
+    """Results of m runs; arrays of shape (m,) unless noted.
 
     Parameters
     ----------
     overturned, settled, gave_up : bool
-        A run that was given up, among its hops or where its motion could not be followed on, has no answer: its other entries are
-        those of the instant at which that happened.
+        `gave_up`: the run was abandoned (endless rebounds or failed integration) and has no result; its other entries refer to the
+        instant of abandonment.
     direction : int
-        +1 or -1 where it has fallen to +x or -x, else 0.
+        +1 or -1 for overturning to +x or -x, else 0.
     final_displacement_m, max_displacement_m : m
-        Of the centre of gravity from x = 0; the former signed.
+        Displacement of the centre of gravity from x = 0; the former signed.
     max_rotation_rad : rad
     slip_path_m : m
     impacts : int
     end_s : s
-        After the motion's first sample.
+        End of the motion, after the first sample.
     time_in_mode_s : (m, 5) array, s
-        At rest, sliding, rocking, sliding while rocking, in flight, up to the end.
+        Time at rest, sliding, rocking, slide-rocking and in flight.
     longest_flight_s : s
-        From one impact to the next.
+        Longest time between two impacts in flight.
     """
 
     overturned: BoolArray
@@ -72,12 +71,12 @@ class RespondBatchResult:
     longest_flight_s: FloatArray
 
     def require_complete(self) -> RespondBatchResult:
-        """Return these fates, all of them answers.
+        """Return this result if every run is complete.
 
         Raises
         ------
         SolverError
-            If one was given up: whether it would fall is not known.
+            If a run was abandoned.
         """
         count = int(np.count_nonzero(self.gave_up))
         if count:
@@ -86,9 +85,9 @@ class RespondBatchResult:
 
 
 def no_answer(count: int, runs: int, impacts: int) -> SolverError:
-    """Return the error of so many of some runs, which were given up after so many impacts at least."""
+    """Return the error for `count` of `runs` runs abandoned after at least `impacts` impacts."""
     return SolverError(
-        "{count} of {runs} runs were given up after {impacts} impacts and have no answer: they hop without end; lower the restitution",
+        "{count} of {runs} runs have no result: still bouncing after {impacts} impacts; use a smaller restitution",
         count=count,
         runs=runs,
         impacts=impacts,
@@ -104,20 +103,25 @@ def respond_many(
     settle_s: float = 60.0,
     workers: int | None = None,
 ) -> RespondBatchResult:
-    """Return the fates of many bodies, or of versions of one, under one motion; bit by bit those of single runs ([ShentonJones1991]_).
+    """Solve many bodies or parameter samples under one motion, bit by bit as single runs ([ShentonJones1991]_).
 
     Parameters
     ----------
-    params : Settings, or sequence of Setting
-        One per row, all with as many further points, all with tenons or none.
+    params : RespondBatchParams, or sequence of RespondParams
+        One per row; all with the same number of further points, all with or all without tenons.
     motion : Motion
     gains : (3,) or (m, 3) array
-        Factors on the motion's rows along, across and up: (s cos, s sin, s_v) turns it by an angle and scales it.
+        Factors on the motion's rows along, across and up; (s cos(a), s sin(a), s_v) rotates by an azimuth a and scales.
     initial : six floats or None, m, rad, m/s, rad/s
-        As in :func:`seisblock.models.respond.solve.solve_respond`, the same for all.
+        Initial state of all rows, see :func:`seisblock.models.respond.solve.solve_respond`.
     settle_s : float, s
+        Longest time on ground at rest after the record.
     workers : int or None
-        Threads; None: one per core. The answer does not depend on it.
+        Threads; None: one per core. Results do not depend on it.
+
+    Returns
+    -------
+    RespondBatchResult
 
     Examples
     --------
@@ -131,7 +135,7 @@ def respond_many(
     validate_motion(motion)
     check_settling(settle_s)
     if not len(params):
-        raise ParameterError("an ensemble needs at least one row")
+        raise ParameterError("`params` is empty: at least one row is required")
     for row_params in () if isinstance(params, RespondBatchParams) else params:
         checks.instance(row_params, RespondParams)
     rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(params), 3)))
@@ -140,7 +144,6 @@ def respond_many(
     events = (*current_events(), cancel_event)
 
     def run_chunk(first: int) -> RespondBatchResult:
-        """Follow some rows, as long as anybody waits for them."""
         last = first + chunk_size
         with cancel_scope(events):
             return _run_batch(params[first:last], motion, rows[first:last], initial, settle_s)
@@ -158,7 +161,6 @@ def respond_many(
 def _run_batch(
     params: Sequence[RespondParams] | RespondBatchParams, motion: Motion, gains: FloatArray, initial: Initial, settle_s: float
 ) -> RespondBatchResult:
-    """Return the fates of some rows, on this thread."""
     if isinstance(params, RespondBatchParams):
         template, initial_states = params.row_params(0), params.states(initial)
     else:
@@ -177,6 +179,7 @@ def _run_batch(
         ground = zero_motion(settle_s)
         p = _parameter_rows(params, ground.dt, duration + settle_s, ground_at_rest=True)
         for kind in np.unique(mode[moving]):
+            # one call per mode: the engine starts all rows of an ensemble in the same mode
             rows = np.flatnonzero(moving & (record_run.final_mode == kind))
             free_run = integrate_many(model, ground, p[rows], record_run.final[rows], int(kind), gains=(1.0, 0.0, 1.0), allow_failures=True)
             failed[rows] = free_run.failed
@@ -207,14 +210,14 @@ def _run_batch(
 def _parameter_rows(
     params: Sequence[RespondParams] | RespondBatchParams, dt: float, duration_s: float, *, ground_at_rest: bool = False
 ) -> FloatArray:
-    """Return the parameters of the model, one row for each."""
+    """Return the parameter vectors of the model, (m, n_parameters)."""
     if isinstance(params, RespondBatchParams):
         return params.parameters(dt, duration_s=duration_s, ground_at_rest=ground_at_rest)
     return np.array([row_params.parameters(dt, duration_s=duration_s, ground_at_rest=ground_at_rest) for row_params in params])
 
 
 def _mode_times(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
-    """Return the time in each mode, in all and at the longest stretch, (m, 5) each, whichever corner and with or without tenons."""
+    """Return the total and the longest continuous time in each mode, (m, 5) each, s; corners, slip directions and tenons merged."""
     columns = [[i for i, mode in enumerate(constants.MODES[: 2 * constants.TENON_OFFSET]) if mode == kind] for kind in MODE_COLUMNS]
     total = [ensemble.dwell_times[:, column, TOTAL].sum(axis=1) for column in columns]
     longest = [ensemble.dwell_times[:, column, LONGEST].max(axis=1) for column in columns]
@@ -222,5 +225,5 @@ def _mode_times(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
 
 
 def _extrema(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
-    """Return the highest and the lowest values of the tracked states, (m, 2) each."""
+    """Return maxima and minima of the tracked states, (m, 2) each."""
     return ensemble.extrema[:, :, 0].copy(), ensemble.extrema[:, :, 2].copy()

@@ -1,6 +1,6 @@
-"""What the five-mode model calls its modes, states, guards and parameters, and the few facts that follow from a name.
+"""Indices of modes, states, guards and parameters of the five-mode model.
 
-Modes stand in the order in which they are tried when one ends (:mod:`seisblock.models.respond.mode_selection`).
+Modes are numbered in the order in which they are tried when a mode ends (:mod:`seisblock.models.respond.mode_selection`).
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ _t = types()
     REST, ROCK_RIGHT, ROCK_LEFT, SLIDE_PLUS, SLIDE_MINUS, SLIDE_ROCK_RIGHT_PLUS, SLIDE_ROCK_LEFT_PLUS, SLIDE_ROCK_RIGHT_MINUS,
     SLIDE_ROCK_LEFT_MINUS, FLIGHT, START,
 ) = range(11)  # fmt: skip
-"""A skid is rocking about a corner that slides (slide-rock); START is where a body is put down, before its first mode is known."""
+"""Modes. SLIDE_ROCK_*: rocking about a sliding corner; START: initial state, before the first mode is selected."""
 
 TENON_OFFSET = 11
-"""Added to a mode while tenons hold the feet."""
+"""Offset of a mode while the feet are engaged in tenons."""
 
 GAVE_UP, SETTLED, OVERTURNED = range(-3, 0)
-"""Modes that end the motion: too many impacts, at rest on still ground, fallen."""
+"""Terminal modes: too many impacts, at rest after the record, overturned."""
 
 MODES = (
     "rest", "rock", "rock", "slide", "slide", "slide-rock", "slide-rock", "slide-rock", "slide-rock", "flight", "start",
@@ -33,11 +33,13 @@ MODES = (
 ) = range(15)  # fmt: skip
 """States.
 
-THETA, OMEGA: lean, rad, positive to +x, and its rate; X: of the centre of gravity, relative to the ground, m.
-SPEED: slip velocity of what touches the ground, m/s; in flight the centre's velocity.
-GAP_*, RATE_*: height of a lower corner above the ground and its rate, kept in flight, zero in contact; so hops of 1e-20 m are resolved.
-PATH: length slid, m. WORK, FRICTION, LOSS: work of the moving ground, energy lost by friction and in impacts, J/kg.
-IMPACTS, JAMS, LOWERED: how many; jams above Painleve's limit, rocking impacts whose given ratio would have created energy."""
+THETA, OMEGA: tilt, rad, positive to +x, and its rate; X: displacement of the centre of gravity relative to the ground, m.
+SPEED: slip velocity of the contact, m/s; in flight the velocity of the centre of gravity.
+GAP_*, RATE_*: height of a lower corner above the ground, m, and its rate; integrated in flight, exactly zero in contact, so that
+rebounds of 1e-20 m are resolved.
+PATH: length of the slip path, m. WORK, FRICTION, LOSS: work of the ground, energy dissipated by friction and by impacts, J/kg.
+IMPACTS, JAMS, RATIO_LOWERED: number of impacts, of jams above Painleve's limit, and of rocking impacts whose prescribed ratio was
+reduced because it would have created energy."""
 
 STATES = (
     "rotation", "displacement", "angular velocity", "speed", "left gap", "left rate", "right gap", "right rate", "path", "work", "friction",
@@ -47,13 +49,13 @@ STATES = (
 LAND_LEFT, LAND_RIGHT, DOWN, SLIP, LEFT, RIGHT, LIFT, FORWARD, BACKWARD, CONE, RELEASE, END = range(12)
 """Guards.
 
-LAND_LEFT, LAND_RIGHT: gap of a corner in flight; DOWN: lean towards the corner that touches; SLIP: speed of the slip; these are states,
-set to exact values. LEFT, RIGHT: force under a corner at rest; LIFT: normal force (gravity in a slide); FORWARD, BACKWARD: what is left of
-static friction; CONE: Painleve's denominator; RELEASE: depth of the tenon not yet left; END: pi/2 not yet reached, then one row per further
-point."""
+LAND_LEFT, LAND_RIGHT: gap of a corner in flight; DOWN: tilt towards the corner in contact; SLIP: slip speed. These four are states, reset
+to exact values. LEFT, RIGHT: force under a corner at rest; LIFT: normal force (gravity in sliding); FORWARD, BACKWARD: reserve of static
+friction; CONE: Painleve's denominator; RELEASE: remaining engagement of the tenon; END: tilt remaining to pi/2, followed by one row per
+further point."""
 
 N_STATE_GUARDS = 4
-"""Guards that are states."""
+"""Number of guards that are states."""
 
 GUARDS = (
     "left corner lands", "right corner lands", "other corner", "slip", "left force", "right force", "normal force", "friction forward",
@@ -67,40 +69,40 @@ GUARDS = (
 ) = range(16)  # fmt: skip
 """Parameters, SI.
 
-ROCKING_RESTITUTION: ratio of angular velocities that is given, -1 for none, between -1 and 0 less a share of Housner's ratio; ARM_*:
-horizontal distances b2 and b1 from the lower corners to the centre, whose height is HEIGHT; GYRATION: squared radius; TENON: depth;
-STEEP: 1 where kinetic friction is near Painleve's limit;
-STILL: 1 when the record is over; SMALL_RATE: v_z, below which hops are at their end; then xi, eta of each further point."""
+ROCKING_RESTITUTION: prescribed ratio of angular velocities in a rocking impact; -1: impact law; between -1 and 0: minus the share of
+Housner's ratio. ARM_*: horizontal distances b2 and b1 from the lower corners to the centre of gravity, whose height is HEIGHT;
+GYRATION: squared radius of gyration; TENON: depth; NEAR_JAM: 1 where kinetic friction is near Painleve's limit; GROUND_AT_REST: 1 after
+the end of the record; SMALL_RATE: v_z, the rebound velocity below which bouncing ends; then xi, eta of each further point."""
 
 HALF_PI = 0.5 * math.pi
 NO_MODE = -1
-"""No mode; no given ratio."""
+"""No consistent mode; no prescribed ratio."""
 
 MIN_CONE = 1e-8
-"""Painleve's denominator below which sliding has no consistent force."""
+"""Painleve's denominator below which sliding has no consistent contact force."""
 
 
 @kernel(_t.boolean(_t.int64), inline=True)
 def is_right(kind):
-    """Whether a rocking or skidding mode turns about the right corner."""
+    """Return whether a rocking or slide-rocking mode turns about the right corner."""
     return kind % 2 == 1
 
 
 @kernel(_t.float64(_t.int64), inline=True)
 def slip_sign(kind):
-    """Return the sign of the slip of a sliding or skidding mode."""
+    """Return the sign of the slip of a sliding or slide-rocking mode."""
     return 1.0 if kind in (SLIDE_PLUS, SLIDE_ROCK_RIGHT_PLUS, SLIDE_ROCK_LEFT_PLUS) else -1.0
 
 
 @kernel(_t.float64(_t.boolean, VECTOR), inline=True)
 def corner_offset(right, p):
-    """Return xi, how far a lower corner of the upright body lies to +x of the centre, m."""
+    """Return xi, the offset of a lower corner from the centre of gravity along +x in the upright body, m."""
     return p[ARM_RIGHT] if right else -p[ARM_LEFT]
 
 
 @kernel(_t.UniTuple(_t.float64, 2)(_t.boolean, _t.float64, VECTOR), inline=True)
 def corner_position(right, theta, p):
-    """Return where a lower corner is from the centre, (r_x, r_y), m."""
+    """Return the vector (r_x, r_y) from the centre of gravity to a lower corner, m."""
     xi = corner_offset(right, p)
     if theta == 0.0:
         return xi, -p[HEIGHT]

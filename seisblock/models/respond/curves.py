@@ -1,4 +1,4 @@
-"""From the model's states to what one draws: where the centre of gravity is, how high the lowest point, how fast the foot slips."""
+"""Kinematic time histories from the states of the model: centre of gravity, lift, slip velocity, energy."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class Curves:
     ----------
     rotation, angular_velocity : rad, rad/s
     displacement, velocity : m, m/s
-        Of the centre of gravity, along +x.
+        Centre of gravity, along +x.
     height, rise_rate : m, m/s
-        Of the centre of gravity above the ground.
+        Centre of gravity above the ground.
     lift : m
         Height of the lowest corner above the ground.
     slip_velocity : m/s
-        Of the corners that touch; zero in flight.
+        Corners in contact; zero in flight.
     """
 
     rotation: FloatArray
@@ -39,9 +39,9 @@ class Curves:
 
 
 def curves(body: RigidBody, states: FloatArray, modes: IntArray) -> Curves:
-    """Return the motion that states (n, n_states) of the model in some modes (n,) describe.
+    """Return the kinematics of states (n, n_states) in modes (n,).
 
-    Negative modes end a motion: they must have been replaced by those that they ended.
+    Terminal (negative) modes must be replaced by the mode that they ended, see ``outcome.motion_modes``.
     """
     kind = modes % constants.TENON_OFFSET
     in_flight = (kind == constants.FLIGHT) | (kind == constants.START)
@@ -66,7 +66,7 @@ def curves(body: RigidBody, states: FloatArray, modes: IntArray) -> Curves:
 
 
 def energy(body: RigidBody, gravity: float, states: FloatArray, modes: IntArray) -> FloatArray:
-    """Return kinetic and potential energy, (n,), J, of states in some modes."""
+    """Return the sum of kinetic and potential energy, (n,), J, of states (n, n_states) in modes (n,)."""
     motion = curves(body, states, modes)
     kinetic = 0.5 * (motion.velocity**2 + motion.rise_rate**2 + body.gyration_squared * motion.angular_velocity**2)
     return body.mass * (kinetic + gravity * motion.height)

@@ -1,8 +1,8 @@
-"""What an impulse does to a rigid body: one corner by Routh's path, two corners at once by Moreau's plastic law.
+"""Impact laws of a rigid body: Routh's path for one corner, Moreau's plastic law for two simultaneous corners.
 
-All impulses are per unit mass: P normal, T along the ground. With r from the centre to the struck corner, u' = nn P + tn T and
-v' = tn P + tt T change its normal and its slip velocity, where nn = 1 + r_x^2/k^2, tt = 1 + r_y^2/k^2, tn = -r_x r_y/k^2; the
-centre gains (T, P) and the body (r_y T - r_x P)/k^2 (derived here).
+Impulses are per unit mass: P normal, T tangential. With r from the centre of gravity to the struck corner, its normal velocity u changes
+by nn P + tn T and its slip velocity v by tn P + tt T, where nn = 1 + r_x^2/k^2, tt = 1 + r_y^2/k^2, tn = -r_x r_y/k^2; the velocity of
+the centre of gravity changes by (T, P) and the angular velocity by (r_y T - r_x P)/k^2 (derived here).
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from seisblock.models.respond.constants import ARM_LEFT, ARM_RIGHT, GYRATION, HE
 _t = types()
 
 UNREACHED = 1e300
-"""An impulse that is never reached."""
+"""Target impulse before the end of compression is known."""
 
 ROUND_OFF = 1e-13
-"""Share of the moments by which the resultant may miss the edge of the base."""
+"""Tolerance, over the sum of moments, for a resultant at the edge of the base."""
 
 MAX_SEGMENTS = 8
-"""More stretches of Routh's path than there can be: slip, stick or the other slip, split by the greatest compression."""
+"""Upper bound of the segments of Routh's path: slip, stick or reverse slip, split at maximum compression."""
 
 
 @kernel(_t.UniTuple(_t.float64, 4)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean))
 def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
-    """Return P, T, u and v after one corner's impact: Routh's path with Poisson's restitution ([WangMason1992]_).
+    """Return P, T, u and v after the impact of one corner: Routh's path with Poisson's restitution ([WangMason1992]_).
 
     Parameters
     ----------
     u, v : float, m/s
-        Normal velocity, not positive, and slip velocity before.
+        Normal velocity, not positive, and slip velocity before the impact.
     nn, tt, tn : float
-        Mobilities.
+        Mobilities per unit mass.
     mu, restitution : float
     has_tenon : bool
-        Whether a tenon holds the corner: friction has no limit, and stops the slip before anything presses (ours).
+        True where a tenon holds the corner: unlimited friction, which stops the slip before the normal impulse (extension).
     """
     normal = 0.0
     tangential = 0.0
@@ -49,6 +49,7 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
     compresses = True
     s = 1.0 if v > 0.0 else -1.0 if v < 0.0 else 0.0
     for _ in range(MAX_SEGMENTS):
+        # dT/dP of the segment: slip at the friction limit, or the ratio that keeps v = 0 if friction allows
         ratio = -s * mu
         if s == 0.0:
             ratio = -tn / tt
@@ -87,9 +88,9 @@ def routh(u, v, nn, tt, tn, mu, restitution, has_tenon):
 
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
 def corner_impact(right, theta, omega, u, v, restitution, p, has_tenon):
-    """Return theta', u, v after an impact at one corner, and the energy lost, J/kg ([WangMason1992]_).
+    """Return theta', u, v after an impact at one corner, and the energy loss, J/kg ([WangMason1992]_).
 
-    The loss is what the impulses take through the mean of the velocities before and after, which is exact for a rigid body.
+    The loss is the work of the impulses on the mean of the velocities before and after, which is exact for a rigid body.
     """
     rx, ry = corner_position(right, theta, p)
     k = p[GYRATION]
@@ -102,10 +103,10 @@ def corner_impact(right, theta, omega, u, v, restitution, p, has_tenon):
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
 def resolve_jam(right, theta, omega, v, restitution, p):
-    """Return theta', u and the energy lost, J/kg, after a slip that presses on has been stopped at once.
+    """Return theta', u and the energy loss, J/kg, of a jam: an impact without collision ([GenotBrogliato1999]_).
 
-    An impact without collision: Routh's path leads from u = 0 below zero while it slips, and back to u = 0 once it sticks. The impulses of
-    greatest compression are therefore those that stop both u and v, whatever the path; then comes the restitution, sticking.
+    Routh's path starts at u = 0, goes to u < 0 while the corner slips, and returns to u = 0 after it sticks. The impulses at maximum
+    compression are therefore those that stop both u and v, independent of the path; restitution follows in stick.
     """
     rx, ry = corner_position(right, theta, p)
     k = p[GYRATION]
@@ -119,25 +120,25 @@ def resolve_jam(right, theta, omega, v, restitution, p):
 
 
 CLOSED_NONE, CLOSED_LEFT, CLOSED_RIGHT, CLOSED_BOTH = range(4)
-"""Which corners stay on the ground after a plastic impact of both."""
+"""Corners that remain in contact after a plastic impact of both."""
 
 
 @kernel(_t.Tuple((_t.int64, _t.float64, _t.float64, _t.float64))(_t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
 def both_corners_impact(omega, rise, speed, p, has_tenon):
-    """Return which corners stay, theta', slip velocity and energy lost after a plastic impact of both corners ([Moreau1988]_).
+    """Return closed corners, theta', slip velocity and energy loss, J/kg, of a plastic impact of both corners ([Moreau1988]_).
 
     Parameters
     ----------
     omega, rise, speed : float, rad/s, m/s
-        theta', y' and x' before, of an upright body.
+        theta', y' and x' of the upright body before the impact.
     p : array
     has_tenon : bool
-        Whether tenons hold the feet.
+        True while tenons hold the feet.
 
     Notes
     -----
-    The first of these that is consistent: both closed, sticking, then slipping; the right corner alone, sticking, slipping either way;
-    the left one; none. Closed: u = 0, P >= 0; open: u >= 0; abs(T) <= mu P where it sticks, else T = -sign(v) mu P.
+    The first consistent case is taken: both corners closed, sticking or slipping; the right corner alone, sticking or slipping in either
+    direction; the left corner likewise; none. Closed: u = 0, P >= 0; open: u >= 0; abs(T) <= mu P in stick, T = -sign(v) mu P in slip.
     """
     k = p[GYRATION]
     h = p[HEIGHT]

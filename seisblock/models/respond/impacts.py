@@ -1,24 +1,24 @@
-"""What follows when a corner meets the ground: landings, rocking impacts, trips, jams, and the end of ever smaller hops.
+"""Impact events: landing, rocking impact, tripping, jam, and termination of decreasing rebounds (Zeno behaviour).
 
 Landing
-    One corner by Routh's path, the other ignored; flat on both (theta = theta' = 0): as one body with friction rho = min(mu, what stops
-    the slip), whose resultant lies at s rho h and must fall between the corners, else the body trips over the one it slides to.
+    At one corner: Routh's path, the other corner ignored. Flat on the base (theta = theta' = 0): one body with friction
+    rho = min(mu, value that stops the slip) and the resultant at s rho h; where that lies outside the base, the body trips over the
+    corner towards which it slides.
 Rocking impact
-    The corner that comes down, by Routh's path; accepted when the other then rises, else both at once, plastically. With a
-    ratio r given by the user theta' is multiplied by r, and friction decides what becomes of the slip; r is lowered where
-    energy would grow.
-Hops
-    Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is left out where contact would hold, and a rocking body is put flat where it would
-    rest or slide: lifts of 1e-21 R are left out, and the time of rest is early by less than 1e-8 sqrt(R/g).
-    A hop that is over within the resolution of time (1e-14 of the sampling interval) begins and ends in the same state, a gap or a lean
-    of exactly zero: its contact closes. Round-off leaves such hops where two limits coincide, as those of friction and tilt do at mu = b/h.
-Clatter
-    A plastic landing that throws the other corner down, within 1e-16 sqrt(R/g), is one of both corners: where nothing presses it to the
-    ground a compact body would clatter on, infinitely often at one instant, and the impact of both has the same momentum as the limit.
+    Routh's path at the corner that comes down, accepted if the other corner rises; else a plastic impact of both corners. With a
+    prescribed ratio r theta' is multiplied by r and the slip follows from friction; r is reduced where energy would grow.
+Rebounds
+    Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is suppressed where contact would persist, and a rocking body is set flat where it would
+    rest or slide: lifts of 1e-21 R are neglected, and rest is reached early by less than 1e-8 sqrt(R/g).
+    A rebound shorter than the resolution of time (1e-14 of the sampling interval) starts and ends in the same state, with a gap or tilt of
+    exactly zero: its contact is closed. Round-off produces such rebounds where two limits coincide, for example at mu = b/h.
+Clattering
+    A plastic landing after which the other corner follows within 1e-16 sqrt(R/g) is treated as an impact of both corners: without a load a
+    compact body would clatter infinitely often at one instant, and the simultaneous impact has the momentum of that limit.
 Jam
-    Where a slip that presses on has no consistent force it ends at once, by an impact that begins with u = 0 ([GenotBrogliato1999]_).
+    A compressed slip without a consistent force ends at once, by an impact that begins with u = 0 ([GenotBrogliato1999]_).
 
-Derived here. Without restitution and with friction enough the rocking impact is Housner's, theta' times
+Derived here. Without restitution and with sufficient friction the rocking impact is Housner's: theta' is multiplied by
 (k^2 + h^2 - b1 b2)/(k^2 + h^2 + b_B^2) ([Housner1963]_).
 """
 
@@ -71,16 +71,16 @@ from seisblock.models.respond.mode_selection import next_mode
 _t = types()
 
 BISECTIONS = 60
-"""Bisections for the largest ratio of a rocking impact that creates no energy."""
+"""Bisection steps for the largest energy-conserving ratio of a rocking impact."""
 
 SIMULTANEITY = 1e-4
-"""Time between two corners' impacts, over SMALL_RATE/g, below which they are one: 1e-16 sqrt(R/g)."""
+"""Time between impacts of the two corners, over SMALL_RATE/g, below which they are simultaneous: 1e-16 sqrt(R/g)."""
 
 ROUND_OFF = 1e-12
-"""Share of the energy by which it may seem to grow."""
+"""Relative growth of energy attributed to round-off."""
 
 MAX_JAMS = 4
-"""More jams than can follow each other at one instant."""
+"""Upper bound of successive jams at one instant."""
 
 _CONTINUE_SIGNATURE = _t.int64(_t.boolean, _t.boolean, _t.int64, VECTOR, MATRIX, VECTOR, _t.boolean)
 _IMPACT_SIGNATURE = _t.int64(_t.boolean, VECTOR, MATRIX, VECTOR, _t.boolean)
@@ -88,7 +88,7 @@ _IMPACT_SIGNATURE = _t.int64(_t.boolean, VECTOR, MATRIX, VECTOR, _t.boolean)
 
 @kernel(_t.int64(_t.boolean, _t.float64, VECTOR, VECTOR))
 def lift_off(right, rate, y, p):
-    """Turn a state about a corner, which rises at `rate`, into one of flight."""
+    """Convert the state about a corner that rises at `rate`, m/s, into a flight state."""
     theta = y[THETA]
     omega = y[OMEGA]
     base_width = corner_offset(right, p) - corner_offset(not right, p)
@@ -102,7 +102,7 @@ def lift_off(right, rate, y, p):
 
 @kernel(_t.int64(_t.float64, VECTOR, VECTOR, _t.boolean))
 def impact_both_corners(rise, y, p, has_tenon):
-    """Apply the plastic impact of both corners to an upright body that rises at `rise`; return which stay ([Moreau1988]_)."""
+    """Apply the plastic impact of both corners to an upright body with y' = `rise`; return the closed corners ([Moreau1988]_)."""
     speed = y[SPEED] + p[HEIGHT] * y[OMEGA]
     closed_corners, y[OMEGA], y[SPEED], loss = both_corners_impact(y[OMEGA], rise, speed, p, has_tenon)
     y[LOSS] += loss
@@ -111,9 +111,9 @@ def impact_both_corners(rise, y, p, has_tenon):
 
 @kernel(_CONTINUE_SIGNATURE)
 def continue_in_contact(left, right, ended_mode, y, f, p, has_tenon):
-    """Return the mode of a body whose given corners stay in contact, after a jam where there is no other way ([GenotBrogliato1999]_).
+    """Return the next mode with the flagged corners in contact, resolving jams where no mode is consistent ([GenotBrogliato1999]_).
 
-    `ended_mode` is the mode that has just reached its limit, or NONE.
+    `ended_mode` is the mode that has reached its limit, or ``NO_MODE``.
     """
     kind = NO_MODE
     for _ in range(MAX_JAMS):
@@ -143,7 +143,6 @@ def continue_in_contact(left, right, ended_mode, y, f, p, has_tenon):
 
 @kernel(_t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
 def _impact_both_and_continue(right, rise, y, f, p, has_tenon):
-    """Go on after a plastic impact of both corners."""
     closed_corners = impact_both_corners(rise, y, p, has_tenon)
     if closed_corners == CLOSED_NONE:
         return lift_off(right, max(rise - corner_offset(right, p) * y[OMEGA], 0.0), y, p)
@@ -152,24 +151,24 @@ def _impact_both_and_continue(right, rise, y, f, p, has_tenon):
 
 @kernel(_t.boolean(_t.float64, MATRIX, VECTOR, _t.boolean))
 def stays_flat(slip, f, p, has_tenon):
-    """Whether a body put flat on the ground with this slip velocity would rest or slide."""
+    """Return whether a body flat on the ground with slip velocity `slip` would rest or slide."""
     flat_slip = 0.0 if abs(slip) < p[SMALL_RATE] else slip
     kind = next_mode(True, True, NO_MODE, 0.0, 0.0, flat_slip, f, p, has_tenon)
     return kind in (REST, SLIDE_PLUS, SLIDE_MINUS)
 
 
 @kernel(_t.int64(_t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
-def _put_flat(omega, slip, y, f, p, held):
-    """Return the mode of a body put flat that turned at `omega`, too slowly to matter, and slipped at `slip`."""
+def _set_flat(omega, slip, y, f, p, has_tenon):
+    """Set a body flat whose angular velocity `omega` is negligible and whose slip velocity is `slip`; return its mode."""
     speed = slip + p[HEIGHT] * omega
     y[THETA] = y[OMEGA] = 0.0
     y[SPEED] = 0.0 if abs(slip) < p[SMALL_RATE] or speed * slip <= 0.0 else speed
-    return continue_in_contact(True, True, NO_MODE, y, f, p, held)
+    return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)
 
 
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
 def _corner_impact_or_rest(right, u, v, y, f, p, has_tenon):
-    """Return theta', u, v and loss of one corner's impact; a rebound too small to matter is left out where contact would hold."""
+    """Return theta', u, v and loss of an impact at one corner, without a negligible rebound where contact would persist."""
     omega, rate, slip, loss = corner_impact(right, y[THETA], y[OMEGA], u, v, p[RESTITUTION], p, has_tenon)
     if 0.0 < rate < p[SMALL_RATE] and p[RESTITUTION] > 0.0:
         plastic = corner_impact(right, y[THETA], y[OMEGA], u, v, 0.0, p, has_tenon)
@@ -181,7 +180,7 @@ def _corner_impact_or_rest(right, u, v, y, f, p, has_tenon):
 
 @kernel(_IMPACT_SIGNATURE)
 def _land_flat(right, y, f, p, has_tenon):
-    """Land on the whole base, or trip over the corner to which it slides."""
+    """Land flat on the base, or trip over the corner towards which the body slides; return the mode."""
     w = -y[RATE_RIGHT]
     speed = y[SPEED]
     s = 1.0 if speed > 0.0 else -1.0
@@ -193,6 +192,7 @@ def _land_flat(right, y, f, p, has_tenon):
         if not -p[ARM_LEFT] * normal_impulse <= reach <= p[ARM_RIGHT] * normal_impulse:
             break
         slip_after = speed - s * friction_impulse
+        # negligible rebound on a base that would rest or slide: repeat the impact without restitution
         if 0.0 < e * w < p[SMALL_RATE] and stays_flat(slip_after, f, p, has_tenon):
             e = 0.0
             continue
@@ -216,25 +216,25 @@ def _land_flat(right, y, f, p, has_tenon):
 
 
 @kernel(_IMPACT_SIGNATURE)
-def _close(right, y, f, p, held):
-    """Return the mode after a corner that leaves the ground has met it again within the resolution of time."""
+def _close_contact(right, y, f, p, has_tenon):
+    """Return the mode after a corner has left and met the ground within the resolution of time."""
     gap, rate = (GAP_LEFT, RATE_LEFT) if right else (GAP_RIGHT, RATE_RIGHT)
     slip = y[SPEED] + corner_position(right, y[THETA], p)[1] * y[OMEGA]
-    if y[gap] == 0.0 and abs(y[rate]) < p[SMALL_RATE] and stays_flat(slip, f, p, held):
-        return _put_flat(y[OMEGA], slip, y, f, p, held)
+    if y[gap] == 0.0 and abs(y[rate]) < p[SMALL_RATE] and stays_flat(slip, f, p, has_tenon):
+        return _set_flat(y[OMEGA], slip, y, f, p, has_tenon)
     y[SPEED] = slip
-    return continue_in_contact(not right, right, NO_MODE, y, f, p, held)
+    return continue_in_contact(not right, right, NO_MODE, y, f, p, has_tenon)
 
 
 @kernel(_IMPACT_SIGNATURE)
 def land(right, y, f, p, has_tenon):
-    """Return the mode after a corner of a flying body has met the ground ([WangMason1992]_)."""
+    """Return the mode after a corner lands from flight ([WangMason1992]_)."""
     gap, rate = (GAP_RIGHT, RATE_RIGHT) if right else (GAP_LEFT, RATE_LEFT)
-    at_once = y[gap] == 0.0
+    zero_duration = y[gap] == 0.0
     y[gap] = 0.0
     if y[rate] >= 0.0:
-        if at_once and y[rate] < p[SMALL_RATE]:
-            return _close(right, y, f, p, has_tenon)
+        if zero_duration and y[rate] < p[SMALL_RATE]:
+            return _close_contact(right, y, f, p, has_tenon)
         return FLIGHT
     y[IMPACTS] += 1.0
     if y[THETA] == 0.0 and y[OMEGA] == 0.0:
@@ -247,7 +247,7 @@ def land(right, y, f, p, has_tenon):
     base_width = corner_offset(right, p) - corner_offset(not right, p)
     closing_rate = -base_width * math.cos(y[THETA]) * y[OMEGA]
     if closing_rate > 0.0 and p[GRAVITY] * base_width * math.sin(y[THETA]) < SIMULTANEITY * p[SMALL_RATE] * closing_rate:
-        # it clatters: the other corner follows within 1e-16 sqrt(R/g), and so on without end; both at once is the limit
+        # clattering: the other corner follows within 1e-16 sqrt(R/g), infinitely often; the limit is one impact of both
         y[THETA] = 0.0
         y[IMPACTS] += 1.0
         return _impact_both_and_continue(right, corner_offset(right, p) * y[OMEGA], y, f, p, has_tenon)
@@ -256,7 +256,7 @@ def land(right, y, f, p, has_tenon):
 
 @kernel(_t.Tuple((_t.float64, _t.float64, _t.float64, _t.boolean))(_t.boolean, VECTOR, VECTOR, _t.boolean))
 def _impact_with_ratio(onto_right, y, p, has_tenon):
-    """Return theta', slip velocity, loss and whether the ratio was lowered, of a rocking impact with a ratio that is given."""
+    """Return theta', slip velocity, loss and a flag for a reduced ratio, of a rocking impact with a prescribed ratio."""
     h = p[HEIGHT]
     mu = p[MU_KINETIC]
     omega = y[OMEGA]
@@ -266,12 +266,13 @@ def _impact_with_ratio(onto_right, y, p, has_tenon):
     low = 0.0
     high = p[ROCKING_RESTITUTION]
     if high < 0.0:
-        # less a share of Housner's ratio
+        # -share of Housner's ratio
         struck_foot = corner_offset(onto_right, p)
-        kept = p[GYRATION] + h * h + struck_foot * corner_offset(not onto_right, p)
-        high *= -max(kept, 0.0) / (p[GYRATION] + h * h + struck_foot * struck_foot)
+        numerator = p[GYRATION] + h * h + struck_foot * corner_offset(not onto_right, p)
+        high *= -max(numerator, 0.0) / (p[GYRATION] + h * h + struck_foot * struck_foot)
     ratio = high
     is_lowered = False
+    # the prescribed ratio first; bisection between 0 and that ratio only where it would create energy
     for _ in range(BISECTIONS + 1):
         omega_after = ratio * omega
         rise = corner_offset(onto_right, p) * omega_after
@@ -293,16 +294,16 @@ def _impact_with_ratio(onto_right, y, p, has_tenon):
 
 @kernel(_IMPACT_SIGNATURE)
 def rocking_impact(onto_right, y, f, p, has_tenon):
-    """Return the mode after the other corner of a rocking or skidding body has come down ([Housner1963]_, [WangMason1992]_)."""
-    at_once = y[THETA] == 0.0
+    """Return the mode after the other corner of a rocking or slide-rocking body comes down ([Housner1963]_, [WangMason1992]_)."""
+    zero_duration = y[THETA] == 0.0
     y[THETA] = 0.0
     omega = y[OMEGA]
     slip = y[SPEED]
     base_width = corner_offset(onto_right, p) - corner_offset(not onto_right, p)
     if base_width * omega <= 0.0:
-        if at_once and 0.0 < abs(base_width * omega) < p[SMALL_RATE] and stays_flat(slip, f, p, has_tenon):
-            return _put_flat(omega, slip, y, f, p, has_tenon)
-        # it does not press: the last digit of a lean that has just begun, or of none
+        if zero_duration and 0.0 < abs(base_width * omega) < p[SMALL_RATE] and stays_flat(slip, f, p, has_tenon):
+            return _set_flat(omega, slip, y, f, p, has_tenon)
+        # no approach velocity: round-off of a tilt that has just begun, or of none
         return continue_in_contact(onto_right or omega == 0.0, not onto_right or omega == 0.0, NO_MODE, y, f, p, has_tenon)
     y[IMPACTS] += 1.0
     rate = 0.0
@@ -320,7 +321,7 @@ def rocking_impact(onto_right, y, f, p, has_tenon):
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
     if abs(base_width * omega_after) < p[SMALL_RATE] and stays_flat(slip_after, f, p, has_tenon):
-        return _put_flat(omega_after, slip_after, y, f, p, has_tenon)
+        return _set_flat(omega_after, slip_after, y, f, p, has_tenon)
     if omega_after == 0.0:
         return continue_in_contact(True, True, NO_MODE, y, f, p, has_tenon)
     return continue_in_contact(not onto_right, onto_right, NO_MODE, y, f, p, has_tenon)

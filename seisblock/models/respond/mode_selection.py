@@ -1,16 +1,16 @@
-"""Which mode follows: the first, in a fixed order, whose forces are consistent with unilateral contact and Coulomb friction.
+"""Selection of the next contact mode: the first one consistent with unilateral contact and Coulomb friction.
 
 Order
-    rest, rock about the right, the left corner, slide to +x, to -x, skid right +, left +, right -, left -, flight; of these the ones that
-    the touching corners and the slip velocity allow.
-Consistent
-    Pressing forces where closed, friction within its cone where sticking, a slip that starts in its own sense, and corners that open
-    not pulled back. Each condition is a slack in m/s^2, so that one tolerance serves all.
+    rest, rocking about the right and the left corner, sliding to +x and -x, slide-rocking right +, left +, right -, left -, flight; only
+    modes admissible for the corners in contact and the slip velocity are tested.
+Consistency
+    Compressive force at closed corners, friction inside the cone where sticking, slip that accelerates in its own direction, and
+    non-negative normal acceleration at opening corners. Each condition is a slack in m/s^2, so that one tolerance applies to all.
 Uniqueness
-    For a corner that sticks with pressing force N* and needs rho = abs(T*)/N*, a slip has an acceleration proportional to
-    N* (rho - mu_k)/P and a force -b/P, b the free normal acceleration: once rho > mu_s exactly one of slip (b < 0) and flight (b > 0)
-    follows. With a slip that has no consistent force (P <= 0, pressed on) there is none: Painleve's case, which ends in a jam
-    ([GenotBrogliato1999]_). Derived here.
+    For a sticking corner with compressive force N* and friction demand rho = abs(T*)/N*, slip has an acceleration proportional to
+    N* (rho - mu_k)/P and a force -b/P, where b is the free normal acceleration: for rho > mu_s exactly one of slip (b < 0) and flight
+    (b > 0) follows. A compressed slip with P <= 0 has no consistent force: Painleve's paradox, resolved by an impact without collision
+    ("jam", [GenotBrogliato1999]_). Derived here.
 """
 
 from __future__ import annotations
@@ -45,37 +45,39 @@ _t = types()
 ALONG, ACROSS, UP = range(3)
 
 TOLERANCE, FLAT_TOLERANCE = 1e-10, 1e-13
-"""Slack, as a share of gravity, below zero at which a condition still counts as met: a threshold that was just located, where a body
-turns and where it lies flat, the forces then being those of the input."""
+"""Negative slack over gravity that still satisfies a condition, in rotation and on the flat base.
+
+It covers a threshold located an instant ago; on the flat base forces follow from the input alone and are known better."""
 
 LOOKAHEAD, LOOKAHEAD_GROWTH = 1e-6, 1e3
-"""Flat modes, whose forces depend on the input alone, are judged this share of the sampling interval later, and, while a condition is
-met or missed by no more than the tolerance, so many times later still, up to one interval: there the slope of the input decides."""
+"""Delay, over the sampling interval, at which flat modes are tested, and its growth while a slack stays within the tolerance.
+
+Forces of flat modes depend on the input alone; at a tie the slope of the input decides, up to one interval later."""
 
 CONE_ROUND_OFF = 1e-6
-"""Round-off of Painleve's denominator, a sum of terms of the order of 1 known to 1e-14, as a share of its least value."""
+"""Round-off of Painleve's denominator over its lower limit (a sum of terms of order 1, each known to 1e-14)."""
 
 INFEASIBLE = -1e300
-"""Slack of a mode that does not come into question."""
+"""Slack of an inadmissible mode."""
 
 
 @kernel(_t.UniTuple(_t.float64, 2)(_t.float64, MATRIX, VECTOR), inline=True)
 def ground_loads(delay, f, p):
-    """Return the ground's horizontal acceleration and G = g + a_y, m/s^2, `delay` seconds from now (derived here)."""
+    """Return the horizontal ground acceleration and G = g + a_y, m/s^2, after `delay` seconds (derived here)."""
     push = f[ALONG, 0] + f[ACROSS, 0] + delay * (f[ALONG, 1] + f[ACROSS, 1])
     return push, p[GRAVITY] + f[UP, 0] + delay * f[UP, 1]
 
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def sticking_forces(rx, ry, spin, push, weight, p):
-    """Return theta'', N and T of a body that turns about a corner at rest; `spin` is theta'^2 ([Shenton1996]_)."""
+    """Return theta'', N and T for rocking about a sticking corner; `spin` is theta'^2 ([Shenton1996]_)."""
     turn = (ry * push - rx * weight) / (p[GYRATION] + rx * rx + ry * ry)
     return turn, weight + rx * turn + ry * spin, push - ry * turn + rx * spin
 
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def sliding_forces(rx, ry, spin, push, weight, friction, p):
-    """Return theta'', Painleve's P and the slip's acceleration where T = -`friction` N ([GenotBrogliato1999]_)."""
+    """Return theta'', Painleve's P and the slip acceleration for T = -`friction` N ([GenotBrogliato1999]_)."""
     lever = rx + friction * ry
     cone = 1.0 + rx * lever / p[GYRATION]
     normal = (weight + ry * spin) / cone
@@ -85,7 +87,7 @@ def sliding_forces(rx, ry, spin, push, weight, friction, p):
 
 @kernel(_t.float64(_t.int64, _t.boolean, _t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
 def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon):
-    """Return the least slack of a mode's conditions, m/s^2; negative: not consistent ([Shenton1996]_, [GenotBrogliato1999]_)."""
+    """Return the smallest slack of a mode's conditions, m/s^2; negative: inconsistent ([Shenton1996]_, [GenotBrogliato1999]_)."""
     on_both = left and right
     base = p[ARM_LEFT] + p[ARM_RIGHT]
     spin = omega * omega
@@ -109,7 +111,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
         margin = weight
         tips = p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base
         if tips < -FLAT_TOLERANCE * p[GRAVITY]:
-            # no input changes where the resultant is, so that nothing is decided by looking at it later
+            # the centre of pressure is independent of the input, so that no lookahead is needed
             margin = min(tips, weight)
         return margin if slip != 0.0 else min(margin, -s * push - p[MU_KINETIC] * weight)
     pivot_right = is_right(kind)
@@ -121,7 +123,7 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
         if slip != 0.0:
             return INFEASIBLE
         turn, normal, tangential = sticking_forces(rx, ry, spin, push, weight, p)
-        # a tenon pressed aside binds: it holds the foot as long as that would not rise by itself
+        # a tenon under lateral load holds the foot down as long as the released foot would not rise
         margin = max(normal, weight + ry * spin) if has_tenon else min(normal, p[MU] * normal - abs(tangential))
         return min(margin, opening * turn) if on_both else margin
     s = slip_sign(kind)
@@ -138,19 +140,19 @@ def mode_slack(kind, left, right, theta, omega, slip, push, weight, p, has_tenon
 
 @kernel(_t.int64(_t.boolean, _t.boolean, _t.int64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.boolean))
 def next_mode(left, right, ended_mode, theta, omega, slip, f, p, has_tenon):
-    """Return the mode that follows, or NONE where a slip jams ([Shenton1996]_, [GenotBrogliato1999]_).
+    """Return the next mode, or ``NO_MODE`` where a slip jams ([Shenton1996]_, [GenotBrogliato1999]_).
 
     Parameters
     ----------
     left, right : bool
-        Whether the corner touches the ground and stays on it: gap and its rate are zero.
+        True for a corner in persistent contact (zero gap and gap rate).
     ended_mode : int
-        Mode that has just reached its limit and is excluded, or NONE.
+        Mode that has reached its limit and is excluded, or ``NO_MODE``.
     theta, omega, slip : float, rad, rad/s, m/s
     f, p : arrays
-        Ground motion and parameters, as the engine has them.
+        Ground motion and parameters in the engine's layout.
     has_tenon : bool
-        Whether tenons hold the feet.
+        True while tenons hold the feet.
     """
     if not left and not right:
         return FLIGHT
@@ -177,15 +179,15 @@ def next_mode(left, right, ended_mode, theta, omega, slip, f, p, has_tenon):
             best_kind = kind
             best_margin = margin
     if slip != 0.0 and not has_tenon:
-        # sliding presses on and has no consistent force: a jam
+        # compressed slip without a consistent force: jam
         pivot_right = slip > 0.0 if left and right else right
         rx, ry = corner_position(pivot_right, theta, p)
         friction = p[MU_KINETIC] if slip > 0.0 else -p[MU_KINETIC]
-        # the limit was located but for round-off where a slip has just reached it
+        # a slip that has just reached the limit is located there only up to round-off
         least_cone = MIN_CONE * (1.0 + CONE_ROUND_OFF) if ended_mode >= SLIDE_ROCK_RIGHT_PLUS else MIN_CONE
         if 1.0 + rx * (rx + friction * ry) / p[GYRATION] <= least_cone:
             return NO_MODE
-    # round-off alone leads here: a limit that was only touched, or the mode that misses least
+    # reached by round-off only: a limit that was touched without being crossed, or the mode with the smallest violation
     return ended_mode if ended_holds else best_kind
 
 

@@ -1,4 +1,4 @@
-"""A free-standing rigid block in five modes: rest, slide, rock, slide-rock and flight, and what takes one into another.
+"""Hybrid model of a free-standing rigid block: rest, sliding, rocking, slide-rocking and flight, with their transitions.
 
 Assumptions
     Plane motion; rigid block on rigid ground, touching it with its two lower corners; Coulomb friction with mu_s >= mu_k (kinetic inside
@@ -8,16 +8,16 @@ Frame
     Fixed to the ground: x right, y up, theta clockwise, so positive when the block leans to +x. Between samples the ground's
     acceleration is a straight line.
 Modes
-    Named in ``names``; their motions and limits in ``flat``, ``turning`` and ``skid``; which follows in ``succession``; impacts in
-    ``impulse`` and ``impacts``. A mode lives while its guards are positive; when one is reached the mode is excluded and the first
-    consistent one of a fixed order follows, so that below Painleve's limit there is exactly one.
+    Indices in ``constants``; equations of motion and guards in ``polynomial_modes``, ``rocking`` and ``slide_rocking``; selection of the
+    next mode in ``mode_selection``; impacts in ``impact_laws`` and ``impacts``. A mode lasts while its guards are positive. At a guard the
+    mode is excluded and the first consistent mode of a fixed order follows; below Painleve's limit exactly one is consistent.
 Tenon
-    Ours: a body held by tenons of a given depth has friction without limit until, in flight, the lower foot has risen by that depth; from
-    then on Coulomb's. A tenon pressed aside binds: it holds its foot down, too, as long as the foot, let go, would not rise for good.
-    In flight it does nothing; where a foot comes down its slip is stopped before the ground presses. It lets a post rock whose bare
-    plinth would only slide, as [Sugimoto2017]_ takes it.
+    Extension of this package: a body with tenons of a given depth has unlimited friction until, in flight, the lower foot has risen by
+    that depth, and Coulomb friction afterwards. A tenon under lateral load also holds its foot down as long as the released foot would not
+    rise permanently. It has no effect in flight; at a landing it stops the slip of the foot before the normal impulse acts. A post whose
+    bare plinth would only slide can therefore rock, as assumed by [Sugimoto2017]_.
 End
-    A quarter turn, or a further point that meets the ground. On still ground also rest.
+    Tilt of pi/2, or contact of a further point with the ground; after the record also rest.
 Literature
     [ShentonJones1991]_, [Shenton1996]_, [WangMason1992]_, [Moreau1988]_, [GenotBrogliato1999]_, [Housner1963]_.
 """
@@ -84,15 +84,15 @@ from seisblock.models.respond.slide_rocking import slide_rock_series
 _t = types()
 
 SCRATCH = 4
-"""Rows that the series need: the arms of one or both corners, a force, a velocity."""
+"""Scratch rows of the series: arms of one or both corners, a force, a velocity."""
 
 SLIP_TOLERANCE = 1e-13
-"""Share of its two parts below which a slip velocity is taken as zero when a body is put down."""
+"""Slip velocity of the initial state over the sum of its two parts, below which it is zero."""
 
 
 @kernel(_t.void(_t.boolean, _t.int64, _t.int64, VECTOR, MATRIX, MATRIX), inline=True)
 def _point_slacks(right, arms, degree, p, c, g):
-    """Write the heights of the further points above a corner, from the arms of that corner in two rows of `c`."""
+    """Write the heights of the further points above a corner, linear in the arms of that corner in rows `arms`, `arms` + 1 of `c`."""
     xi = corner_offset(right, p)
     h = p[HEIGHT]
     per_square = 1.0 / (xi * xi + h * h)
@@ -107,7 +107,7 @@ def _point_slacks(right, arms, degree, p, c, g):
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the motion of one mode and its slacks."""
+    """Write the power series of one mode into `c` and its guards into `g`; return the degree."""
     has_tenon = mode >= TENON_OFFSET
     kind = mode - TENON_OFFSET if has_tenon else mode
     for k in range(END):
@@ -128,6 +128,7 @@ def series(mode, y, f, p, order, c, g):
         if has_tenon:
             release_slack(y, p, degree, c, g)
         side = 1.0 if y[OMEGA] >= 0.0 else -1.0
+        # the guard of the quarter turn costs a root search: only where the tilt can exceed 1 rad within the step
         g[END, 0] = OFF
         if side * (y[THETA] + y[OMEGA] * p[DT]) > 1.0:
             for k in range(degree + 1):
@@ -153,13 +154,14 @@ def series(mode, y, f, p, order, c, g):
 
 @kernel(_t.int64(VECTOR, MATRIX, VECTOR, _t.boolean))
 def _initial_mode(y, f, p, has_tenon):
-    """Return the mode of a body put down as its gaps and their rates say."""
+    """Return the first mode, from the gaps and gap rates of the initial state."""
     left = y[GAP_LEFT] == 0.0
     right = y[GAP_RIGHT] == 0.0
     if not left and not right:
         return FLIGHT
     pivot_right = right
     if left and right:
+        # the corner that approaches the ground faster decides
         pivot_right = y[RATE_RIGHT] <= y[RATE_LEFT]
     rate = y[RATE_RIGHT] if pivot_right else y[RATE_LEFT]
     other_rate = y[RATE_LEFT] if pivot_right else y[RATE_RIGHT]
@@ -181,7 +183,7 @@ def _initial_mode(y, f, p, has_tenon):
 
 @kernel(_t.boolean(_t.boolean, VECTOR, MATRIX, VECTOR), inline=True)
 def _foot_rises(right, y, f, p):
-    """Whether a foot that a tenon holds down, let go, would rise and go on rising, or is pressed aside no more."""
+    """Return whether a foot held down by a tenon would rise permanently if released, or has lost its lateral load."""
     rx, ry = corner_position(right, y[THETA], p)
     spin = y[OMEGA] ** 2
     push, weight = ground_loads(0.0, f, p)
@@ -196,7 +198,7 @@ def _foot_rises(right, y, f, p):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Return the mode that follows a guard: an impact, the end, or the first consistent mode."""
+    """Return the mode after a guard: result of an impact, a terminal mode, or the first consistent mode."""
     has_tenon = mode >= TENON_OFFSET
     kind = mode - TENON_OFFSET if has_tenon else mode
     if guard >= END:
@@ -208,7 +210,7 @@ def reset(mode, guard, y, f, p):
     elif kind == FLIGHT:
         target_mode = land(guard == LAND_RIGHT, y, f, p, has_tenon)
     elif guard == DOWN and y[THETA] == 0.0 and y[OMEGA] == 0.0:
-        # it would turn the other way from the beginning
+        # rotation starts in the opposite sense: no impact, both corners are still in contact
         target_mode = continue_in_contact(True, True, kind, y, f, p, has_tenon)
     elif guard == DOWN:
         target_mode = rocking_impact(not is_right(kind), y, f, p, has_tenon)
@@ -218,7 +220,7 @@ def reset(mode, guard, y, f, p):
         ended_mode = kind
         if has_tenon and guard == LIFT:
             ended_mode = kind if _foot_rises(is_right(kind), y, f, p) else NO_MODE
-        # a body that has not yet begun to turn still touches with both corners
+        # without any rotation yet both corners are still in contact
         is_flat = (kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SLIDE_ROCK_RIGHT_PLUS) or (y[THETA] == 0.0 and y[OMEGA] == 0.0)
         target_mode = continue_in_contact(is_flat or not is_right(kind), is_flat or is_right(kind), ended_mode, y, f, p, has_tenon)
     if target_mode == REST and p[GROUND_AT_REST] > 0.0:
@@ -233,5 +235,5 @@ RESPOND = Model("respond", series, reset, STATES, GUARDS, MODES, scratch=SCRATCH
 
 @functools.cache
 def model_with_points(points: int) -> Model:
-    """Return the model of bodies with so many further points, one guard each."""
+    """Return the model with one more guard for each of `points` further points."""
     return replace(RESPOND, guards=GUARDS + ("further point",) * points) if points else RESPOND

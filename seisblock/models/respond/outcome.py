@@ -1,4 +1,4 @@
-"""What a run means in numbers: the outcome, its changes of mode and its phases."""
+"""Outcome, mode changes and phases of a full-response run."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from seisblock.models.respond.run import Run
 
 
 class ModeChange(TypedDict):
-    """From when on the body is in a mode: time from the record's first sample, corner left, right or None, slip +, - or None."""
+    """Start of a mode: time from the record's first sample, corner ``left``, ``right`` or None, slip direction ``+``, ``-`` or None."""
 
     time_s: float
     mode: str
@@ -26,7 +26,7 @@ class ModeChange(TypedDict):
 
 
 class TimeInMode(TypedDict):
-    """How long the body was in each mode, s."""
+    """Total time in each mode, s."""
 
     rest: float
     slide: float
@@ -37,45 +37,48 @@ class TimeInMode(TypedDict):
 
 @dataclass(frozen=True)
 class RespondOutcome:
-    """What became of the body; times in s from the record's first sample, displacements of its centre of gravity relative to the ground.
+    """Result of a full-response run.
+
+    Times are in s from the record's first sample; displacements are those of the centre of gravity relative to the ground.
 
     Parameters
     ----------
     outcome : str
-        In words: rests, slides, rocks, flies or a combination, overturns, moves on (the time to settle was too short), hops without end.
+        ``rests``, ``slides``, ``rocks``, ``flies`` or a combination, ``overturns``, ``moves on`` (still moving after `settle_s`) or
+        ``hops without end`` (impact limit exceeded).
     overturned : bool
     overturned_towards : str or None
         ``+x`` or ``-x``.
     overturning_time_s : float or None
-        When a quarter turn, or a further point on the ground, ended the motion.
+        Time of a tilt of pi/2, or of contact of a further point with the ground.
     max_rotation_rad, max_rotation_ratio : float
-        Largest lean, absolute and over alpha of the corner concerned.
+        Peak tilt, and its ratio to the overturning angle alpha of the corner concerned.
     final_displacement_m : float
-        Signed, along +x, once it rests, has fallen, or time is up; from x = 0, where it stands unless put down elsewhere.
+        Residual displacement along +x, signed, at rest, at overturning, or at the time limit; measured from x = 0.
     max_displacement_m : float
-        Largest absolute displacement.
+        Maximum absolute displacement.
     slip_path_m : float
-        Length that the base or a corner has slid.
+        Length of the slip path of the base or a corner.
     flights, impacts : int
-        How often it left the ground, and how often a corner or the base met it.
+        Number of flights, and of impacts of a corner or the base.
     time_in_mode_s : dict
-        Up to the end.
+        Total time in each mode.
     energy_friction_j, energy_impacts_j, energy_ground_j : float
-        Lost by friction and in impacts, and the work of the ground that moves under it.
+        Energy dissipated by friction and by impacts, and work of the ground motion.
     sensitive : bool or None
-        Whether a change of the input by 1e-6 changes whether, or to which side, it overturns; None when not looked for.
+        True if a change of the input by 1e-6 changes overturning or its side; None: not tested.
     events : list of dict
-        Changes of mode; the first says in which one it starts.
+        Mode changes; the first entry is the initial mode.
     settled : bool
-        Whether it stands at rest at the end.
+        True if the body is at rest at the end.
     end_s : float
-        When the motion ended or was given up.
+        End of the motion, or time at which the run was abandoned.
     jams : int
-        Slips that ended at once above Painleve's limit.
+        Slips that ended in a jam above Painleve's limit.
     ratios_lowered : int
-        Rocking impacts whose given ratio would have created energy.
+        Rocking impacts whose prescribed ratio was reduced because it would create energy.
     tenon_left_s : float or None
-        When, in flight, the feet left their tenons.
+        Time at which the feet left their tenons in flight.
     """
 
     outcome: str
@@ -103,7 +106,7 @@ class RespondOutcome:
 
 
 def mode_change(time_s: float, mode: int) -> ModeChange:
-    """Return a mode of the model in the user's words."""
+    """Return the entry of a mode of the model."""
     kind = mode % constants.TENON_OFFSET if mode >= 0 else constants.REST
     is_rotating = (
         kind in (constants.ROCK_RIGHT, constants.ROCK_LEFT) or constants.SLIDE_ROCK_RIGHT_PLUS <= kind <= constants.SLIDE_ROCK_LEFT_MINUS
@@ -118,7 +121,7 @@ def mode_change(time_s: float, mode: int) -> ModeChange:
 
 
 def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
-    """Return the changes of mode; an impact after which the mode is the same is none."""
+    """Return the mode changes; an impact without a change of mode, corner or slip direction is none."""
     result: list[ModeChange] = []
     for time, target in zip(run.events.time.tolist(), run.events.target.tolist(), strict=True):
         if target == constants.GAVE_UP:
@@ -130,7 +133,7 @@ def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
 
 
 def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
-    """Return the stretches of one mode each, the two corners and slips told apart by events alone."""
+    """Return the phases of one mode each; changes of corner or slip direction do not split a phase."""
     merged: list[ModeChange] = []
     for event in events:
         if event["mode"] != OVERTURNED and not (merged and merged[-1]["mode"] == event["mode"]):
@@ -140,7 +143,7 @@ def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
 
 
 def time_in_mode(intervals: Iterable[Phase]) -> TimeInMode:
-    """Return how long each mode lasted in all."""
+    """Return the total time in each mode."""
     total: TimeInMode = {"rest": 0.0, "slide": 0.0, "rock": 0.0, "slide_rock": 0.0, "flight": 0.0}
     for phase in intervals:
         total[phase.name.replace("-", "_")] += phase.duration_s  # type: ignore[literal-required]
@@ -148,13 +151,13 @@ def time_in_mode(intervals: Iterable[Phase]) -> TimeInMode:
 
 
 def max_lean_ratio(params: RespondParams, highest: float, lowest: float) -> float:
-    """Return the larger lean over alpha of its corner, from the largest leans to +x and, negative, to -x."""
+    """Return the larger tilt over alpha of its corner, from the largest tilt to +x and the (negative) largest tilt to -x, rad."""
     right, left = params.rigid_body.slendernesses
     return max(highest / right, -lowest / left)
 
 
 def build_outcome(run: Run, params: RespondParams, start_s: float, sensitive: bool | None) -> RespondOutcome:
-    """Gather the outcome of a run."""
+    """Return the outcome of a run that starts at `start_s`."""
     final = run.final
     mass = params.rigid_body.mass
     events = mode_changes(run, start_s)
@@ -191,21 +194,21 @@ def build_outcome(run: Run, params: RespondParams, start_s: float, sensitive: bo
 
 
 def _count_flights(changes: EventLog) -> int:
-    """Return how many events begin a flight, be it by a rebound."""
+    """Return the number of events that start a flight, rebounds included."""
     in_flight = (changes.target >= 0) & (changes.target % constants.TENON_OFFSET == constants.FLIGHT)
     is_rebound = changes.after[:, constants.IMPACTS] > changes.before[:, constants.IMPACTS]
     return int(np.count_nonzero(in_flight & ((changes.source % constants.TENON_OFFSET != constants.FLIGHT) | is_rebound)))
 
 
 def run_status(run: Run) -> Status:
-    """Return how the run ended."""
+    """Return the status of a run."""
     if run.mode == constants.GAVE_UP:
         return Status.TOO_MANY_EVENTS
     return Status.STOPPED if run.mode == constants.OVERTURNED or run.ends_at_rest else Status.RECORD_ENDED
 
 
 def final_mode(run: Run) -> int:
-    """Return the last mode that was one of motion or rest, never an end."""
+    """Return the last mode of motion or rest, never a terminal one."""
     if run.mode >= 0:
         return run.mode
     if run.mode == constants.SETTLED:
@@ -214,5 +217,5 @@ def final_mode(run: Run) -> int:
 
 
 def motion_modes(run: Run, modes: np.ndarray) -> np.ndarray:
-    """Return modes with those that end a motion replaced by what they ended."""
+    """Return `modes`, (n,), with terminal modes replaced by the mode that they ended."""
     return np.where(modes < 0, final_mode(run), modes)

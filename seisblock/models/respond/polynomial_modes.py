@@ -1,12 +1,12 @@
-"""Modes that are polynomials of known degree: rest, slide, and the flight of a body that may turn.
+"""Modes with polynomial motion: rest, sliding, and flight with rotation.
 
 Rest
-    x' = y' = theta' = 0 while both corners press, N_R = (b1 G - h a)/(b1 + b2), N_L = (b2 G + h a)/(b1 + b2), and abs(a) <= mu_s G.
-Slide
-    x'' = -a - s mu_k G with the resultant at s mu_k h from below the centre, while s x' > 0 and G > 0.
+    x' = y' = theta' = 0 while N_R = (b1 G - h a)/(b1 + b2) and N_L = (b2 G + h a)/(b1 + b2) are positive and abs(a) <= mu_s G.
+Sliding
+    x'' = -a - s mu_k G, centre of pressure at s mu_k h from the projection of the centre of gravity, while s x' > 0 and G > 0.
 Flight
-    x'' = -a, y'' = -G, theta'' = 0; the gap of a corner has the acceleration -G - r_y theta'^2, so it is a state of its own.
-a and a_y are the ground's accelerations along +x and up, G = g + a_y (derived here, as in [ShentonJones1991]_).
+    x'' = -a, y'' = -G, theta'' = 0; the gap of a corner has the acceleration -G - r_y theta'^2 and is integrated as a state.
+a and a_y are the ground accelerations along +x and up, G = g + a_y (derived here, as in [ShentonJones1991]_).
 """
 
 from __future__ import annotations
@@ -53,15 +53,15 @@ _t = types()
 _SERIES = _t.int64(VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
 
 SERIES_TOLERANCE = 1e-17
-"""A series ends where its terms, over a sampling interval, fall below this share of the largest."""
+"""Truncation of a series: term over a sampling interval, relative to the largest."""
 
 ROUND_OFF = 1e-10
-"""An acceleration of the wrong sign, below this share of gravity, at an instant at which it has to be zero, is zero."""
+"""Acceleration over gravity below which a wrong sign at a threshold is round-off."""
 
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def set_constant(c, i, degree, value):
-    """Write a state that has one value, to be moved on by what is added to its series."""
+    """Write a constant series of degree `degree` into row `i` of `c`."""
     c[i, 0] = value
     for k in range(1, degree + 1):
         c[i, k] = 0.0
@@ -69,16 +69,16 @@ def set_constant(c, i, degree, value):
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64), inline=True)
 def freeze_states(c, first, last):
-    """Mark the states from the first to before the last as ones that do not move."""
+    """Mark states `first` to `last` - 1 as constant."""
     for i in range(first, last):
         c[i, 1] = OFF
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def clear_round_off(sign, value, acceleration, rate, p):
-    """Return an acceleration, zero where a value that leaves zero with `sign` would be turned back by round-off ([Shenton1996]_).
+    """Return `acceleration`, or zero where round-off would reverse a motion that starts from zero with `sign` ([Shenton1996]_).
 
-    `rate` is that of the acceleration: what turns within the time after which flat modes are judged has to start at zero, too.
+    `rate` is the rate of the acceleration: a sign that corrects itself within the lookahead of mode selection also counts as round-off.
     """
     projection = sign * acceleration
     if value == 0.0 and projection < 0.0 and (projection > -ROUND_OFF * p[GRAVITY] or projection + LOOKAHEAD * p[DT] * sign * rate >= 0.0):
@@ -88,7 +88,7 @@ def clear_round_off(sign, value, acceleration, rate, p):
 
 @kernel(_t.void(_t.boolean, MATRIX, VECTOR, MATRIX), inline=True)
 def rest_slacks(has_tenon, f, p, g):
-    """Write the slacks of a body at rest, straight lines ([Shenton1996]_)."""
+    """Write the guards of a body at rest, linear in time ([Shenton1996]_)."""
     base = 1.0 / (p[ARM_LEFT] + p[ARM_RIGHT])
     for k in range(2):
         push = f[ALONG, k] + f[ACROSS, k]
@@ -97,10 +97,10 @@ def rest_slacks(has_tenon, f, p, g):
         g[RIGHT, k] = (p[ARM_LEFT] * weight - p[HEIGHT] * push) * base
         g[FORWARD, k] = p[MU] * weight - push
         g[BACKWARD, k] = p[MU] * weight + push
-    least = -FLAT_TOLERANCE * p[GRAVITY]
+    threshold = -FLAT_TOLERANCE * p[GRAVITY]
     for k in (LEFT, RIGHT, FORWARD, BACKWARD):
-        # met within the tolerance by which the mode was chosen, now and a sampling interval later: a tie, which keeps the mode
-        if least <= g[k, 0] < 0.0 and g[k, 0] + g[k, 1] * p[DT] >= least:
+        # within the tolerance of mode selection now and one sampling interval later: a tie, the mode persists
+        if threshold <= g[k, 0] < 0.0 and g[k, 0] + g[k, 1] * p[DT] >= threshold:
             g[k, 0] = 0.0
             g[k, 1] = max(g[k, 1], 0.0)
     if has_tenon:
@@ -109,7 +109,7 @@ def rest_slacks(has_tenon, f, p, g):
 
 @kernel(_t.int64(_t.float64, VECTOR, MATRIX, VECTOR, MATRIX, MATRIX), inline=True)
 def slide_series(s, y, f, p, c, g):
-    """Write a slide towards `s`: cubics, and quartics for the energies."""
+    """Write the series of sliding in direction `s`: cubic displacements, quartic energies."""
     degree = 4
     push = f[ALONG, 0] + f[ACROSS, 0]
     push_rate = f[ALONG, 1] + f[ACROSS, 1]
@@ -148,7 +148,7 @@ def slide_series(s, y, f, p, c, g):
 
 @kernel(_SERIES)
 def flight_series(y, f, p, order, c, g):
-    """Write a flight, and the gaps of both lower corners."""
+    """Write the series of a flight, with the gaps of both lower corners."""
     push = f[ALONG, 0] + f[ACROSS, 0]
     push_rate = f[ALONG, 1] + f[ACROSS, 1]
     up = f[UP, 0]
@@ -157,7 +157,7 @@ def flight_series(y, f, p, order, c, g):
     omega = y[OMEGA]
     spin = omega * omega
     arms = y.size
-    # the two corners from the centre, as series: r_x' = r_y theta', r_y' = -r_x theta'
+    # corner vectors as series: r_x' = r_y theta', r_y' = -r_x theta'
     for side in range(2):
         c[arms + 2 * side, 0], c[arms + 2 * side + 1, 0] = corner_position(side == 1, y[THETA], p)
     degree = 4
@@ -185,7 +185,7 @@ def flight_series(y, f, p, order, c, g):
         gap, rate = (GAP_RIGHT, RATE_RIGHT) if side == 1 else (GAP_LEFT, RATE_LEFT)
         rx = arms + 2 * side
         ry = rx + 1
-        touches = y[gap] == 0.0 and y[rate] == 0.0
+        in_contact = y[gap] == 0.0 and y[rate] == 0.0
         c[gap, 1] = y[rate]
         for k in range(degree):
             share = 1.0 / (k + 1)
@@ -194,7 +194,7 @@ def flight_series(y, f, p, order, c, g):
             acceleration = -spin * c[ry, k]
             if k == 0:
                 acceleration -= weight
-                if touches:
+                if in_contact:
                     acceleration = clear_round_off(1.0, 0.0, acceleration, -up_rate, p)
             elif k == 1:
                 acceleration -= up_rate
@@ -209,7 +209,7 @@ def flight_series(y, f, p, order, c, g):
 
 @kernel(_t.void(VECTOR, VECTOR, _t.int64, MATRIX, MATRIX), inline=True)
 def release_slack(y, p, degree, c, g):
-    """Write how much of the tenon the lower of the two corners has not yet left (ours; compare [Sugimoto2017]_ fig. 5)."""
+    """Write the remaining tenon engagement of the lower corner, m (extension; compare [Sugimoto2017]_ fig. 5)."""
     lower_gap = GAP_RIGHT if y[THETA] > 0.0 or (y[THETA] == 0.0 and y[OMEGA] >= 0.0) else GAP_LEFT
     for k in range(degree + 1):
         g[RELEASE, k] = -c[lower_gap, k]
@@ -218,7 +218,7 @@ def release_slack(y, p, degree, c, g):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """While at rest, pass over the samples that cannot end it: the conditions are linear in the input."""
+    """Return the last sample up to which a body at rest stays at rest: the conditions are linear in the input."""
     if mode % TENON_OFFSET != REST:
         return sample
     gain_along = gains[ALONG]

@@ -1,18 +1,18 @@
-"""Modes that turn about a corner, at rest (rock) or sliding (skid, slide-rock), as power series in time.
+"""Rocking about a sticking corner, as power series in time.
 
-With r = (r_x, r_y) from the centre to the corner, r_x' = r_y theta' and r_y' = -r_x theta', so that a body in contact has y' = r_x theta',
-y'' = (r_x theta')' and, where the corner stays, x' = -r_y theta', x'' = -(r_y theta')'. The two products r_x theta' and r_y theta' are
-therefore all that a rocking body needs: they give the arms, the velocities and, differentiated, the forces per unit mass
+With r = (r_x, r_y) from the centre of gravity to the corner, r_x' = r_y theta' and r_y' = -r_x theta'. A body in contact has
+y' = r_x theta', y'' = (r_x theta')' and, with a sticking corner, x' = -r_y theta', x'' = -(r_y theta')'. The series of the two products
+r_x theta' and r_y theta' therefore give the arms, the velocities and, differentiated, the forces per unit mass
 
     N = G + (r_x theta')',    T = a - (r_y theta')'.
 
-Rock
+Rocking
     (k^2 + r^2) theta'' = r_y a - r_x G, while mu_s N > abs(T).
-Skid
-    k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N, while N > 0, s v > 0 and P > 0; written in ``skid``.
-Both end when the other corner comes down (theta returns to zero) or at a quarter turn ([ShentonJones1991]_, [GenotBrogliato1999]_).
+Slide-rocking
+    k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N, while N > 0, s v > 0 and P > 0; see ``slide_rocking``.
+Both end when the other corner comes down (theta returns to zero) or at a tilt of pi/2 ([ShentonJones1991]_, [GenotBrogliato1999]_).
 
-The slip velocity is a state of its own; the centre's velocity is v - r_y theta'. Derived here.
+The slip velocity v is a separate state; the velocity of the centre of gravity is v - r_y theta'. Derived here.
 """
 
 from __future__ import annotations
@@ -45,21 +45,21 @@ from seisblock.models.respond.polynomial_modes import clear_round_off, freeze_st
 
 _t = types()
 CORNER_SERIES = _t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
-"""series(right, of, y, f, p, order, c, g) -> degree, of a mode about the right or the left corner."""
+"""Signature ``series(right, parameter, y, f, p, order, c, g) -> degree`` of a mode about the right or the left corner."""
 
 TERM_TOLERANCE, PREVIOUS_TERM_TOLERANCE = 3e-17, 1e-12
-"""A series ends where a term falls below the first share of the state and the term before it was below the second."""
+"""Truncation of a series: a term below the first value and the previous term below the second, relative to the state."""
 
 TENON_FORCE_RATIO = 1e-9
-"""Normal force, as a share of the weight, below which a tenon is what holds the foot."""
+"""Normal force over weight below which the tenon holds the foot down."""
 
 RX, RY, NORMAL, TANGENT = range(4)
-"""Scratch rows after the states; TANGENT: x' of a skid."""
+"""Scratch rows after the states; TANGENT: x' in slide-rocking."""
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def initial_angular_acceleration(side, theta, omega, turn, rate, p):
-    """Return theta'' at the start of a mode, zero where rocking begins at its threshold but for round-off."""
+    """Return theta'' at the start of a mode, zero where rocking starts at its threshold up to round-off."""
     if theta == 0.0 and omega == 0.0:
         return clear_round_off(side, 0.0, turn * p[HEIGHT], rate * p[HEIGHT], p) / p[HEIGHT]
     return turn
@@ -67,9 +67,9 @@ def initial_angular_acceleration(side, theta, omega, turn, rate, p):
 
 @kernel(_t.void(_t.float64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
 def rotation_slacks(side, degree, swing, p, c, g):
-    """Write the other corner's gap, as the lean towards this one, and the quarter turn.
+    """Write the guards of the impact of the other corner and of the tilt pi/2.
 
-    `swing` bounds the change of the lean within the step.
+    `swing` bounds the change of the tilt within the step, rad; a guard out of its reach is switched off.
     """
     lean = side * c[THETA, 0]
     g[DOWN, 0] = OFF
@@ -85,9 +85,9 @@ def rotation_slacks(side, degree, swing, p, c, g):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
 def _tenon_slacks(ry, degree, weight, weight_rate, p, c, g):
-    """Write how far the foot that a tenon holds down is from rising by itself, G + r_y theta'^2, or from being pressed aside no more."""
+    """Write the guard of a foot held down by a tenon: G + r_y theta'^2, or the lateral load on the tenon (derived here)."""
     if weight + c[ry, 0] * c[OMEGA, 0] ** 2 <= TENON_FORCE_RATIO * p[GRAVITY]:
-        # let go it would not rise for good, or it would have been
+        # the released foot would not rise permanently, else the mode would have ended: only loss of the lateral load releases it
         side = 1.0 if g[FORWARD, 0] < g[BACKWARD, 0] else -1.0
         for k in range(degree + 1):
             g[LIFT, k] = 0.5 * side * (g[BACKWARD, k] - g[FORWARD, k])
@@ -104,7 +104,7 @@ def _tenon_slacks(ry, degree, weight, weight_rate, p, c, g):
 
 @kernel(CORNER_SERIES)
 def rock_series(right, has_tenon, y, f, p, order, c, g):
-    """Write rocking about a corner at rest; `has_tenon` is 1 where friction has no limit, else 0 ([ShentonJones1991]_)."""
+    """Write the series of rocking about a sticking corner; `has_tenon` is 1 for unlimited friction, else 0 ([ShentonJones1991]_)."""
     side = 1.0 if right else -1.0
     base = y.size
     rx, ry = base + RX, base + RY
@@ -129,7 +129,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
     last_ry_omega = 0.0
     last_rx_omega = 0.0
     for k in range(order + 1):
-        # the products r_y theta' and r_x theta', hence x' = -across and y' = along
+        # order k of r_y theta' = -x' and of r_x theta' = y'
         ry_omega = 0.0
         rx_omega = 0.0
         for j in range(k + 1):
@@ -175,7 +175,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
         power *= dt
     g[LIFT, degree] = g[FORWARD, degree] = g[BACKWARD, degree] = 0.0
     for k in (LIFT, FORWARD, BACKWARD):
-        # the mode was taken as consistent within this tolerance: a limit that it leaves behind does not end it
+        # mode selection accepts this tolerance: a violated limit from which the motion departs does not end the mode
         if -TOLERANCE * p[GRAVITY] <= g[k, 0] < 0.0 and g[k, 1] > 0.0:
             g[k, 0] = 0.0
     if has_tenon > 0.0:
@@ -183,7 +183,7 @@ def rock_series(right, has_tenon, y, f, p, order, c, g):
             _tenon_slacks(ry, degree, weight, up_rate, p, c, g)
         g[FORWARD, 0] = g[BACKWARD, 0] = OFF
     else:
-        # the two limits of friction add up to twice mu_s N
+        # N > 0 follows from the two friction guards, whose sum is 2 mu_s N
         g[LIFT, 0] = OFF
     freeze_states(c, SPEED, WORK)
     freeze_states(c, FRICTION, y.size)

@@ -1,4 +1,4 @@
-"""One run: through the record, and on over still ground until the body rests, has fallen, or time is up."""
+"""Single full-response run: record, then ground at rest until the body rests, overturns or the time limit is reached."""
 
 from __future__ import annotations
 
@@ -16,51 +16,51 @@ from seisblock.models.respond.params import Initial, RespondParams
 from seisblock.records import Motion
 
 REST_GROUND_DT = 0.01
-"""Longest sampling interval of the still ground after the record, s: only the longest step depends on it."""
+"""Longest sampling interval of the ground at rest after the record, s; it limits the step only."""
 
 MAX_SETTLING = 3600.0
-"""Longest time after the record that is followed, s."""
+"""Longest simulated time after the record, s."""
 
 
 def check_settling(settle_s: float) -> None:
-    """Refuse a time to settle that is negative, endless or no number."""
+    """Raise ParameterError unless `settle_s` lies between 0 and ``MAX_SETTLING``."""
     if not 0.0 <= settle_s <= MAX_SETTLING:
         raise ParameterError(
-            "the time to settle after the record must lie between 0 and {most:g} s, found {found:g} s",
-            most=MAX_SETTLING,
+            "the settling time after the record must lie between 0 and {limit:g} s, found {found:g} s",
+            limit=MAX_SETTLING,
             found=settle_s,
         )
 
 
 @functools.lru_cache(maxsize=4)
 def zero_motion(settle_s: float) -> Motion:
-    """Return ground that does not move for `settle_s` seconds, as a motion."""
+    """Return a motion with zero acceleration of `settle_s` seconds."""
     samples = max(math.ceil(settle_s / REST_GROUND_DT - 1e-9), 1)
     return Motion(np.zeros((3, samples + 1)), settle_s / samples, name="still")
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What was followed.
+    """Trajectories of a run.
 
     Parameters
     ----------
     record_part : Trajectory
-        Through the record.
-    after : Trajectory or None
-        On still ground, when there was something left to happen.
+        Response during the record.
+    free_part : Trajectory or None
+        Response on ground at rest after the record; None if the motion had ended.
     duration_s : float
-        Length of the record.
+        Duration of the record.
     """
 
     record_part: Trajectory
-    after: Trajectory | None
+    free_part: Trajectory | None
     duration_s: float
 
     @property
     def last(self) -> Trajectory:
-        """The trajectory in which the run ends."""
-        return self.after or self.record_part
+        """Last trajectory of the run."""
+        return self.free_part or self.record_part
 
     @property
     def final(self) -> FloatArray:
@@ -74,47 +74,48 @@ class Run:
 
     @property
     def end_s(self) -> float:
-        """When the run ends, s after the first sample."""
-        return self.record_part.end_time if self.after is None else self.duration_s + self.after.end_time
+        """End of the run, s after the first sample."""
+        return self.record_part.end_time if self.free_part is None else self.duration_s + self.free_part.end_time
 
     @property
     def ends_at_rest(self) -> bool:
-        """Whether it ends at rest."""
+        """True if the run ends at rest."""
         return self.mode == constants.SETTLED or (self.mode >= 0 and self.mode % constants.TENON_OFFSET == constants.REST)
 
     def extrema(self, state: int) -> tuple[float, float]:
-        """Return the highest and the lowest value of a tracked state."""
-        tables = [part.extrema[state] for part in (self.record_part, self.after) if part is not None]
+        """Return maximum and minimum of a tracked state."""
+        tables = [part.extrema[state] for part in (self.record_part, self.free_part) if part is not None]
         return max(float(table[0]) for table in tables), min(float(table[2]) for table in tables)
 
     @functools.cached_property
     def events(self) -> EventLog:
-        """Every event; times in s after the first sample."""
-        return self.record_part.events if self.after is None else self.record_part.events + self.after.events.shift_time(0, self.duration_s)
+        """All events; times in s after the first sample."""
+        return (
+            self.record_part.events
+            if self.free_part is None
+            else self.record_part.events + self.free_part.events.shift_time(0, self.duration_s)
+        )
 
     def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
-        """Return times, s after the first sample, states and modes, at samples and both limits of every event."""
+        """Return times (s after the first sample), states and modes at samples and at both limits of every event."""
         time, states, modes = self.record_part.table()
-        if self.after is None:
+        if self.free_part is None:
             return time, states, modes
-        free_time, free_states, free_modes = self.after.table()
+        free_time, free_states, free_modes = self.free_part.table()
         return np.append(time, self.duration_s + free_time), np.concatenate([states, free_states]), np.append(modes, free_modes)
 
     def interpolate(self, values: FloatArray) -> FloatArray:
         """Return a sampled input at the times of :meth:`table`, zero after the record."""
         record_values = self.record_part.interpolate(values)
-        if self.after is None:
+        if self.free_part is None:
             return record_values
-        return np.append(record_values, np.zeros(self.after.table()[0].size))
+        return np.append(record_values, np.zeros(self.free_part.table()[0].size))
 
 
 def run(
     params: RespondParams, motion: Motion, gains: tuple[float, float, float], initial: Initial, settle_s: float, *, keep_path: bool = True
 ) -> Run:
-    """Follow a body through a motion and to its rest.
-
-    `keep_path` says whether samples and events are wanted, or the end alone.
-    """
+    """Solve one run through a motion and up to rest; without `keep_path` samples and events are discarded."""
     duration = (motion.samples - 1) * motion.dt
     record_part = integrate(
         params.model,
@@ -144,5 +145,5 @@ def run(
 
 
 def is_moving(mode: int) -> bool:
-    """Whether a body that the record leaves in this mode has not come to its end."""
+    """Return whether a body in this mode at the end of the record is still in motion."""
     return mode >= 0 and mode % constants.TENON_OFFSET != constants.REST

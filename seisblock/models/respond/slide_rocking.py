@@ -1,7 +1,7 @@
-"""Slide-rock: a body that turns about a corner which slides, as power series in time; see :mod:`seisblock.models.respond.rocking`.
+"""Slide-rocking: rotation about a sliding corner, as power series in time; see :mod:`seisblock.models.respond.rocking`.
 
-N holds theta'' and theta'' holds N. At each order of the series the pair is solved for N, whose factor is Painleve's
-P = 1 + r_x (r_x + s mu r_y)/k^2 at the start of the step, so neither P nor a quotient is needed as a series (derived here;
+N depends on theta'' and theta'' on N. At each order of the series the pair is solved for N, whose factor is Painleve's
+P = 1 + r_x (r_x + s mu r_y)/k^2 at the start of the step; neither P nor a quotient is needed as a series (derived here;
 [GenotBrogliato1999]_).
 """
 
@@ -46,7 +46,7 @@ from seisblock.models.respond.rocking import (
 
 @kernel(CORNER_SERIES)
 def slide_rock_series(right, s, y, f, p, order, c, g):
-    """Write rocking about a corner that slides towards `s` ([ShentonJones1991]_, [GenotBrogliato1999]_)."""
+    """Write the series of rocking about a corner that slides in direction `s` ([ShentonJones1991]_, [GenotBrogliato1999]_)."""
     side = 1.0 if right else -1.0
     base = y.size
     rx, ry, force, speed = base + RX, base + RY, base + NORMAL, base + TANGENT
@@ -98,7 +98,7 @@ def slide_rock_series(right, s, y, f, p, order, c, g):
         c[THETA, k + 1] = c[OMEGA, k] * share
         c[rx, k + 1] = ry_omega * share
         c[ry, k + 1] = -rx_omega * share
-        # N from both equations, all known terms gathered
+        # order k of N, from both equations with the known terms of lower order collected
         rising = 0.0
         pressing = 0.0
         for j in range(1, k + 1):

@@ -1,4 +1,4 @@
-"""What a free-standing body does under a motion, whichever comes: from a body, a motion and friction to a response."""
+"""Full-response solver of a free-standing body: `solve_respond` and the validated parameters of a run."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.records._validation import Gain, validate_inputs
 from seisblock.references import papers
 
 PERTURBATION = 1e-6
-"""Change of the input, as a share, that must not change a verdict."""
+"""Relative change of the input for the sensitivity test."""
 
 
 def solve_respond(
@@ -40,40 +40,41 @@ def solve_respond(
     further_points: Sequence[tuple[float, float]] = (),
     sensitivity: bool = True,
 ) -> Response[RespondOutcome]:
-    """Return what a free-standing rigid body does under a motion: rests, slides, rocks, slides while rocking, flies, falls.
+    """Solve the full response of a free-standing rigid block: rest, sliding, rocking, slide-rocking, flight, overturning.
 
-    Plane motion of a rigid body on rigid ground with Coulomb friction, every change of mode located exactly; see
-    :mod:`seisblock.models.respond.model` for the model. After the record's last sample the ground is still, until the body rests.
+    Plane motion of a rigid body on rigid ground with Coulomb friction and exactly located mode changes; the model is described in
+    :mod:`seisblock.models.respond.model`. After the record's last sample the ground is at rest and the solution continues until the
+    body rests.
 
     Parameters
     ----------
     block : Block or TwoLayerBlock
-        The latter as one rigid body.
+        A two-layer block is treated as one rigid body.
     motion : Motion
         Ground acceleration, m/s^2.
     mu : float
         Static friction coefficient, 0 or more.
     mu_kinetic : float or None
-        Kinetic friction coefficient, 0 to `mu`, also inside impacts; None: as `mu`.
+        Kinetic friction coefficient, 0 to `mu`, also inside impacts; None: equal to `mu`.
     restitution : float
-        Poisson's, of an impact at one corner, in [0, 1).
+        Poisson's coefficient of restitution of an impact at one corner, in [0, 1).
     rocking_restitution : float or None
-        Angular velocity after over before when the other corner comes down, in [0, 1], in place of the impact law, where energy allows
-        it; landings keep `restitution`.
+        Ratio of angular velocities in a rocking impact, in [0, 1], instead of the impact law, reduced where it would create energy;
+        landings use `restitution`.
     vertical : bool, float or None
-        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
     gravity : float, m/s^2
     initial : six floats or None
-        x and y of the centre of gravity relative to the ground, m, lean, rad, and their rates at the first sample; None: upright, at rest.
+        x and y of the centre of gravity relative to the ground, m, tilt, rad, and their rates at the first sample; None: upright, at rest.
     settle_s : float, s
-        How long the body is followed after the record.
+        Longest simulated time after the record.
     tenon : float, m
-        Depth to which tenons hold the feet against sliding, until in flight the lower one has risen by as much; 0: none. Ours. A tenon
-        pressed aside binds: it keeps a foot down that the ground no longer presses, as long as that would not rise by itself.
+        Depth of the tenons that hold the feet against sliding until, in flight, the lower foot has risen by this depth; 0: none.
+        Extension of this package. A tenon under lateral load also holds a foot down as long as the released foot would not rise.
     further_points : sequence of (float, float), m
-        Points of the body, to +x of the centre of gravity and above it, that end the motion when they meet the ground.
+        Points of the body, to +x of the centre of gravity and above it, that end the motion on contact with the ground.
     sensitivity : bool
-        Whether to look, by two more runs, if a change of the input by 1e-6 changes the verdict.
+        Test with two more runs if a change of the input by 1e-6 changes the verdict.
 
     Returns
     -------
@@ -89,11 +90,11 @@ def solve_respond(
     BodyError
         If the centre of gravity does not lie above the base.
     KindError
-        If body or motion is something else.
+        If `block` or `motion` has the wrong type.
     ComponentError
-        If the vertical motion is asked of a record without one.
+        If `vertical` is on for a record without a vertical component.
     SolverError
-        If the motion overflows.
+        If the solution overflows.
 
     References
     ----------
@@ -164,7 +165,7 @@ def respond_params(
     tenon: float = 0.0,
     further_points: Sequence[tuple[float, float]] = (),
 ) -> RespondParams:
-    """Return all that determines a run but the motion, checked, as :func:`respond_many` takes it.
+    """Return the validated parameters of a run, for :func:`~seisblock.models.respond.batch.respond_many`.
 
     Parameters
     ----------
@@ -198,7 +199,7 @@ def respond_params(
 
 
 def verdict(result: Run) -> tuple[bool, bool]:
-    """Return whether the body has fallen, and whether to +x."""
+    """Return (overturned, overturned to +x)."""
     is_overturned = result.mode == constants.OVERTURNED
     return is_overturned, is_overturned and bool(result.final[constants.THETA] > 0.0)
 
@@ -206,7 +207,7 @@ def verdict(result: Run) -> tuple[bool, bool]:
 def is_sensitive(
     result: Run, params: RespondParams, motion: Motion, factors: tuple[float, float, float], initial: Initial, settle_s: float
 ) -> bool:
-    """Whether 1 - 1e-6 or 1 + 1e-6 times the motion leads to another verdict."""
+    """Return whether a factor of 1 - 1e-6 or 1 + 1e-6 on the motion changes the verdict."""
     for factor in (1.0 - PERTURBATION, 1.0 + PERTURBATION):
         gain_along, gain_across, gain_up = (factor * gain for gain in factors)
         if verdict(run(params, motion, (gain_along, gain_across, gain_up), initial, settle_s, keep_path=False)) != verdict(result):
@@ -215,7 +216,7 @@ def is_sensitive(
 
 
 def _curves(result: Run, params: RespondParams, motion: Motion, factors: tuple[float, float, float]) -> Histories:
-    """Return the curves on the run's own time axis, both limits at each event."""
+    """Return the time histories at samples and at both limits of each event."""
     time, states, modes = result.table()
     kinematics = curves(params.rigid_body, states, motion_modes(result, modes))
     speed, acceleration = "m/s", "m/s^2"

@@ -1,4 +1,4 @@
-"""Rocking and overturning of one rigid block."""
+"""Rocking and overturning of a rigid block about its lower corners."""
 
 import lazy_loader
 

@@ -1,8 +1,8 @@
-"""One sample of rocking as a power series, written out term by term: no loops, so that it stays in registers, or in lanes of them.
+"""Taylor coefficients of the rocking equation over one sample, unrolled term by term.
 
-With psi = s alpha - theta the equation theta'' = -lever [(g + a_v) sin(psi) + a cos(psi)] ([Housner1963]_, see the model's head) gives
-the coefficients of omega = theta' from those of sin(psi) and cos(psi), and these from (sin psi)' = -omega cos(psi) and
-(cos psi)' = omega sin(psi) (derived here).
+With psi = s alpha - theta the equation theta'' = -lever [(g + a_v) sin(psi) + a cos(psi)] ([Housner1963]_, see ``model``) gives the
+coefficients of omega = theta' from those of sin(psi) and cos(psi), and these from (sin psi)' = -omega cos(psi) and
+(cos psi)' = omega sin(psi) (derived here). Without loops the coefficients stay in scalar or SIMD registers.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ THETA, OMEGA, SINE, COSINE = range(4)
 """Rows of the coefficients: the two states, then scratch."""
 
 TERM_TOLERANCE, PREVIOUS_TERM_TOLERANCE = 3e-17, 1e-12
-"""A series ends where a term falls below the first share of the state and the term before it was below the second."""
+"""Truncation of a series: a term below the first value and the previous term below the second, relative to the state."""
 
 LAST_TERM_TOLERANCE = 3e-15
-"""Below this share of the state the last term written out is followed by round-off: each term is a hundredth of the one before it."""
+"""Last unrolled term over the state below which the remainder is round-off (terms decrease by about 100 each)."""
 
 TERMS = 10
-"""Terms of omega: at 100 Hz those that follow are below round-off for blocks from 0.1 m on."""
+"""Unrolled terms of omega: at 100 Hz further terms are below round-off for blocks of 0.1 m and more."""
 
 QUARTER_PI, HALF_PI, HALF_PI_RESIDUAL = 0.7853981633974483, 1.5707963267948966, 6.123233995736766e-17
-"""Quarter and half of pi, and what is left of the half."""
+"""pi/4, pi/2, and pi/2 minus its double-precision value."""
 
 S3, S5, S7, S9, S11, S13, S15 = -1 / 6, 1 / 120, -1 / 5040, 1 / 362880, -1 / 39916800, 1 / 6227020800, -1 / 1307674368000
 C4, C6, C8, C10, C12, C14, C16 = 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800, 1 / 479001600, -1 / 87178291200, 1 / 20922789888000
@@ -33,13 +33,13 @@ C4, C6, C8, C10, C12, C14, C16 = 1 / 24, -1 / 720, 1 / 40320, -1 / 3628800, 1 / 
 
 @kernel(_t.UniTuple(_t.float64, 2)(_t.float64), inline=True)
 def sine_cosine(x):
-    """Return sine and cosine of an angle within a right angle either way, to an ulp: Taylor's series up to an eighth of a turn."""
+    """Return sine and cosine of an angle in [-pi/2, pi/2] to one ulp, by Taylor series up to pi/4."""
     size = abs(x)
     is_steep = size > QUARTER_PI
     r = (HALF_PI - size) + HALF_PI_RESIDUAL if is_steep else size
     z = r * r
     zz = z * z
-    # in pairs, which do not wait for each other
+    # sums in independent pairs (Estrin's scheme) shorten the dependency chain
     odd = (S3 + z * S5) + zz * ((S7 + z * S9) + zz * ((S11 + z * S13) + zz * S15))
     even = (C4 + z * C6) + zz * ((C8 + z * C10) + zz * ((C12 + z * C14) + zz * C16))
     odd = r + r * z * odd
@@ -53,20 +53,20 @@ THIRD, FIFTH, SIXTH, SEVENTH, NINTH = 1.0 / 3.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0
 
 @kernel(_t.UniTuple(_t.float64, TERMS - 1)(*[_t.float64] * 9), inline=True)
 def omega_coefficients(s0, c0, w0, w1, lever, g0, g1, a0, a1):
-    """Return the coefficients of omega from the third on.
+    """Return the coefficients of omega of orders 2 to 10.
 
     Parameters
     ----------
     s0, c0 : float
-        sin(psi) and cos(psi).
+        sin(psi) and cos(psi) at the start of the sample.
     w0, w1 : float, rad/s and rad/s^2
-        The first two.
+        Coefficients of orders 0 and 1.
     lever : float, 1/m
     g0, g1, a0, a1 : float, m/s^2 and m/s^3
-        Gravity with the vertical motion, and the horizontal motion: value and slope.
+        Gravity plus vertical acceleration, and horizontal acceleration: value and slope.
     """
     g0, g1, a0, a1 = -lever * g0, -lever * g1, -lever * a0, -lever * a1
-    # in each sum the newest terms come last: nothing waits for them before it must
+    # the newest terms come last in each sum, so that earlier products do not wait for them
     s1, c1 = -w0 * c0, w0 * s0
     w2 = ((g1 * s0 + a1 * c0) + (g0 * s1 + a0 * c1)) * 0.5
     s2, c2 = -(w0 * c1 + w1 * c0) * 0.5, (w0 * s1 + w1 * s0) * 0.5
@@ -94,7 +94,7 @@ def omega_coefficients(s0, c0, w0, w1, lever, g0, g1, a0, a1):
 
 @kernel(_t.Tuple((_t.float64, _t.boolean))(*[_t.float64] * 12), inline=True)
 def lean_bound(h, w0, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10):
-    """Return how far the lean may move within a step at most, rad, and whether these terms of omega are enough for it."""
+    """Return a bound of the change of tilt within a step, rad, and whether the unrolled terms of omega have converged."""
     hh = h * h
     power = hh * hh * hh * hh
     previous_term, last_term = power * (abs(w9) * h), power * (abs(w10) * hh)
@@ -105,9 +105,9 @@ def lean_bound(h, w0, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10):
 
 @kernel(_t.int64(MATRIX, _t.int64, _t.boolean, *[_t.float64] * 6))
 def expand_series(c, order, linear, dt, lever, g0, g1, a0, a1):
-    """Write lean, angular velocity, sine and cosine up to any order, with the linear option; return the degree at which it converges.
+    """Write the series of tilt, angular velocity, sine and cosine in a loop up to `order`; return the degree of convergence.
 
-    The first terms stand in `c` already: of the lean two, of the angular velocity two, of sine and cosine one.
+    `c` must hold the first two coefficients of tilt and angular velocity and the first of sine and cosine.
     """
     omega = c[OMEGA, 0]
     power = dt

@@ -1,7 +1,7 @@
-"""Contact forces of a rocking block: when pure rocking is the wrong model, because it would slip or leave the ground.
+"""Contact forces of a rocking block: friction demand and loss of contact, the limits of the pure rocking model.
 
-Forces are computed at every row of a trajectory, then between the rows that come nearest to the extreme. There the lean is the quintic that
-has its angle, angular velocity and angular acceleration at both ends, which is closer than 1e-9 of the lean at 100 Hz.
+Forces are evaluated at every row of a trajectory, then inside the intervals next to the extreme rows. There the tilt is interpolated by the
+quintic Hermite polynomial of angle, angular velocity and angular acceleration, with an error below 1e-9 of the tilt at 100 Hz.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ from seisblock.models.rock.params import RockParams
 from seisblock.records import Motion
 
 INNER_POINTS = np.linspace(0.0, 1.0, 9)
-"""Where forces are looked at between two rows, as shares of the interval; both ends are among them."""
+"""Evaluation points between two rows, as fractions of the interval, both ends included."""
 
 MAX_ROWS = 200
-"""Between so many rows at most, those of the largest demand and those of the least normal force."""
+"""Largest number of refined rows of each kind: largest friction demand, smallest normal force."""
 
 
 @dataclass(frozen=True)
 class FrictionDemand:
-    """What the ground must do for the block to rock and nothing else.
+    """Friction coefficient required for pure rocking, and loss of contact.
 
     Parameters
     ----------
     friction : float
-        Largest abs(H/N); infinite when contact is lost.
+        Largest abs(H/N); infinite if contact is lost.
     friction_s : float or None
-        When.
+        Time of the largest demand.
     contact_lost_s : float or None
-        First time at which N <= 0.
+        First time with N <= 0.
     """
 
     friction: float
@@ -48,7 +48,7 @@ class FrictionDemand:
 
 @dataclass(frozen=True, eq=False)
 class _TrajectoryRows:
-    """Rows of a trajectory, by their numbers, with the ground motion, and the block as a table by mode."""
+    """Rows of a trajectory, (n,) each: row number, time, state, ground motion, mode, and block properties of the mode's corner."""
 
     number: IntArray
     time: FloatArray
@@ -63,12 +63,12 @@ class _TrajectoryRows:
     linear: bool
 
     def select(self, index: IntArray | tuple[IntArray, None]) -> _TrajectoryRows:
-        """Return some of the rows."""
+        """Return a selection of rows."""
         arrays: dict[str, Any] = {key: values[index] for key, values in vars(self).items() if isinstance(values, np.ndarray)}
         return replace(self, **arrays)
 
     def select_extremes(self) -> _TrajectoryRows:
-        """Return the rows that come nearest to slipping and to leaving the ground, with their neighbours, and where rocking shows."""
+        """Return the rows nearest to slip and to loss of contact with their neighbours, the first rocking row, and both ends."""
         if self.time.size <= MAX_ROWS:
             return self
         ratio, normal = self.ratio()
@@ -83,12 +83,12 @@ class _TrajectoryRows:
             return np.where(normal > 0.0, np.abs(horizontal) / np.maximum(normal, 1e-300), math.inf), normal
 
     def angular_acceleration(self, theta: FloatArray, push: FloatArray, weight: FloatArray) -> FloatArray:
-        """Return the angular acceleration at other leans and ground accelerations, rad/s^2."""
+        """Return the angular acceleration at the given tilts and ground accelerations, rad/s^2."""
         psi = self.lean - theta
         return -self.lever * (weight * (psi if self.linear else np.sin(psi)) + push * (1.0 if self.linear else np.cos(psi)))
 
     def forces(self, theta: FloatArray, omega: FloatArray, push: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return H/m and N/m at other states: psi = s alpha - theta turns R into the horizontal and the vertical (derived here)."""
+        """Return H/m and N/m at the given states; psi = s alpha - theta is the angle of R to the vertical (derived here)."""
         psi = self.lean - theta
         sine, cosine = np.sin(psi), np.cos(psi)
         alpha = -self.lever * (weight * (psi if self.linear else sine) + push * (1.0 if self.linear else cosine))
@@ -99,9 +99,9 @@ class _TrajectoryRows:
 
 
 def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, *, until_s: float) -> FrictionDemand:
-    """Return the largest friction demand, and the loss of contact, before `until_s` (s after sample 0); impacts excepted.
+    """Return the largest friction demand and the loss of contact before `until_s` (s after sample 0), impacts excluded.
 
-    The block's acceleration relative to the ground is that of a point at R from the corner in contact (derived here): with
+    The centre of gravity moves relative to the ground as a point at distance R from the corner in contact (derived here): with
     psi = s alpha - theta, H/m = a + R (theta'' cos(psi) + theta'^2 sin(psi)), N/m = g + a_v + R (theta'' sin(psi) - theta'^2 cos(psi)).
     """
     pieces = list(_row_chunks(params, motion, trajectory, until_s))
@@ -115,6 +115,7 @@ def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, 
     extremes = _extreme_rows(ratio, normal)
     is_near = np.zeros(rows.time.size, dtype=bool)
     is_near[extremes] = is_near[extremes - 1] = True
+    # refine only between rows of one mode, of positive length, that are neighbours in the full trajectory
     starts = np.flatnonzero(is_near[:-1])
     starts = starts[
         (rows.mode[starts] == rows.mode[starts + 1])
@@ -128,6 +129,7 @@ def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, 
         row, column = divmod(int(lost_contact[0]), INNER_POINTS.size)
         time = times[row, column]
         if column > 0:
+            # zero of N by linear interpolation
             high, low = normal[row, column - 1], normal[row, column]
             time -= (time - times[row, column - 1]) * low / (low - high)
         first = min(first, float(time))
@@ -141,13 +143,13 @@ def friction_demand(params: RockParams, motion: Motion, trajectory: Trajectory, 
 
 
 def _extreme_rows(ratio: FloatArray, normal: FloatArray) -> IntArray:
-    """Return the rows of the largest demand and those of the least normal force."""
+    """Return the rows of the largest friction demand and those of the smallest normal force."""
     count = min(MAX_ROWS, ratio.size)
     return np.concatenate([np.argpartition(-ratio, count - 1)[:count], np.argpartition(normal, count - 1)[:count]])
 
 
 def _row_chunks(params: RockParams, motion: Motion, trajectory: Trajectory, until_s: float) -> Iterator[_TrajectoryRows]:
-    """Yield the rows up to a time; of a path in several pieces those that may matter, so that no more than a piece is held."""
+    """Yield the rows before `until_s`, one chunk per path; with several paths only extreme rows, which bounds the memory."""
     chunk: _TrajectoryRows | None = None
     first = count = 0
     for path in trajectory.iter_paths():
@@ -160,14 +162,14 @@ def _row_chunks(params: RockParams, motion: Motion, trajectory: Trajectory, unti
 
 
 def _concatenate(pieces: Sequence[_TrajectoryRows]) -> _TrajectoryRows:
-    """Return the rows of some pieces that follow each other."""
+    """Return consecutive chunks of rows as one."""
     names = [key for key, values in vars(pieces[0]).items() if isinstance(values, np.ndarray)]
     arrays: dict[str, Any] = {key: np.concatenate([getattr(piece, key) for piece in pieces]) for key in names}
     return replace(pieces[0], **arrays)
 
 
 def _rows_until(params: RockParams, motion: Motion, path: Path, until_s: float, offset: int) -> tuple[_TrajectoryRows, int]:
-    """Return the rows of a path up to a time, after so many, that may matter, with what the forces need; and how many there are in all."""
+    """Return the relevant rows of a path before `until_s`, numbered from `offset`, and the total number of rows of the path."""
     size = path.modes.size
     if math.isfinite(until_s):
         size = int(np.searchsorted(path.dt * np.arange(path.first, path.first + size), until_s, side="right"))
@@ -200,7 +202,7 @@ def _rows_until(params: RockParams, motion: Motion, path: Path, until_s: float, 
 
 
 def _relevant_samples(push: FloatArray, weight: FloatArray, modes: IntArray) -> IntArray:
-    """Return which samples have to be looked at: of those at rest, where forces are extreme, the one of the largest demand."""
+    """Return the samples to evaluate: all samples in motion, and of those at rest the one with the largest friction demand."""
     moving = modes != REST
     if moving.all() or not (weight > 0.0).all():
         return np.arange(modes.size)
@@ -211,7 +213,7 @@ def _relevant_samples(push: FloatArray, weight: FloatArray, modes: IntArray) -> 
 
 
 def _inner_forces(rows: _TrajectoryRows, starts: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return times, H/m and N/m at the inner points of some intervals, (k, 9) each."""
+    """Return times, H/m and N/m at the inner points of k intervals, (k, 9) each."""
     first, last = rows.select((starts, None)), rows.select((starts + 1, None))
     step = last.time - first.time
     u = INNER_POINTS[None, :]
@@ -227,7 +229,7 @@ def _inner_forces(rows: _TrajectoryRows, starts: IntArray) -> tuple[FloatArray, 
 def _quintic(
     first: tuple[FloatArray, FloatArray, FloatArray], last: tuple[FloatArray, FloatArray, FloatArray], u: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return value and derivative at `u` of the quintic with value, first and second derivative given at 0 and 1."""
+    """Return value and derivative at `u` of the quintic Hermite polynomial with (value, first, second derivative) at 0 and 1."""
     y0, v0, a0 = first
     y1, v1, a1 = last
     rise = y1 - y0 - v0 - a0 / 2
@@ -242,7 +244,7 @@ def _quintic(
 
 
 def _refine_peak(ratio: FloatArray, times: FloatArray, column: int) -> FrictionDemand:
-    """Return the maximum of a curve from its largest value and the parabola through its neighbours."""
+    """Return the maximum of the parabola through the largest value and its neighbours."""
     best, time = float(ratio[column]), float(times[column])
     if 0 < column < ratio.size - 1:
         left_value, peak_value, right_value = ratio[column - 1 : column + 2]

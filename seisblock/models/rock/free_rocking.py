@@ -1,4 +1,10 @@
-"""When a block that nothing shakes any more passes alpha and overturns: the legs of its free rocking, timed by quadrature."""
+"""Free rocking after the end of the shaking: outcome from the energy of each swing, times by quadrature.
+
+On ground at rest the tilt phi >= 0 about either corner obeys phi'' = -V'(phi) with V = p^2 (cos(alpha - phi) - cos(alpha)), or
+p^2 (alpha phi - phi^2/2) in the linear option; the potential barrier lies at phi = alpha (derived here). An impact multiplies phi' by the
+restitution, so that a few swings decide between rest and overturning. The duration of a swing, needed only for the time of
+overturning, is an integral over the tilt.
+"""
 
 from __future__ import annotations
 
@@ -7,29 +13,184 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock._jit import kernel, types
 from seisblock.bodies.block import LEFT, RIGHT
 from seisblock.core.errors import SolverError
-from seisblock.models.rock.free_rocking_kernels import ENDLESS, STANDS, potential_rise, trace_free_rocking
-from seisblock.models.rock.model import parameters
+from seisblock.dynamics.array_types import INTEGERS, MATRIX, VECTOR
+from seisblock.models.rock.model import (
+    ALPHA_RIGHT,
+    GRAVITY,
+    HALF_PI,
+    IS_LINEAR,
+    LEVER_RIGHT,
+    OMEGA,
+    OVERTURNED,
+    REST,
+    RESTITUTION_RIGHT,
+    THETA,
+    parameters,
+)
 from seisblock.models.rock.params import RockParams
 
+_t = types()
+
+MAX_SWINGS = 10_000
+"""Swings after which free rocking counts as endless (restitution of 1)."""
+
+MAX_LEGS = 2 * MAX_SWINGS + 2
+
+STANDS, TO_THE_RIGHT, TO_THE_LEFT, ENDLESS = 0, 1, -1, 2
+"""Ends of free rocking."""
+
+CORNER, FIRST, LAST, SPEED = range(4)
+"""Columns of a leg, a monotonic part of a swing: corner, first and last tilt, rad, initial angular velocity, rad/s."""
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.boolean, _t.float64, _t.float64), inline=True)
+def potential_rise(alpha, p_squared, linear, low, step):
+    """Return V(low + step) - V(low), 1/s^2, in product form, without cancellation for a small step (derived here)."""
+    middle = alpha - low - step / 2
+    if linear:
+        return p_squared * middle * step
+    return 2 * p_squared * math.sin(middle) * math.sin(step / 2)
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.boolean, _t.float64), inline=True)
+def _turning_point(alpha, p_squared, linear, energy):
+    """Return the peak tilt below alpha of a swing that starts upright with kinetic energy `energy`, rad."""
+    share = min(energy, potential_rise(alpha, p_squared, linear, 0.0, alpha)) / p_squared
+    if linear:
+        return share * 2 / (alpha + math.sqrt(max(alpha * alpha - 2 * share, 0.0)))
+    return alpha - math.acos(min(math.cos(alpha) + share, 1.0))
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.boolean, _t.float64, _t.float64), inline=True)
+def _returning_point(alpha, p_squared, linear, phi, speed):
+    """Return the smallest tilt of a block beyond alpha that moves back too slowly to return, rad."""
+    if linear:
+        return alpha + math.sqrt(max((phi - alpha) * (phi - alpha) - speed * speed / p_squared, 0.0))
+    return alpha + math.acos(min(math.cos(alpha - phi) + 0.5 * speed * speed / p_squared, 1.0))
+
+
+@kernel(_t.int64(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, _t.float64), inline=True)
+def _add_leg(legs, count, k, first, last, speed):
+    """Write a leg if `legs` has space for it; return the new number of legs."""
+    if count < legs.shape[0]:
+        legs[count, CORNER] = k
+        legs[count, FIRST] = first
+        legs[count, LAST] = last
+        legs[count, SPEED] = speed
+    return count + 1
+
+
+@kernel(_t.UniTuple(_t.int64, 2)(VECTOR, _t.float64, _t.float64, VECTOR, MATRIX))
+def trace_free_rocking(p, theta, omega, max_leans, legs):
+    """Return the end of free rocking from a tilt and an angular velocity, and the number of legs ([Housner1963]_).
+
+    Parameters
+    ----------
+    p : (11,) array
+        Parameters of :mod:`seisblock.models.rock.model`.
+    theta, omega : float, rad, rad/s
+        Positive to +x.
+    max_leans : (2,) array, rad
+        Output: peak tilt to +x and to -x, both positive; pi/2 for overturning.
+    legs : (n, 4) array
+        Output: the first n legs, columns ``CORNER`` to ``SPEED``; the last one ends at pi/2, or at the last impact with enough energy
+        to matter.
+    """
+    linear = p[IS_LINEAR] != 0.0
+    k = RIGHT if theta > 0.0 or (theta == 0.0 and omega >= 0.0) else LEFT
+    phi, speed = abs(theta), omega if k == RIGHT else -omega
+    max_leans[RIGHT] = max_leans[LEFT] = 0.0
+    right, left = p[ALPHA_RIGHT], p[ALPHA_RIGHT + 1]
+    energy_threshold = min(
+        potential_rise(right, p[GRAVITY] * p[LEVER_RIGHT], linear, 0.0, right),
+        potential_rise(left, p[GRAVITY] * p[LEVER_RIGHT + 1], linear, 0.0, left),
+    )
+    count = 0
+    for _ in range(MAX_SWINGS):
+        alpha, p_squared = p[ALPHA_RIGHT + k], p[GRAVITY] * p[LEVER_RIGHT + k]
+        max_leans[k] = max(max_leans[k], phi)
+        # kinetic energy above the barrier at alpha decides
+        surplus = 0.5 * speed * speed - potential_rise(alpha, p_squared, linear, phi, alpha - phi)
+        overturns = speed > 0.0 and surplus > 0.0
+        if overturns or (phi > alpha and (surplus <= 0.0 or speed >= 0.0)):
+            max_leans[k] = HALF_PI
+            if phi < alpha:
+                count = _add_leg(legs, count, k, phi, alpha, speed)
+                count = _add_leg(legs, count, k, alpha, HALF_PI, math.sqrt(2.0 * surplus))
+            elif speed < 0.0:
+                turning_point = _returning_point(alpha, p_squared, linear, phi, speed)
+                count = _add_leg(legs, count, k, turning_point, phi, 0.0)
+                count = _add_leg(legs, count, k, turning_point, HALF_PI, 0.0)
+            else:
+                count = _add_leg(legs, count, k, phi, HALF_PI, speed)
+            return TO_THE_RIGHT if k == RIGHT else TO_THE_LEFT, count
+        energy = 0.5 * speed * speed + potential_rise(alpha, p_squared, linear, 0.0, phi)
+        if speed > 0.0:
+            peak_lean = _turning_point(alpha, p_squared, linear, energy)
+            max_leans[k] = max(max_leans[k], peak_lean)
+            count = _add_leg(legs, count, k, peak_lean, phi, 0.0)
+            count = _add_leg(legs, count, k, peak_lean, 0.0, 0.0)
+        elif phi > 0.0:
+            count = _add_leg(legs, count, k, phi, 0.0, -speed)
+        k = 1 - k
+        phi, speed = 0.0, p[RESTITUTION_RIGHT + k] * math.sqrt(2 * max(energy, 0.0))
+        if 0.5 * speed * speed <= energy_threshold:
+            # below the lower barrier: no overturning any more, only the peaks of the next swing to either side remain
+            for _ in range(2):
+                alpha, p_squared = p[ALPHA_RIGHT + k], p[GRAVITY] * p[LEVER_RIGHT + k]
+                max_leans[k] = max(max_leans[k], _turning_point(alpha, p_squared, linear, 0.5 * speed * speed))
+                k = 1 - k
+                speed *= p[RESTITUTION_RIGHT + k]
+            return STANDS, count
+    return ENDLESS, count
+
+
+@kernel(_t.void(MATRIX, MATRIX, INTEGERS, INTEGERS, MATRIX), allocates=True)
+def trace_free_rocking_batch(parameters, states, modes, endings, max_leans):
+    """Write the ends and peak tilts of many blocks at rest, overturned or rocking.
+
+    Parameters
+    ----------
+    parameters, states : (m, 11), (m, 2) arrays
+    modes : (m,) array of int
+        Modes of :mod:`seisblock.models.rock.model`.
+    endings : (m,) array of int
+        Output: ``STANDS`` to ``ENDLESS``.
+    max_leans : (m, 2) array, rad
+        Output as of :func:`trace_free_rocking`; unchanged for blocks that do not rock.
+    """
+    legs = np.empty((0, 4))
+    for row in range(modes.size):
+        theta = states[row, THETA]
+        if modes[row] == REST:
+            endings[row] = STANDS
+        elif modes[row] == OVERTURNED:
+            endings[row] = TO_THE_RIGHT if theta > 0.0 else TO_THE_LEFT
+        else:
+            endings[row], _ = trace_free_rocking(parameters[row], theta, states[row, OMEGA], max_leans[row], legs)
+
+
 INITIAL_LEGS = 64
-"""Room for so many legs suffices but for a restitution near 1."""
+"""Legs allocated at first; more are needed only for a restitution near 1."""
 
 
 @dataclass(frozen=True)
 class FreeRockingOutcome:
-    """How free rocking ends.
+    """Outcome of free rocking.
 
     Parameters
     ----------
     overturns : bool
     direction : int
-        +1 or -1 when it overturns, else 0.
+        +1 or -1 for overturning to +x or -x, else 0.
     max_leans : (float, float), rad
-        Largest lean to +x and to -x from now on, both positive; pi/2 when it overturns.
+        Peak tilt to +x and to -x, both positive; pi/2 for overturning.
     passes_alpha_s, overturns_s : float or None
-        Seconds from now; `passes_alpha_s` is 0 when alpha is passed already, and stays so.
+        Times from the start of free rocking at which alpha is exceeded for good and pi/2 is reached; `passes_alpha_s` is 0 if the block
+        starts beyond alpha and stays there.
     """
 
     overturns: bool
@@ -40,18 +201,18 @@ class FreeRockingOutcome:
 
 
 def free_rocking_outcome(params: RockParams, theta: float, omega: float) -> FreeRockingOutcome:
-    """Return the fate of a block that rocks freely from a lean and an angular velocity ([Housner1963]_).
+    """Return the outcome of free rocking from a tilt and an angular velocity ([Housner1963]_).
 
     Parameters
     ----------
-    params : Rocker
+    params : RockParams
     theta, omega : float, rad, rad/s
         Positive to +x.
 
     Raises
     ------
     SolverError
-        If a restitution of 1 makes it rock on for ever.
+        If the block rocks without end (restitution of 1).
     """
     p, max_leans, legs = parameters(params, 0.0), np.empty(2), np.empty((INITIAL_LEGS, 4))
     ending, count = trace_free_rocking(p, theta, omega, max_leans, legs)
@@ -63,19 +224,22 @@ def free_rocking_outcome(params: RockParams, theta: float, omega: float) -> Free
         legs = np.empty((count, 4))
         trace_free_rocking(p, theta, omega, max_leans, legs)
     times = [_leg_duration(params, *leg) for leg in legs[:count].tolist()]
-    # what begins at alpha or beyond it does not come back
+    # legs that start at alpha or beyond lead to overturning; the legs before them give the time of passing alpha
     swings = sum(first < params.alphas[int(corner)] for corner, first, _, _ in legs[:count].tolist())
     return FreeRockingOutcome(True, int(ending), leans, sum(times[:swings]), sum(times))
 
 
 def raise_if_endless(is_endless: bool) -> None:
-    """Refuse a block whose free rocking has no end."""
+    """Raise SolverError for a block whose free rocking has no end."""
     if is_endless:
-        raise SolverError("the block rocks on without end between two unequal corners: give a restitution below 1")
+        raise SolverError("endless free rocking about two unequal corners: `restitution` below 1 required")
 
 
 def _leg_duration(params: RockParams, corner: float, first: float, last: float, speed: float) -> float:
-    """Return how long a leg takes: from one lean to another without turning, s; `first` may be a turning point."""
+    """Return the duration of a leg, s; `first` may be a turning point (derived here).
+
+    The substitution phi = first + span u^2 removes the integrable singularity 1/phi' at a turning point.
+    """
     if first == last:
         return 0.0
     from scipy.integrate import quad
@@ -90,5 +254,5 @@ def _leg_duration(params: RockParams, corner: float, first: float, last: float, 
 
     share = (alpha - first) / span
     breaks = [math.sqrt(share)] if 0.0 < share < 1.0 else None
-    # full_output: at the very edge of the barrier the last digits are round-off, which quad would warn of
+    # full_output=1 silences quad's warning: next to the barrier the last digits are round-off
     return float(quad(slowness, 0.0, 1.0, epsabs=0.0, epsrel=1e-12, limit=400, points=breaks, full_output=1)[0])

@@ -1,25 +1,25 @@
-"""Rocking of a rigid block about its two lower corners, as modes, guards and power series for the engine.
+"""Hybrid model of a rigid block rocking about its two lower corners: modes, guards and power series for the engine.
 
 Assumptions
-    Plane motion; rigid block and rigid ground; pure rotation about the corner in contact (friction as large as needed, no loss of
-    contact); at an impact the angular velocity is multiplied by the restitution.
+    Plane motion; rigid block and rigid ground; pure rotation about the corner in contact (sufficient friction, no loss of contact); an
+    impact multiplies the angular velocity by the restitution.
 Sign
-    theta is positive when the block leans to +x, about its right corner; it then has s = +1, else s = -1.
+    theta is positive for a tilt to +x, about the right corner, with s = +1; s = -1 for a tilt to -x.
 Equation
     With psi = s alpha - theta, ground acceleration a (along +x) and a_v (up), and m R/I_O of the corner in contact
     ([Housner1963]_, with the vertical motion added to gravity)::
 
         theta'' = -(m R/I_O) [(g + a_v) sin(psi) + a cos(psi)]
 
-    The linear (slender) option puts psi for sin(psi) and 1 for cos(psi) ([Zhang2001]_ eqs. (4), (5)).
-Ground
-    a is the sum of the two horizontal rows, each times its gain: one along +x as it stands, or both for a motion that is turned.
+    The linear (slender) option replaces sin(psi) by psi and cos(psi) by 1 ([Zhang2001]_ eqs. (4), (5)).
+Ground motion
+    a is the sum of the two horizontal rows, each times its gain: one row along +x, or both for a rotated motion.
 Rest
-    The block stays while abs(a) < (g + a_v) tan(alpha) (alpha for tan(alpha) in the linear option). After an impact it comes to rest
-    when the acceleration would bring it back within ``REST_HOP`` = 1e-8 s, the accuracy claimed of all times: the impacts that are
-    left out would crowd into the next 1e-8/(1 - e) s, and no lean among them exceeds theta''/8 * (1e-8 s)^2, below 1e-15 rad.
+    The block rests while abs(a) < (g + a_v) tan(alpha) (alpha for tan(alpha) in the linear option). After an impact it comes to rest
+    if the next impact would follow within ``REST_HOP`` = 1e-8 s, the stated accuracy of all times: the neglected impacts fall within the
+    next 1e-8/(1 - e) s, with tilts of at most theta''/8 * (1e-8 s)^2, below 1e-15 rad.
 Beyond alpha
-    A block that has passed alpha may come back; overturning is theta = pi/2.
+    A block beyond alpha may return; overturning is theta = pi/2.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ from seisblock.models.rock.params import RockBatchParams, RockParams
 
 _t = types()
 
-REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)  # odd: about the right corner; above TO_LEFT: beyond alpha
+# odd: about the right corner; above TO_LEFT: beyond alpha
+REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)
 OVERTURNED = -1
 LOWER_BOUND, UPPER_BOUND = range(2)
 ALONG, ACROSS, UPWARD = range(3)
@@ -73,7 +74,7 @@ ALONG, ACROSS, UPWARD = range(3)
 ) = range(11)
 
 REST_HOP = 1e-8
-"""A hop shorter than this, s, is the end of rocking."""
+"""Time between two impacts below which rocking ends, s."""
 
 MODES = (
     N_("rest"),
@@ -88,7 +89,7 @@ HALF_PI = math.pi / 2
 
 
 def parameters(params: RockParams | RockBatchParams, dt: float) -> FloatArray:
-    """Return the parameters of the model, in the order of the named integers above: (11,) of one block, (m, 11) of many."""
+    """Return the parameter vector of the model, ``GRAVITY`` to ``RESTITUTION_LEFT``: (11,) of one block, (m, 11) of many."""
     corners = np.concatenate([params.alphas, params.thresholds, params.levers, params.restitutions], axis=-1)
     common_values = np.broadcast_to([params.gravity, dt, float(params.linear)], (*corners.shape[:-1], 3))
     return np.concatenate([common_values, corners], axis=-1)
@@ -96,7 +97,7 @@ def parameters(params: RockParams | RockBatchParams, dt: float) -> FloatArray:
 
 @kernel(_t.void(MATRIX, MATRIX, _t.int64, _t.float64, _t.float64, _t.int64, _t.boolean), inline=True)
 def _write_guard(c, g, guard, s, bound, degree, is_clear):
-    """Write the guard of a bound on the lean, s theta, that it must stay above (``DOWN``) or below; or that it certainly does."""
+    """Write the guard of a lower or upper bound of the tilt s theta; switch the guard off where the bound is out of reach."""
     if is_clear:
         g[guard, 0] = OFF
         return
@@ -108,7 +109,7 @@ def _write_guard(c, g, guard, s, bound, degree, is_clear):
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the lean, the angular velocity and the slacks of one mode as power series."""
+    """Write the power series of tilt, angular velocity and guards of one mode; return the degree."""
     weight = p[GRAVITY] + f[UPWARD, 0]
     weight_rate = f[UPWARD, 1]
     push = f[ALONG, 0] + f[ACROSS, 0]
@@ -128,7 +129,7 @@ def series(mode, y, f, p, order, c, g):
     sine, cosine = (s * alpha - theta, 1.0) if p[IS_LINEAR] != 0.0 else sine_cosine(s * alpha - theta)
     rate = -lever * (weight * sine + push * cosine)
     if theta == 0.0 and omega == 0.0:
-        # rocking begins exactly at the threshold: what is left of the moment there is round-off unless it starts the lean
+        # rocking starts exactly at the threshold, where the moment is zero up to round-off: no start in the wrong direction
         rate = -lever * cosine * (weight * s * threshold + push)
         if rate * s < 0.0:
             rate = 0.0
@@ -155,7 +156,7 @@ def series(mode, y, f, p, order, c, g):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Start, impact, passing alpha either way, overturning."""
+    """Return the mode after the start of rocking, an impact, a crossing of alpha in either direction, or overturning."""
     if mode == REST:
         return TO_RIGHT if guard == 0 else TO_LEFT
     if mode > TO_LEFT:
@@ -168,7 +169,7 @@ def reset(mode, guard, y, f, p):
     if guard == UPPER_BOUND:
         y[THETA] = p[ALPHA_RIGHT] if mode == TO_RIGHT else -p[ALPHA_LEFT]
         return BEYOND_RIGHT if mode == TO_RIGHT else BEYOND_LEFT
-    # impact: the corner changes, the angular velocity keeps its sign
+    # impact: the pivot changes to the other corner, the angular velocity keeps its sign
     y[THETA] = 0.0
     weight = p[GRAVITY] + f[UPWARD, 0]
     push = f[ALONG, 0] + f[ACROSS, 0]
@@ -182,6 +183,7 @@ def reset(mode, guard, y, f, p):
         slack = weight * p[THRESHOLD_LEFT] - push
         restoring_acceleration = p[LEVER_LEFT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_LEFT]))
         target_mode = TO_LEFT
+    # duration of the next hop, 2 omega/theta''
     if 2.0 * abs(y[OMEGA]) <= REST_HOP * restoring_acceleration:
         y[OMEGA] = 0.0
         return REST
@@ -190,7 +192,7 @@ def reset(mode, guard, y, f, p):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """While at rest, pass over the samples that cannot start rocking."""
+    """Return the last sample up to which a block at rest stays below the rocking threshold."""
     if mode != REST:
         return sample
     gain_along = gains[ALONG]

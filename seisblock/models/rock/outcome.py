@@ -1,4 +1,4 @@
-"""What a rocking trajectory means: the outcome, the phases and the events, in the user's terms."""
+"""Outcome, phases, events and warnings of a rocking run."""
 
 from __future__ import annotations
 
@@ -19,47 +19,48 @@ from seisblock.models.rock.params import RockParams
 from seisblock.records import Motion
 
 NO_OVERTURNING = FreeRockingOutcome(False, 0, (0.0, 0.0))
-"""Nothing happens after the record."""
+"""No motion after the record."""
 
 
 @dataclass(frozen=True)
 class RockOutcome:
-    """What became of the block; times in s from the record's first sample, None where there was no such event.
+    """Result of a rocking run; times in s from the record's first sample, None without the event.
 
     Parameters
     ----------
     rocks : bool
-        Whether it ever left the rest.
+        True if rocking started.
     rocking_start_s : float or None
-        When it first did.
+        First start of rocking.
     max_rotation_rad, max_rotation_ratio : float
-        Largest lean, absolute and over alpha of the corner concerned; also after the record's end, pi/2 when it overturns.
+        Peak tilt, and its ratio to alpha of the corner concerned, including free rocking after the record; pi/2 for overturning.
     max_rotation_s : float or None
-        When; None when that is after the record's end.
+        Time of the peak tilt; None if after the end of the record.
     impacts : int
-        Impacts during the record, down to hops of 1e-8 s.
+        Impacts during the record, down to intervals of 1e-8 s.
     overturned : bool
-        During the record or, by its energy, afterwards.
+        Overturning during the record or, from the energy, afterwards.
     overturning_time_s : float or None
-        When the lean is pi/2, exact also after the record's end.
+        Time of a tilt of pi/2, exact also after the end of the record.
     alpha_passed_s : float or None
-        When alpha is passed for good.
+        Time at which alpha is exceeded for good.
     overturned_towards : str
         ``+x``, ``-x``, or empty.
     decided_after_record : bool
-        Whether the record ended while the block was rocking, so that energy decided.
+        True if the block was rocking at the end of the record, so that the energy decides.
     slenderness_rad, frequency_parameter_rad_s, restitution : float, 1
-        alpha, p and e of the side to which the block falls more easily.
+        alpha, p and e for the direction of easier overturning.
     threshold_m_s2 : float
-        Horizontal ground acceleration above which rocking starts without vertical motion.
+        Rocking threshold: horizontal ground acceleration that starts rocking without vertical motion.
     max_friction_demand, max_friction_demand_s : float or None
-        Largest abs(H/N) before alpha is passed for good, and when: below it the block would slip. None when contact is lost.
+        Largest abs(H/N) before alpha is exceeded for good, and its time; a smaller friction coefficient would permit slip. None if contact
+        is lost.
     contact_lost, contact_lost_s : bool, float or None
-        Whether, and when first, N <= 0: it would jump.
+        Loss of contact (N <= 0, jump), and its first time.
     verdict_flips_within_2_percent : bool or None
-        Whether some factor within 0.98 ... 1.02 on the record changes the verdict; None when not looked for.
+        True if a factor of 0.98 to 1.02 on the record changes the verdict; None: not tested.
     flips_at_factor : float or None
-        The one of these nearest to 1 at which it was found to change; None when none does, or when not looked for.
+        Factor nearest to 1 that changes the verdict; None without a change, or if not tested.
     """
 
     rocks: bool
@@ -86,10 +87,10 @@ class RockOutcome:
 
 
 def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
-    """Return whether a friction coefficient lets a block do what the outcome says ([Ishiyama1982]_).
+    """Return whether the friction coefficient `mu` permits the computed rocking without slip ([Ishiyama1982]_).
 
-    It slides instead of rocking where mu < b/h, and slips where the forces of rocking ask for more than mu; a block that never moved asks
-    for what the ground's own acceleration does.
+    The block slides instead of rocking for mu < b/h, and slips where abs(H/N) of rocking exceeds mu; for a block at rest the demand is
+    that of the ground acceleration.
     """
     if outcome.rocks and mu < outcome.threshold_m_s2 / gravity:
         return False
@@ -97,7 +98,7 @@ def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
 
 
 def build_outcome(params: RockParams, motion: Motion, trajectory: Trajectory, free_outcome: FreeRockingOutcome | None) -> RockOutcome:
-    """Gather the outcome from the trajectory and what follows it."""
+    """Return the outcome from the trajectory during the record and the free rocking after it."""
     changes = trajectory.events
     source, target = changes.source, changes.target
     starts = changes.time[source == model.REST]
@@ -148,7 +149,7 @@ def build_outcome(params: RockParams, motion: Motion, trajectory: Trajectory, fr
 
 
 def event_name(change: GuardEvent) -> str:
-    """Return what happened."""
+    """Return the name of an event."""
     if change.source == model.REST:
         return "rocking starts"
     if change.target == model.OVERTURNED:
@@ -161,26 +162,27 @@ def event_name(change: GuardEvent) -> str:
 
 
 def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:
-    """Return the stretches of one mode each."""
+    """Return the phases of one mode each."""
     changes = trajectory.events
     modes = np.append(changes.source[:1] if changes else trajectory.final_mode, changes.target)
-    count = modes.size - int(modes[-1] == model.OVERTURNED)  # which ends the motion
+    # OVERTURNED is an end, not a phase
+    count = modes.size - int(modes[-1] == model.OVERTURNED)
     edges = np.concatenate([[0.0], changes.time, [trajectory.end_time]])
     return make_phases(start_s + edges[: count + 1], modes[:count], model.MODES.__getitem__)
 
 
 def warnings(params: RockParams, outcome: RockOutcome) -> tuple[Message, ...]:
-    """Return what the user should know before believing the numbers."""
+    """Return the warnings of a run."""
     messages = []
     name, threshold = body_name(params.block.name), outcome.threshold_m_s2 / params.gravity
     if threshold > 1.0:
         messages.append(
-            lazy_gettext("{name}: wider than tall; it rocks only above {level:.2f} g and will rather slide", name=name, level=threshold)
+            lazy_gettext("{name}: wider than tall; rocking threshold {level:.2f} g, sliding is more likely", name=name, level=threshold)
         )
     if outcome.contact_lost:
         messages.append(
             lazy_gettext(
-                "{name}: contact with the ground is lost at {time:.3f} s; pure rocking is the wrong model from there",
+                "{name}: contact with the ground lost at {time:.3f} s; the pure rocking model is not valid from that time on",
                 name=name,
                 time=outcome.contact_lost_s,
             )

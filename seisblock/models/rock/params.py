@@ -1,4 +1,4 @@
-"""Blocks as they rock: corners, restitutions, gravity and the gains of the ground motion, worked out once for any number of runs."""
+"""Validated parameters of rocking runs: corner properties, restitutions, gravity and gains of the ground motion."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from seisblock.records._validation import Gain, validate_inputs, validate_motion
 from seisblock.records.motion import Motion
 
 CornerPair = tuple[float, float]
-"""One number of the right and one of the left corner."""
+"""Values of the right and of the left corner."""
 
 
 class RockOptions(TypedDict, total=False):
-    """What may be said of a rocking run beside its block and its motion; see :func:`~seisblock.models.rock.solve.solve_rock`."""
+    """Options of a rocking run, see :func:`~seisblock.models.rock.solve.solve_rock`."""
 
     restitution: Restitution
     linear: bool
@@ -32,19 +32,19 @@ class RockOptions(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class RockParams:
-    """What every run of one block rests on.
+    """Parameters of the rocking runs of one block; pairs are (right corner, left corner).
 
     Parameters
     ----------
     block : Block
     alphas, radii : (float, float), rad and m
-        Of the right and the left corner.
+        Slenderness angle and distance to the centre of gravity.
     levers : (float, float), 1/m
-        m R/I_O of each.
+        m R/I_O.
     restitutions : (float, float)
-        Restitution of an impact onto each.
+        Restitution of an impact onto the corner.
     linear : bool
-        Whether the equation is that of slender blocks ([Zhang2001]_ eqs. (4), (5)).
+        True for the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
     vertical : float
         Factor on the vertical ground motion.
     gravity : float, m/s^2
@@ -61,12 +61,12 @@ class RockParams:
 
     @property
     def thresholds(self) -> CornerPair:
-        """Horizontal over vertical acceleration that each corner holds at rest."""
+        """Ratio of horizontal to vertical acceleration at the rocking threshold of each corner."""
         return self.alphas if self.linear else (math.tan(self.alphas[0]), math.tan(self.alphas[1]))
 
     @property
     def weak_corner(self) -> int:
-        """The corner about which it falls more easily."""
+        """Corner of easier overturning, 0 (right) or 1 (left)."""
         return 0 if self.alphas[0] <= self.alphas[1] else 1
 
     def gains(self, scale: float = 1.0) -> tuple[float, float, float]:
@@ -76,14 +76,14 @@ class RockParams:
 
 @dataclass(frozen=True, eq=False)
 class RockBatchParams:
-    """Many blocks that rock under one motion: arrays with a row for each, and a column for its right and one for its left corner.
+    """Parameters of m rocking blocks under one motion; columns are the right and the left corner.
 
     Parameters
     ----------
     alphas, levers, restitutions : (m, 2) arrays; rad, 1/m, 1
-        As of a :class:`RockParams`.
+        See :class:`RockParams`.
     linear, vertical, gravity : bool, float, float
-        The same for all.
+        Common to all rows.
     """
 
     alphas: FloatArray
@@ -97,12 +97,12 @@ class RockBatchParams:
         return self.alphas.shape[0]
 
     def __getitem__(self, index: slice | IntArray) -> RockBatchParams:
-        """Return some of them."""
+        """Return a selection of the rows."""
         return replace(self, alphas=self.alphas[index], levers=self.levers[index], restitutions=self.restitutions[index])
 
     @property
     def thresholds(self) -> FloatArray:
-        """Horizontal over vertical acceleration that each corner holds at rest, (m, 2)."""
+        """Ratio of horizontal to vertical acceleration at the rocking threshold of each corner, (m, 2)."""
         return self.alphas if self.linear else elementwise(math.tan, self.alphas).reshape(-1, 2)
 
     def gains(self, scale: float = 1.0) -> tuple[float, float, float]:
@@ -119,17 +119,17 @@ def rock_params(
     vertical: Gain | None = False,
     gravity: float = STANDARD_GRAVITY,
 ) -> RockParams:
-    """Return a block as it rocks under a motion, or refuse what it cannot be asked.
+    """Return the validated parameters of a rocking run.
 
     Parameters
     ----------
     block, motion, restitution, linear, vertical, gravity
-        As for :func:`~seisblock.models.rock.solve.solve_rock`.
+        See :func:`~seisblock.models.rock.solve.solve_rock`.
 
     Raises
     ------
     KindError, ParameterError, ComponentError
-        As there.
+        See :func:`~seisblock.models.rock.solve.solve_rock`.
     """
     validate_inputs(block, Block, motion)
     ratios = _check_restitution(resolve_restitutions(block, restitution), restitution)
@@ -146,7 +146,7 @@ def rock_params(
 
 
 def rock_batch_params(blocks: BlockArray, motion: Motion, **options: Unpack[RockOptions]) -> RockBatchParams:
-    """Return many blocks as they rock under a motion; parameters and refusals as of :func:`rock_params`."""
+    """Return the validated parameters of many rocking blocks; options and errors as for :func:`rock_params`."""
     validate_motion(motion)
     restitution = options.get("restitution")
     pair = restitution if isinstance(restitution, tuple) or restitution is None else (restitution, restitution)
@@ -162,10 +162,10 @@ def rock_batch_params(blocks: BlockArray, motion: Motion, **options: Unpack[Rock
 
 
 def _check_restitution(ratios: CornerPair, restitution: Restitution) -> CornerPair:
-    """Return restitutions that are ratios between nothing and all."""
+    """Return `ratios`; raise ParameterError unless both lie in [0, 1]."""
     if not all(0.0 <= ratio <= 1.0 for ratio in ratios):
         raise ParameterError(
-            "the restitution, a ratio of angular velocities, must lie in [0, 1], found {found}; leave it out for 1 - 1.5 sin^2(alpha)",
+            "`restitution` (ratio of angular velocities) must lie in [0, 1], found {found}; default: 1 - 1.5 sin^2(alpha)",
             found=str(restitution),
         )
     return ratios

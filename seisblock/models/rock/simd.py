@@ -1,7 +1,7 @@
-"""Many rocking blocks side by side: one sample of each at a time, while none of them does more than rock on.
+"""SIMD step of rocking blocks: one sample of ``N_LANES`` blocks at a time, while no guard of any of them is in reach.
 
-The operations are those of ``series`` and of the engine's step, in their order, so that the bits are the same. A loop over lanes without a
-branch is what a compiler turns into vectors; numbers of a lane lie ``LANES`` apart, for each number the lanes side by side.
+The operations are those of ``model.series`` and of the engine's step in the same order, so that results agree bit by bit. A branch-free
+loop over lanes is vectorised by the compiler; data are stored as a structure of arrays, each field as ``N_LANES`` consecutive numbers.
 """
 
 from __future__ import annotations
@@ -37,19 +37,18 @@ _t = types()
     LEAN, SPIN, SIDE, SIGNED_ALPHA, LEVER, LEAN_MIN, LEAN_MAX, HIGH, HIGH_TIME, LOW, LOW_TIME, WEIGHT, LANE_SAMPLE, LANE_BASE, IS_ACTIVE,
     GAIN_ALONG, GAIN_ACROSS, GAIN_UP, PUSH, PUSH_RATE, UP, UP_RATE,
 ) = (N_LANES * field for field in range(22))  # fmt: skip
-"""Where the numbers of the lanes begin: the states; the side, +1 or -1, to which a block leans, and s alpha; its lever; the bounds of its
-lean within which no guard fires; the extrema of theta; gravity; the sample, counted from that number of the motion; whether the lane moves;
-gains; the ground's motion over the sample."""
+"""Offsets of the fields: states; side s of the tilt (+1 or -1) and s alpha; lever; bounds of the tilt within which no guard fires; extrema
+of theta with their times; gravity; sample number within the segment and first sample of the segment; active flag; gains; ground motion over
+the sample."""
 
 EXTREMUM_MARGIN = 1e-12
-"""A lean that stays below an extremum by this share of it is no new one, and a rate that stays above zero by it turns not, whatever the
-round-off."""
+"""Relative margin against round-off in the tests for a new extremum and for a reversal of the angular velocity."""
 
 
 @kernel(_t.int64(VECTOR, _t.float64), inline=True)
 def _advance_lanes(lanes, dt):
-    """Move every lane on that may, by one sample; return how many stopped."""
-    stopped_count = 0
+    """Advance every active lane by one sample where no guard is in reach; return the number of lanes that became inactive."""
+    inactive_count = 0
     for lane in range(N_LANES):
         theta, omega = lanes[LEAN + lane], lanes[SPIN + lane]
         lever, push, push_rate = lanes[LEVER + lane], lanes[PUSH + lane], lanes[PUSH_RATE + lane]
@@ -64,6 +63,7 @@ def _advance_lanes(lanes, dt):
         within_extrema = (theta + reach <= highest - EXTREMUM_MARGIN * abs(highest)) & (
             theta - reach >= lowest + EXTREMUM_MARGIN * abs(lowest)
         )
+        # a reversal of the angular velocity inside the sample would hide an extremum
         monotone = reach < (2.0 - EXTREMUM_MARGIN) * dt * abs(omega)
         is_active = (lanes[IS_ACTIVE + lane] != 0.0) & converged & is_free & (within_extrema | monotone)
         high = w4 + dt * (w5 + dt * (w6 + dt * (w7 + dt * (w8 + dt * (w9 + dt * w10)))))
@@ -76,17 +76,17 @@ def _advance_lanes(lanes, dt):
         lanes[HIGH_TIME + lane] = time if higher else lanes[HIGH_TIME + lane]
         lanes[LOW + lane] = angle if lower else lowest
         lanes[LOW_TIME + lane] = time if lower else lanes[LOW_TIME + lane]
-        stopped_count += (lanes[IS_ACTIVE + lane] != 0.0) & (not is_active)
+        inactive_count += (lanes[IS_ACTIVE + lane] != 0.0) & (not is_active)
         lanes[LEAN + lane] = angle if is_active else theta
         lanes[SPIN + lane] = spin if is_active else omega
         lanes[LANE_SAMPLE + lane] += 1.0 if is_active else 0.0
         lanes[IS_ACTIVE + lane] = 1.0 if is_active else 0.0
-    return stopped_count
+    return inactive_count
 
 
 @kernel(_t.void(BATCH_FORCING, VECTOR), inline=True)
 def _load_ground(grounds, lanes):
-    """Read the ground's motion over the sample at which each lane is; there is none after the last, where none moves."""
+    """Load the ground motion over the current sample of each lane; a lane at the last sample is disabled by its bounds."""
     acceleration = grounds.acceleration
     per_dt = 1.0 / grounds.dt
     last = acceleration.shape[1] - 1
@@ -108,7 +108,7 @@ def _load_ground(grounds, lanes):
 
 @kernel(_t.void(BATCH_FORCING, MATRIX, BATCH_STATE, _t.int64, _t.int64, VECTOR), inline=True)
 def _load_lane(grounds, parameters, rows, row, lane, lanes):
-    """Put a block that rocks into a lane."""
+    """Copy the state of a rocking block into a lane."""
     mode = rows.counters[row, MODE]
     right = mode % 2 == TO_RIGHT
     alpha = parameters[row, ALPHA_RIGHT if right else ALPHA_LEFT]
@@ -132,7 +132,7 @@ def _load_lane(grounds, parameters, rows, row, lane, lanes):
 
 @kernel(_t.void(BATCH_STATE, _t.int64, _t.int64, VECTOR), inline=True)
 def _store_lane(rows, row, lane, lanes):
-    """Write back where the block in a lane is."""
+    """Copy the state of a lane back to its row."""
     rows.states[row, THETA], rows.states[row, OMEGA] = lanes[LEAN + lane], lanes[SPIN + lane]
     rows.extrema[row, THETA, HIGHEST], rows.extrema[row, THETA, HIGHEST_TIME] = lanes[HIGH + lane], lanes[HIGH_TIME + lane]
     rows.extrema[row, THETA, LOWEST], rows.extrema[row, THETA, LOWEST_TIME] = lanes[LOW + lane], lanes[LOW_TIME + lane]
@@ -144,7 +144,7 @@ def _store_lane(rows, row, lane, lanes):
 
 @kernel(STRIDE)
 def advance_rows(grounds, parameters, rows, row_ids, is_waiting, lanes, max_samples):
-    """Move rocking blocks on together; see ``STRIDE``. The linear option, and what rests, wait for the engine."""
+    """Advance rocking blocks together, see ``STRIDE``; blocks at rest and the linear option are left to the scalar engine."""
     active_count = 0
     for lane in range(N_LANES):
         row = row_ids[lane]
@@ -155,11 +155,11 @@ def advance_rows(grounds, parameters, rows, row_ids, is_waiting, lanes, max_samp
                 is_waiting[lane] = 0
         active_count += is_waiting[lane] == 0
     sample_count = 0
-    stopped = active_count == 0
-    while sample_count < max_samples * active_count and not stopped:
+    inactive_count = int(active_count == 0)
+    while sample_count < max_samples * active_count and inactive_count == 0:
         _load_ground(grounds, lanes)
-        stopped = _advance_lanes(lanes, grounds.dt)
-        sample_count += active_count - stopped
+        inactive_count = _advance_lanes(lanes, grounds.dt)
+        sample_count += active_count - inactive_count
     for lane in range(N_LANES):
         if is_waiting[lane] == 0 and lanes[IS_ACTIVE + lane] == 0.0:
             is_waiting[lane] = 1
@@ -168,4 +168,4 @@ def advance_rows(grounds, parameters, rows, row_ids, is_waiting, lanes, max_samp
 
 
 ROCKING_SIMD_MODEL = replace(ROCKING, stride=advance_rows)
-"""The rocking block for many runs at once."""
+"""Rocking model with the SIMD step, for batches."""

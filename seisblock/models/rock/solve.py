@@ -1,4 +1,4 @@
-"""Rocking and overturning of one block: from a motion and a block to a response."""
+"""Rocking solver of a single block: `solve_rock`."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def solve_rock(
     gravity: float = STANDARD_GRAVITY,
     initial: tuple[float, float] = (0.0, 0.0),
 ) -> Response[RockOutcome]:
-    """Return how a rigid block rocks under a motion, and whether it overturns.
+    """Solve rocking and overturning of a rigid block under a ground motion.
 
-    Plane rocking about the two lower corners without slip; see :mod:`seisblock.models.rock.model` for the equations, the rule of rest
-    and the signs (rotation is positive when the block leans to +x). After the record's last sample the fate is decided by energy.
+    Plane rocking about the two lower corners without slip; equations, rest condition and signs (rotation positive for a tilt to +x) are
+    given in :mod:`seisblock.models.rock.model`. After the record's last sample the energy of free rocking decides.
 
     Parameters
     ----------
@@ -40,15 +40,15 @@ def solve_rock(
     motion : Motion
         Ground acceleration, m/s^2.
     restitution : float, or a pair
-        Ratio of angular velocities at an impact, in [0, 1], or that onto the right and that onto the left corner; by default from
-        the angular momentum about the corner that is struck, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
+        Ratio of angular velocities at an impact, in [0, 1], or the ratios onto the right and the left corner; default: from conservation of
+        angular momentum about the struck corner, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
     linear : bool
-        Whether to use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
+        Use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
     vertical : bool, float or None
-        Whether the vertical ground motion acts, too, or a factor on it; None: where the record has one.
+        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
     gravity : float, m/s^2
     initial : (float, float), rad, rad/s
-        Lean and angular velocity at the first sample.
+        Tilt and angular velocity at the first sample.
 
     Returns
     -------
@@ -60,9 +60,9 @@ def solve_rock(
     ParameterError
         If the restitution lies outside [0, 1] or gravity is not positive.
     ComponentError
-        If the vertical motion is asked of a record without one.
+        If `vertical` is on for a record without a vertical component.
     SolverError
-        If a restitution of 1 makes it rock on in ever smaller hops.
+        If the block rocks without end (restitution of 1).
 
     References
     ----------
@@ -96,7 +96,7 @@ def solve_rock(
 
 
 def _curves(params: RockParams, motion: Motion, trajectory: Trajectory) -> Histories:
-    """Return what the block and the ground did, on the trajectory's own time axis, both limits at each event."""
+    """Return the time histories at samples and at both limits of each event."""
     time, states, _ = trajectory.table()
     channels = (
         Channel("rotation", "rad", states[:, model.THETA], "θ"),
@@ -108,11 +108,11 @@ def _curves(params: RockParams, motion: Motion, trajectory: Trajectory) -> Histo
 
 
 def initial_mode(params: RockParams, initial: tuple[float, float]) -> int:
-    """Return the mode in which a block with this lean and angular velocity is."""
+    """Return the mode of a block with initial tilt, rad, and angular velocity, rad/s."""
     theta, omega = initial
     if not (abs(theta) < math.pi / 2 and math.isfinite(omega)):
         raise ParameterError(
-            "the initial lean must lie within pi/2 rad and its rate be finite, found {theta} rad and {omega} rad/s",
+            "the initial tilt must lie between -pi/2 and pi/2 rad and its rate must be finite, found {theta} rad and {omega} rad/s",
             theta=theta,
             omega=omega,
         )
@@ -125,7 +125,7 @@ def initial_mode(params: RockParams, initial: tuple[float, float]) -> int:
 
 
 def outcome_after_record(trajectory: Trajectory, params: RockParams) -> FreeRockingOutcome | None:
-    """Return what free rocking makes of the block after the record's end, None when at rest or overturned by then."""
+    """Return the outcome of free rocking after the record, None for a block at rest or overturned at its end."""
     if trajectory.final_mode in (model.REST, model.OVERTURNED):
         return None
     theta, omega = trajectory.final

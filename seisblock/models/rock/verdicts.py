@@ -1,4 +1,4 @@
-"""Only whether blocks overturn and how far they lean at most: many runs through one motion, without Python between them."""
+"""Batch solver of the rocking block: overturning and peak tilt of many runs under one motion, without time histories."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from seisblock.core import checks
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model
-from seisblock.models.rock.free_rocking import raise_if_endless
-from seisblock.models.rock.free_rocking_kernels import ENDLESS, STANDS, trace_free_rocking_batch
+from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
 from seisblock.models.rock.params import RockBatchParams, RockOptions, RockParams, rock_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
@@ -22,7 +21,7 @@ from seisblock.records import Motion
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an ensemble keeps of one run."""
+    """Overturning and peak tilt over alpha of one run."""
 
     overturned: bool
     max_rotation_ratio: float
@@ -30,20 +29,20 @@ class Verdict:
 
 @dataclass(frozen=True, eq=False)
 class Verdicts:
-    """What an ensemble keeps of its runs, (m,) each.
+    """Overturning and peak tilt of m runs; arrays of shape (m,).
 
     Parameters
     ----------
     overturned : bool
     max_rotation_ratio : 1
-        Largest lean over alpha.
+        Peak tilt over alpha.
     direction : int
-        +1 or -1 where it falls to +x or to -x, else 0.
+        +1 or -1 for overturning to +x or -x, else 0.
     overturning_time_s : s
-        After the motion's first sample, where it falls before the last one; else NaN.
+        After the motion's first sample; NaN without overturning before the last sample.
     gave_up : bool
-        Runs without an answer: their motion could not be followed, or rocks on for ever at a restitution of 1. They count as standing
-        nowhere; their largest lean is NaN.
+        Runs without a result: failed integration, or endless rocking at a restitution of 1. They count neither as overturned nor as
+        stable; their peak tilt is NaN.
     """
 
     overturned: BoolArray
@@ -52,34 +51,34 @@ class Verdicts:
     overturning_time_s: FloatArray
     gave_up: BoolArray
 
-    def answered(self) -> Verdicts:
-        """Return these verdicts, all of them answers.
+    def require_complete(self) -> Verdicts:
+        """Return these verdicts if every run is complete.
 
         Raises
         ------
         SolverError
-            If one was given up.
+            If a run has no result.
         """
         raise_if_endless(bool(self.gave_up.any()))
         return self
 
 
 def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options: Unpack[RockOptions]) -> Verdict:
-    """Return only whether a block overturns and its largest lean over alpha.
+    """Return overturning and peak tilt of a block, without time histories.
 
     Parameters
     ----------
     block, motion
-        As for :func:`~seisblock.models.rock.solve.solve_rock`.
+        See :func:`~seisblock.models.rock.solve.solve_rock`.
     scale : float
         Factor on the ground acceleration.
     options
-        Its ``restitution``, ``linear``, ``vertical`` and ``gravity``.
+        ``restitution``, ``linear``, ``vertical`` and ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
 
     Returns
     -------
     Verdict
-        The ratio is pi/2 over alpha when it overturns.
+        The ratio is pi/2 over alpha for an overturned block.
 
     Examples
     --------
@@ -90,25 +89,25 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     """
     checks.finite("the scale factor", scale)
     params = rock_params(block, motion, **options)
-    verdicts = rock_verdicts([params], motion, params.gains(scale)).answered()
+    verdicts = rock_verdicts([params], motion, params.gains(scale)).require_complete()
     return Verdict(bool(verdicts.overturned[0]), float(verdicts.max_rotation_ratio[0]))
 
 
 def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion, gains: ArrayLike) -> Verdicts:
-    """Return the verdicts of several blocks, or of one under several gains, as fast as possible.
+    """Return the verdicts of many blocks, or of one block under many gains.
 
     Parameters
     ----------
-    params : Rockers or sequence of Rocker
-        One for each run, or a single one for all.
+    params : RockBatchParams or sequence of RockParams
+        One per run, or a single one for all.
     motion : Motion
     gains : (3,) or (m, 3) array
-        Factors on the motion's rows; those along and across +x add up, so that (cos, -sin, 1) is the motion turned clockwise.
+        Factors on the motion's rows; the rows along and across are summed, so that (cos(a), -sin(a), 1) rotates the motion by a clockwise.
 
     Returns
     -------
     Verdicts
-        In the order of the runs: whatever still rocks at the record's end then rocks on freely.
+        In the order of the runs; a block in motion at the end of the record continues in free rocking.
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     groups = [params] if isinstance(params, RockBatchParams) else params
@@ -117,7 +116,7 @@ def rock_verdicts(params: RockBatchParams | Sequence[RockParams], motion: Motion
     p = np.repeat(p, runs, axis=0) if len(p) == 1 else p
     ensemble = integrate_many(ROCKING_SIMD_MODEL, motion, p, np.zeros(2), model.REST, gains=rows, allow_failures=True)
     endings, free_leans = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
-    # rows that were given up are not followed on: they rest
+    # failed rows enter free rocking as blocks at rest, so that their states, possibly NaN, are not used
     final, mode = np.where(ensemble.failed[:, None], 0.0, ensemble.final), np.where(ensemble.failed, model.REST, ensemble.final_mode)
     trace_free_rocking_batch(p, final, mode, endings, free_leans)
     gave_up = ensemble.failed | (endings == ENDLESS)

@@ -1,4 +1,4 @@
-"""Coulomb sliding on a level or sloping base."""
+"""Sliding with Coulomb friction on a level or sloping base."""
 
 import lazy_loader
 

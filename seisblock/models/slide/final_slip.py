@@ -1,4 +1,4 @@
-"""How a body that still slides when the record ends comes to rest on ground that has stopped shaking: closed forms."""
+"""Residual slip after the record: closed-form stop of a sliding body on ground at rest."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from seisblock.models.slide.model import COSINE, DOWNHILL, FLIGHT, FOOT_POSITION, GRAVITY, KINETIC, LEVEL, SINE, SLIP, STICK
 
 UNBOUNDED_SLIP = math.inf
-"""Slip of a body that kinetic friction does not stop."""
+"""Residual slip of a body that kinetic friction does not stop."""
 
 
 def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float:
-    """Return the slip, m, at which a body comes to rest when the ground acceleration is zero from now on ([Fujino1978]_).
+    """Return the slip at which a body comes to rest on ground at rest, m ([Fujino1978]_).
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float
     Returns
     -------
     float
-        Signed; infinite where kinetic friction is less than the slope's pull and there is no foot.
+        Signed; infinite where kinetic friction is smaller than the downhill force on a slope without a foot.
     """
     if mode % LEVEL == STICK:
         return float(state[SLIP])
@@ -31,6 +31,7 @@ def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float
     if mode % LEVEL == FLIGHT:
         u, v = _after_landing(u, v, gap, gap_speed, level, p)
         level = LEVEL if p[DOWNHILL] * u > p[FOOT_POSITION] else 0
+    # one segment of constant acceleration per pass, up to a stop or to the foot of the slope
     while v != 0.0:
         side = math.copysign(1.0, v)
         pull = _sliding_acceleration(side, level, p)
@@ -45,13 +46,13 @@ def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float
 
 
 def _sliding_acceleration(side: float, level: int, p: Sequence[float]) -> float:
-    """Return the relative acceleration of a body that slides to one side on still ground."""
+    """Return the acceleration of a body sliding in direction `side` on ground at rest, m/s^2."""
     sine, cosine = (0.0, 1.0) if level else (p[SINE], p[COSINE])
     return p[GRAVITY] * (sine - side * p[KINETIC] * cosine)
 
 
 def _after_landing(u: float, v: float, gap: float, gap_speed: float, level: int, p: Sequence[float]) -> tuple[float, float]:
-    """Return slip and speed after the flight's end, a plastic landing with a Coulomb impulse."""
+    """Return slip, m, and speed, m/s, after a flight that ends in a plastic landing with a Coulomb impulse."""
     sine, cosine = (0.0, 1.0) if level else (p[SINE], p[COSINE])
     normal, downhill = p[GRAVITY] * cosine, p[GRAVITY] * sine
     impact = math.sqrt(gap_speed * gap_speed + 2.0 * normal * gap)

@@ -1,25 +1,25 @@
-"""Sliding of a rigid body on a level or sloping base: the model that the engine follows.
+"""Hybrid model of a rigid body sliding on a level or sloping base: stick, slip and flight.
 
 Assumptions
     Rigid body, rigid base, Coulomb friction with a static and a kinetic coefficient, no adhesion, no rocking.
     u is the displacement of the body relative to the base, along the base, positive in the component's positive
-    direction (downhill on a slope of positive angle); w is the gap between them, normal to the base.
+    direction (downhill on a slope of positive angle); w is the gap normal to the base.
 Base
-    A plane that falls by the angle th towards the positive direction and, when the slope has a length, level ground beyond its foot.
-    Both inputs are resolved: tangential a = a_h cos th - a_v sin th, normal b = a_h sin th + a_v cos th.
+    A plane that descends by the angle th in the positive direction; a slope of finite length is followed by level ground beyond its foot.
+    Ground motion is resolved along the base, a = a_h cos th - a_v sin th, and normal to it, b = a_h sin th + a_v cos th.
 Modes
     stick       u' = 0               while |g sin th - a| <= mu_s N       [Fujino1978]_ eqs. (5), (9), (10)
     forward     u'' = g sin th - a - mu_d N     while u' > 0              [Fujino1978]_ eqs. (6), (11), in relative terms
     backward    u'' = g sin th - a + mu_d N     while u' < 0
-    flight      u'' = g sin th - a,  w'' = -N   while w > 0               our extension: the paper is silent
+    flight      u'' = g sin th - a,  w'' = -N   while w > 0               extension, not in the paper
     with N = g cos th + b (per unit mass) and contact only while N >= 0.
 Events
-    Equality sticks. Whenever the relative velocity is zero static friction is tested: stick, or slip at once the other way.
-    The relative speed is kept at the foot (a body that the slope holds at rest cannot go back and forth over it without end: what
-    pushes it uphill along the level ground lets it stick on the slope). Landing is plastic, with a Coulomb impulse against the sliding.
-    Where drive and normal force vanish together, as on a slope whose base falls at g, the object flies. One-way sliding
-    ([Newmark1965]_) says nothing of flight: lost contact ends it.
-All modes are cubics within a sample, so the trajectory of a piecewise linear record is exact.
+    At equality the body sticks. At zero relative velocity static friction is tested: stick, or slip in the other direction.
+    The relative speed is continuous at the foot; endless crossings of the foot cannot occur, because an acceleration that drives the body
+    uphill along the level ground lets it stick on the slope. Landing is plastic, with a Coulomb impulse against the sliding.
+    Where drive and normal force vanish together, as on a slope whose base falls at g, the body is in flight. One-way sliding
+    ([Newmark1965]_) does not define flight: loss of contact ends it.
+All modes are cubic within a sample, so that the trajectory of a piecewise linear record is exact.
 """
 
 from __future__ import annotations
@@ -40,16 +40,16 @@ SLIP, SPEED, GAP, GAP_SPEED = range(4)
 """States: u (m), u' (m/s), w (m), w' (m/s)."""
 
 STICK, FORWARD, BACKWARD, FLIGHT = range(4)
-"""Modes on the slope (or on a level base without one)."""
+"""Modes on the slope, or on a level base."""
 
 UNDEFINED = -1
-"""A one-way object has lost contact."""
+"""Terminal mode: loss of contact in one-way sliding."""
 
 LEVEL = 4
-"""Added to a mode beyond the foot of the slope."""
+"""Offset of a mode on the level ground beyond the foot of the slope."""
 
 LIMIT_FORWARD, LIMIT_BACKWARD, CONTACT, FOOT = range(4)
-"""Guards. In a slipping mode LIMIT_FORWARD watches the speed, in flight the gap."""
+"""Guards; LIMIT_FORWARD is the speed in slip and the gap in flight."""
 
 STATIC, KINETIC, GRAVITY, SINE, COSINE, FOOT_POSITION, DOWNHILL, ONE_WAY = range(8)
 """Parameters: mu_s, mu_d, g, sin th, cos th, distance to the foot along the slope (inf: none), +1 or -1, 1 or 0."""
@@ -60,7 +60,7 @@ SIXTH = 1.0 / 6.0
 
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, MATRIX, VECTOR), inline=True)
 def _loads(level, f, p):
-    """Return the driving acceleration g sin th - a and the normal force N per mass, each with its rate."""
+    """Return the driving acceleration g sin th - a and the normal force N per unit mass, each with its rate ([Fujino1978]_ eq. (5))."""
     weight, horizontal = p[GRAVITY] + f[UP, 0], f[ALONG, 0]
     if level:
         drive, drive_rate, normal, normal_rate = -horizontal, -f[ALONG, 1], weight, f[UP, 1]
@@ -68,13 +68,13 @@ def _loads(level, f, p):
         s, c = p[SINE], p[COSINE]
         drive, drive_rate = weight * s - horizontal * c, f[UP, 1] * s - f[ALONG, 1] * c
         normal, normal_rate = weight * c + horizontal * s, f[UP, 1] * c + f[ALONG, 1] * s
-    # contact ends where N is zero, up to round-off: there it has to be zero
+    # loss of contact is located at N = 0 up to round-off; an exact zero there keeps the sign test well defined
     return drive, drive_rate, normal if abs(normal) > ROUND_OFF * p[GRAVITY] else 0.0, normal_rate
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
 def _excess(drive, mu, normal):
-    """Return drive - mu N, and zero where the two are equal but for round-off: slip starts from there, and equality sticks."""
+    """Return drive - mu N, exactly zero where the two are equal up to round-off: equality sticks ([Fujino1978]_ eq. (5))."""
     friction = mu * normal
     excess = drive - friction
     return excess if abs(excess) > ROUND_OFF * (abs(drive) + abs(friction)) else 0.0
@@ -82,7 +82,7 @@ def _excess(drive, mu, normal):
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the cubics of one mode, and the slacks that end it."""
+    """Write the cubic series of one mode and its guards; return the degree."""
     drive, drive_rate, normal, normal_rate = _loads(mode >= LEVEL, f, p)
     g[CONTACT, 0] = g[FOOT, 0] = OFF
     phase = mode % LEVEL
@@ -91,7 +91,7 @@ def series(mode, y, f, p, order, c, g):
         g[LIMIT_FORWARD, 0], g[LIMIT_FORWARD, 1] = -_excess(drive, mu, normal), mu * normal_rate - drive_rate
         g[LIMIT_BACKWARD, 0], g[LIMIT_BACKWARD, 1] = _excess(drive, -mu, normal), mu * normal_rate + drive_rate
         if p[ONE_WAY] > 0.0:
-            # contact follows from the two limits, whose sum is 2 mu N; with one of them it has to be watched
+            # two-way stick needs no contact guard, since both friction guards sum to 2 mu N; one-way stick does
             g[LIMIT_BACKWARD, 0] = OFF
             g[CONTACT, 0], g[CONTACT, 1] = normal, normal_rate
         return CONSTANT
@@ -129,19 +129,19 @@ def series(mode, y, f, p, order, c, g):
 
 @kernel(_t.boolean(_t.float64, _t.float64), inline=True)
 def _loses_contact(normal, normal_rate):
-    """Whether contact ends: the normal force is negative, or zero and about to be."""
+    """Return whether contact ends: normal force negative, or zero and decreasing."""
     return normal < 0.0 or (normal == 0.0 and normal_rate < 0.0)
 
 
 @kernel(_t.int64(_t.int64, VECTOR), inline=True)
 def _lift_off_mode(level, p):
-    """Return the mode of an object that loses contact."""
+    """Return the mode after loss of contact."""
     return UNDEFINED if p[ONE_WAY] > 0.0 else level + FLIGHT
 
 
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR), inline=True)
 def _mode_at_zero_speed(level, y, f, p):
-    """Return the mode that follows when the relative velocity has become zero: stick, slip either way, or flight."""
+    """Return the mode at zero relative velocity: stick, slip in either direction, or flight."""
     drive, _, normal, normal_rate = _loads(level > 0, f, p)
     y[SPEED] = 0.0
     if _loses_contact(normal, normal_rate):
@@ -155,7 +155,7 @@ def _mode_at_zero_speed(level, y, f, p):
 
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR), inline=True)
 def _landing_mode(level, y, f, p):
-    """Return the mode after a plastic landing: the gap closes, friction takes up to mu_d times the normal impulse."""
+    """Return the mode after a plastic landing; the tangential impulse is at most mu_d times the normal impulse."""
     if p[DOWNHILL] * y[SLIP] > p[FOOT_POSITION]:
         level = LEVEL
     elif p[DOWNHILL] * y[SLIP] < p[FOOT_POSITION]:
@@ -173,7 +173,7 @@ def _landing_mode(level, y, f, p):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """Return the last of the samples that follow, one by one, within both limits of static friction."""
+    """Return the last sample up to which a sticking body stays within both limits of static friction."""
     if mode % LEVEL != STICK:
         return sample
     s, c = (0.0, 1.0) if mode >= LEVEL else (p[SINE], p[COSINE])
@@ -193,7 +193,7 @@ def skip(mode, acceleration, gains, sample, p):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Return the mode that follows an event."""
+    """Return the mode after a guard."""
     level = LEVEL if mode >= LEVEL else 0
     phase = mode % LEVEL
     if guard == CONTACT:
@@ -217,14 +217,14 @@ SLIDE = Model(
     reset,
     ("slip", "speed", "gap", "gap speed"),
     ("limit forward", "limit backward", "contact", "foot"),
-    (*(N_("stick"), "slip forward", "slip backward", N_("flight")) * 2, N_("one way, in the air")),
+    (*(N_("stick"), "slip forward", "slip backward", N_("flight")) * 2, N_("contact lost (one-way)")),
     tracked=1,
     skip=skip,
 )
 
 
 def parameters(base: SlidingBase, gravity: float) -> tuple[float, ...]:
-    """Return a base and gravity as the parameters of the model, (8,)."""
+    """Return the parameter vector of the model, ``STATIC`` to ``ONE_WAY``, (8,)."""
     foot = math.inf if base.slope_length is None else base.slope_length
     downhill = -1.0 if base.slope_deg < 0.0 else 1.0
     return base.mu, base.kinetic, gravity, math.sin(base.angle), math.cos(base.angle), foot, downhill, float(base.one_way)

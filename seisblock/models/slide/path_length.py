@@ -1,4 +1,4 @@
-"""How long the path is that a body slides, forth and back."""
+"""Length of the slip path of a sliding body."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from seisblock.models.slide.model import FLIGHT, LEVEL, SLIP
 
 
 def path_length(trajectory: Trajectory) -> float:
-    """Return the length of the path slid, m: the slip turns at events alone, but in flight, where it is looked at between samples, too."""
+    """Return the length of the slip path, m.
+
+    Without flight the slip reverses at events only, so that its values there suffice; with flight all samples are used.
+    """
     changes = trajectory.events
     if (changes.target % LEVEL == FLIGHT).any():
         return _length_between_samples(trajectory)
@@ -21,7 +24,7 @@ def path_length(trajectory: Trajectory) -> float:
 
 
 def _length_between_samples(trajectory: Trajectory) -> float:
-    """Return the length of the path, m, from one sample or event to the next. Rounded once, whatever its pieces."""
+    """Return the length of the path over all samples and events, m; `math.fsum` makes it independent of the chunks of the trajectory."""
     increments, last_slip = list[FloatArray](), np.empty(0)
     for path in trajectory.iter_paths():
         slip = np.concatenate([last_slip, path.values(SLIP)])

@@ -1,4 +1,4 @@
-"""Sliding of an object on a level or sloping base that an earthquake shakes ([Fujino1978]_); the model is in ``slide_model``."""
+"""Sliding solver of an object on a level or sloping base ([Fujino1978]_): `solve_slide`, outcome and warnings."""
 
 from __future__ import annotations
 
@@ -26,42 +26,42 @@ from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
 
 SLIDING_PHASES = (N_("slip forward"), N_("slip backward"))
-"""Names of the phases in which the object slides; forward is the component's positive direction, downhill on a positive slope."""
+"""Names of the sliding phases; forward is the component's positive direction, downhill on a positive slope."""
 
 
 _FRICTION_SIGN = np.zeros(LEVEL)
 _FRICTION_SIGN[[FORWARD, BACKWARD]] = -1.0, 1.0
-"""Which way kinetic friction pushes in each mode."""
+"""Sign of the kinetic friction force in each mode."""
 
 
 @dataclass(frozen=True)
 class SlideOutcome:
-    """How an object slid; displacements are relative to the base, along it, positive in the component's positive direction.
+    """Result of a sliding run; displacements relative to the base, along it, positive in the component's positive direction.
 
     Parameters
     ----------
     slips : bool
-        Whether the object moved relative to the base at all.
+        True if the object moved relative to the base.
     slip_start_s, slip_end_s : float or None, s
-        Start of the first and end of the last slip; the end is None while it still slides at the record's end.
+        Start of the first and end of the last slip; the end is None if the object slides at the end of the record.
     max_slip_m, max_slip_time_s : float, m and s
-        Largest absolute displacement up to the record's last sample, and its time.
+        Maximum absolute displacement during the record, and its time.
     residual_slip_m : float, m
         Displacement at the record's last sample, signed.
     final_slip_m : float or None, m
-        Displacement once the object has come to rest on ground that stopped shaking with the last sample; None when it never stops.
+        Displacement at rest on ground that is at rest after the last sample; None if the object never stops.
     slip_count : int
-        Stretches of sliding in one direction, as [Fujino1978]_ counts them: a slip lasts until the relative velocity changes its sign.
+        Number of slips in one direction ([Fujino1978]_): a slip lasts until the relative velocity changes its sign.
     reversals : int
-        Slips that follow another one without a rest between.
+        Slips that follow another slip without a rest.
     path_m : float, m
-        Length of the path slid, up to the record's last sample.
+        Length of the slip path during the record.
     fell_off_slope : bool
-        Whether the object passed the foot of the slope.
+        True if the object passed the foot of the slope.
     lifted_off : bool
-        Whether it lost contact with the base.
+        True if contact with the base was lost.
     slides_at_end : bool
-        Whether it still moves at the record's last sample.
+        True if the object moves at the record's last sample.
     """
 
     slips: bool
@@ -82,20 +82,20 @@ class SlideOutcome:
 def solve_slide(
     base: SlidingBase | float, motion: Motion, *, vertical: Gain | None = False, gravity: float = STANDARD_GRAVITY
 ) -> Response[SlideOutcome]:
-    """Follow an object that slides on a shaken base, exactly for the piecewise linear record.
+    """Solve the sliding of an object on a base, exactly for the piecewise linear record.
 
     Rigid object and base, Coulomb friction, no rocking. [Fujino1978]_ eqs. (1)-(13), corrected; equality sticks, and static friction is
-    tested whenever the relative velocity is zero. Where the base falls away faster than the object (normal force zero) it flies,
-    and lands plastically: our extension, flagged in the outcome.
+    tested whenever the relative velocity is zero. Where the normal force becomes zero the object is in flight and lands plastically:
+    an extension of the paper, flagged in the outcome.
 
     Parameters
     ----------
     base : SlidingBase or float
         Friction and slope; a number is the friction coefficient of a level base, static and kinetic.
     motion : Motion
-        Its horizontal row acts along the slope's direction.
+        The horizontal row acts in the direction of the slope.
     vertical : bool, float or None
-        Whether the vertical ground motion acts, too, or a factor on it, the paper's gamma; None: where the record has one.
+        Vertical ground motion on or off, or a factor on it (gamma of the paper); None: on if the record has a vertical component.
     gravity : float, m/s^2
 
     Returns
@@ -107,14 +107,14 @@ def solve_slide(
     Raises
     ------
     ParameterError
-        If a number lies outside its range, or the base falls away from an object that may slide one way only.
+        If a number lies outside its range, or contact is lost in one-way sliding.
     ComponentError
-        If the vertical motion is asked of a record without one.
+        If `vertical` is on for a record without a vertical component.
 
     Notes
     -----
-    Relative to the base, u'' = g sin th - a -/+ mu_k N with N = g cos th + b per unit mass while it slides forward/backward; a and b
-    are the ground's acceleration along and normal to the base.
+    Relative to the base, u'' = g sin th - a -/+ mu_k N with N = g cos th + b per unit mass in forward/backward slip ([Fujino1978]_
+    eqs. (6), (11)); a and b are the ground accelerations along and normal to the base.
 
     References
     ----------
@@ -163,26 +163,27 @@ def solve_slide(
 
 
 def motion_gains(motion: Motion, vertical: Gain | None, gravity: float) -> tuple[float, float, float]:
-    """Return the factors on the motion's three rows, or refuse what cannot act."""
+    """Return the gains of the motion's three rows, after validation of `vertical` and `gravity`."""
     checks.gravity(gravity)
     return 1.0, 0.0, vertical_gain(motion, vertical)
 
 
 def raise_lift_off(motion: Motion, time: float) -> NoReturn:
-    """Refuse an object that can slide one way only and loses contact, s after sample 0; [Newmark1965]_ says nothing of it."""
+    """Raise ParameterError for loss of contact in one-way sliding, not defined by [Newmark1965]_; `time` in s after sample 0."""
     raise ParameterError(
-        "{name}: at {time:.3f} s the base falls away faster than the object; sliding in one direction only is not defined in "
-        "the air: leave the vertical motion out, or let it slide both ways",
+        "{name}: contact lost at {time:.3f} s (normal force zero); one-way sliding is not defined there. Solve without vertical "
+        "motion, or allow sliding in both directions",
         name=motion.name or lazy_gettext("motion"),
         time=motion.start_s + time,
     )
 
 
 def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> SlideOutcome:
-    """Return the numbers of a trajectory."""
+    """Return the outcome of a trajectory."""
     changes = trajectory.events
     highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
     slip, time = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
+    # passing the foot continues a slip
     start_modes = changes.source[(changes.guard != FOOT) & _is_sliding(changes.target)]
     is_moving = trajectory.final_mode % LEVEL != STICK
     rest_slip = slip_at_rest(trajectory.final.tolist(), trajectory.final_mode, p)
@@ -197,35 +198,37 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
         slip_count=len(start_modes),
         reversals=int(np.count_nonzero(_is_sliding(start_modes))),
         path_m=path_length(trajectory),
-        fell_off_slope=bool(((changes.source < LEVEL) & (changes.target >= LEVEL)).any()),  # beyond its foot, and was not before
+        fell_off_slope=bool(((changes.source < LEVEL) & (changes.target >= LEVEL)).any()),
         lifted_off=bool((changes.target % LEVEL == FLIGHT).any()),
         slides_at_end=is_moving,
     )
 
 
 def _is_sliding(modes: IntArray) -> BoolArray:
-    """Return whether the object slides, in contact, in some modes."""
+    """Return which modes are slip in contact."""
     kinds = modes % LEVEL
     return (kinds == FORWARD) | (kinds == BACKWARD)
 
 
 def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Message]:
-    """Return what a user should know before believing the numbers."""
+    """Return the warnings of a run."""
     name = motion.name or "x"
     messages = []
     if outcome.lifted_off:
         messages.append(
             lazy_gettext(
-                "{name}: the base falls away from the object, which flies and lands plastically; the paper is silent on this", name=name
+                "{name}: contact with the base is lost; flight and plastic landing are an extension of Fujino et al. (1978)", name=name
             )
         )
     if outcome.final_slip_m is None:
-        messages.append(lazy_gettext("{name}: kinetic friction does not hold on this slope: once in motion it slides for ever", name=name))
+        messages.append(
+            lazy_gettext("{name}: kinetic friction is too small for this slope; once in motion the object does not stop", name=name)
+        )
     elif outcome.slides_at_end:
         messages.append(
             lazy_gettext(
-                "{name}: still sliding at the record's end: max and residual slip stand for the record, and the final one for where it "
-                "would stop on ground at rest",
+                "{name}: still sliding at the end of the record; maximum and residual slip refer to the record, final slip to the stop on "
+                "ground at rest",
                 name=name,
             )
         )
@@ -233,7 +236,7 @@ def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Message]:
 
 
 def _phases(trajectory: Trajectory, motion: Motion) -> Sequence[Phase]:
-    """Return the stretches of stick, slip and flight; passing the foot does not end a slip."""
+    """Return the phases of stick, slip and flight; passing the foot does not end a slip."""
     changes = trajectory.events
     is_start = (changes.guard != FOOT) | (changes.source % LEVEL != changes.target % LEVEL)
     edges = np.concatenate([[0.0], changes.time[is_start], [trajectory.end_time]])
@@ -241,7 +244,7 @@ def _phases(trajectory: Trajectory, motion: Motion) -> Sequence[Phase]:
 
 
 def _event_name(change: GuardEvent) -> str:
-    """Say what an event was."""
+    """Return the name of an event."""
     source, target = change.source % LEVEL, change.target % LEVEL
     if change.guard == FOOT:
         return "foot passed downhill" if change.target > LEVEL else "foot passed uphill"
@@ -255,7 +258,7 @@ def _event_name(change: GuardEvent) -> str:
 
 
 def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, trajectory: Trajectory) -> Histories:
-    """Return the curves on the trajectory's own time axis, both limits at each event."""
+    """Return the time histories at samples and at both limits of each event."""
     path = trajectory.path
     time, modes = path.times_and_modes()
     horizontal = path.interpolate(motion.horizontal)

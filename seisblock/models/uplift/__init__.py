@@ -1,4 +1,4 @@
-"""A block on corner springs: modes, harmonic uplift, response to a record."""
+"""Uplift of a rigid block on corner springs: natural modes, harmonic thresholds, response to a record ([Okumura1987]_)."""
 
 import lazy_loader
 

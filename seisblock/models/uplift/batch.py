@@ -1,4 +1,4 @@
-"""Many blocks on corner springs, or one under many factors, side by side through one motion: no Python between the samples."""
+"""Batch solver of uplift: many blocks on corner springs, or one block at many gains, under one motion."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from seisblock.records.motion import Motion
 def uplift_many(
     bodies: Sequence[SpringBlock], motion: Motion, *, gains: ArrayLike = (1.0, 1.0, 1.0), gravity: float = STANDARD_GRAVITY
 ) -> UpliftBatchResult:
-    """Return the fates of many blocks on corner springs under one motion; bit by bit those of single runs ([Okumura1987]_).
+    """Solve many blocks on corner springs under one motion, bit by bit as single runs ([Okumura1987]_).
 
-    A run that has to be given up is marked in the fates.
+    An abandoned run is marked in `gave_up` of the result.
 
     Parameters
     ----------
@@ -33,6 +33,10 @@ def uplift_many(
     gains : (3,) or (m, 3) array
         Factors on the motion's rows along, across and up.
     gravity : float, m/s^2
+
+    Returns
+    -------
+    UpliftBatchResult
 
     Examples
     --------
@@ -45,7 +49,7 @@ def uplift_many(
     validate_motion(motion)
     checks.gravity(gravity)
     if not len(bodies):
-        raise ParameterError("an ensemble needs at least one row")
+        raise ParameterError("`bodies` is empty: at least one body is required")
     for body in bodies:
         checks.instance(body, SpringBlock)
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))

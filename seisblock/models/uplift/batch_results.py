@@ -1,4 +1,4 @@
-"""What blocks on corner springs come to under a record, as arrays: here a single answer and rows of many find their numbers."""
+"""Results of uplift runs as arrays, for single runs and batches alike."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from seisblock.dynamics.buffers import TOTAL
 from seisblock.models.uplift.model import ALL_CORNERS, CHANGES, FIRST, TURN_X, TURN_Y, F, U
 
 MAX_LEAN_RATIO = 0.1
-"""Largest slenderness times rotation for which leaving the weight's lever out (P-delta) is defensible."""
+"""Largest ratio of tilt to overturning angle at which neglecting the P-delta effect is acceptable."""
 
 ROUND_OFF = 1e-12
-"""A corner that rises by less than this share of the static settlement has not moved."""
+"""Rise of a corner over the static settlement below which the corner is at rest."""
 
 CORNERS_IN_CONTACT = np.arange(ALL_CORNERS + 1)[:, None] >> np.arange(4) & 1
-"""Which corners each contact state holds, (16, 4)."""
+"""Corners in contact by contact state, (16, 4), 0 or 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class UpliftEndStates:
-    """What is left of trajectories, one per row.
+    """Extrema, final states and contact times of m trajectories.
 
     Parameters
     ----------
     extrema, final : (m, n_tracked, 4), (m, n_states) arrays
     contact_times : (m, 16) array, s
-        In each contact state.
+        Total time in each contact state.
     first : (m,) array, s after sample 0
-        Time of the first event, NaN where there was none.
+        Time of the first event, NaN without one.
     """
 
     extrema: FloatArray
@@ -45,17 +45,17 @@ class UpliftEndStates:
 
 @dataclass(frozen=True, eq=False)
 class UpliftBatchResult:
-    """The ends of many runs, arrays with one entry per row, (m,) unless told.
+    """Results of m runs; arrays of shape (m,) unless noted.
 
-    What they are is said in :class:`~seisblock.models.uplift.outcome.UpliftOutcome`.
+    Quantities are defined in :class:`~seisblock.models.uplift.outcome.UpliftOutcome`.
 
     Parameters
     ----------
     uplifts : bool
     first_uplift_s : s
-        After the motion's first sample; NaN where no corner lifts.
+        After the motion's first sample; NaN without uplift.
     first_corners : (m, 4) array of bool
-        Which lift first, corners 1 to 4.
+        Corners 1 to 4 that lift first.
     max_uplift_m, static_settlement_m : m
     uplift_duration_s : s
     time_on_corners_s : (m, 5) array, s
@@ -63,13 +63,13 @@ class UpliftBatchResult:
     max_contact_force_n, max_contact_force_ratio : N, 1
     contact_changes : int
     uplift_scale : 1
-        NaN where no amplitude lifts a corner.
+        NaN if no amplitude lifts a corner.
     max_rotation_rad, lean_ratio : rad, 1
     within_model : bool
     rise_m, repeat_rise_m : m
-        Highest position of any corner above the spring's natural length, as two integrations with other round-off have it.
+        Highest position of any corner above the spring's natural length, from two integrations with different round-off.
     gave_up : bool
-        Runs without an answer: their other entries are those of the instant at which they were given up.
+        Abandoned runs without a result: their other entries refer to the instant of abandonment.
     """
 
     uplifts: BoolArray
@@ -91,13 +91,13 @@ class UpliftBatchResult:
     gave_up: BoolArray
 
     def row_dict(self, row: int, start_s: float) -> dict[str, Any]:
-        """Return the scalars of one run, by their names in its outcome, None where there is no such thing; times on a clock of its own.
+        """Return the scalars of one run by their field names in the outcome; None for missing values.
 
         Parameters
         ----------
         row : int
         start_s : float, s
-            What that clock shows at the motion's first sample.
+            Time of the motion's first sample.
         """
         lifts, scale = bool(self.uplifts[row]), float(self.uplift_scale[row])
         return {
@@ -118,10 +118,10 @@ class UpliftBatchResult:
 
 
 def end_states(trajectory: Trajectory) -> UpliftEndStates:
-    """Return what is left of a single trajectory, as a row: what :func:`batch_end_states` leaves of it among many."""
+    """Return the end states of a single trajectory as one row, bit by bit as :func:`batch_end_states`."""
     changes = trajectory.events
     edges = np.concatenate([[0.0], changes.time, [trajectory.end_time]])
-    # one stay after another is added up, as the engine's loop does it
+    # bincount sums in chronological order, as the engine's loop does
     contact_times = np.bincount(np.append(ALL_CORNERS, changes.target), np.diff(edges), minlength=ALL_CORNERS + 1).astype(
         np.float64, copy=False
     )
@@ -130,7 +130,7 @@ def end_states(trajectory: Trajectory) -> UpliftEndStates:
 
 
 def batch_end_states(ensemble: Ensemble) -> UpliftEndStates:
-    """Return what is left of many."""
+    """Return the end states of an ensemble."""
     return UpliftEndStates(ensemble.extrema, ensemble.final, ensemble.dwell_times[:, : ALL_CORNERS + 1, TOTAL], ensemble.first_event_time)
 
 
@@ -142,18 +142,18 @@ def batch_result(
     gravity: float,
     gave_up: BoolArray | None = None,
 ) -> UpliftBatchResult:
-    """Return what many runs come to ([Okumura1987]_ section 2, extended to records).
+    """Return the results of many runs from their end states ([Okumura1987]_ section 2, extended to records).
 
     Parameters
     ----------
     bodies : sequence of SpringBlock
         One per row.
-    ends : UpliftEnds
+    ends : UpliftEndStates
     linear_extrema, repeat_extrema : (m, n_tracked, 4) arrays
-        Extrema of the linear system, and of an integration with other round-off.
+        Extrema of the linear system, and of an integration with different round-off.
     gravity : float, m/s^2
     gave_up : (m,) array of bool or None
-        Runs without an answer; None: each has one.
+        Abandoned runs; None: no run was abandoned.
     """
     settlement = np.array([body.static_settlement(gravity) for body in bodies])
     mass, width, depth, height = np.array([[body.mass, body.width, body.depth, body.height] for body in bodies]).T
@@ -187,7 +187,6 @@ def batch_result(
 
 
 def _max_corner_rise(extrema: FloatArray) -> FloatArray:
-    """Return the highest position of any corner, (m,), m."""
     highest: FloatArray = extrema[:, U : U + 4, 0].max(axis=1)
     return highest
 

@@ -1,7 +1,7 @@
-"""Steady state of a block on corner springs under harmonic shaking: what amplitude lifts a corner.
+"""Harmonic uplift thresholds: amplitude of steady-state harmonic shaking that lifts a corner of a block on corner springs.
 
-Linear: small rotations and every corner in contact up to the instant of uplift, so that the answer is exact as a threshold and
-says nothing of the motion beyond it.
+Linear model: small rotations and all corners in contact up to the instant of uplift. The threshold is exact; the motion after uplift is
+not covered.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from seisblock.core.typing import ArrayLike, ComplexArray, FloatArray
 from seisblock.models.uplift.modes import Modes, natural_modes
 
 Damping = Literal["modal", "dashpots"]
-"""The paper's equal ratio h in each mode, or the corner dashpots that a record's solution uses."""
+"""Equal modal damping ratio h, as in the paper, or corner dashpots, as in the response to records."""
 
 DAMPINGS: tuple[Damping, ...] = get_args(Damping)
 
 UNDAMPED_RESONANCE = 1e-150
-"""Stands for zero in the denominator of an undamped resonance, so that a mode that takes no part stays out."""
+"""Replacement for zero in the denominator at an undamped resonance: a mode without participation contributes 0 instead of NaN."""
 
 
 def shaking_direction(phi_deg: float, rho_deg: float) -> FloatArray:
-    """Return the unit vector of the shaking, (3,): azimuth phi from x to y, angle rho from z ([Okumura1987]_ eq. (10)).
+    """Return the unit vector of the shaking, (3,), for azimuth phi from x to y and angle rho from z ([Okumura1987]_ eq. (10)).
 
     Raises
     ------
@@ -41,7 +41,7 @@ def shaking_direction(phi_deg: float, rho_deg: float) -> FloatArray:
 
 
 def participation(body: SpringBlock, modes: Modes, direction: ArrayLike) -> FloatArray:
-    """Return how much each mode moves each corner up, (4, 6), rad^2/s^2: numerators of [Okumura1987]_ eq. (15)."""
+    """Return the participation of each mode in the uplift of each corner, (4, 6), rad^2/s^2: numerators of [Okumura1987]_ eq. (15)."""
     corner_lifts = corner_jacobian(body)[:, 2] @ modes.shapes
     forcing = modes.shapes[:3].T @ np.asarray(direction, dtype=np.float64)
     parts: FloatArray = -(body.omega[2] ** 2) * corner_lifts * forcing
@@ -51,6 +51,7 @@ def participation(body: SpringBlock, modes: Modes, direction: ArrayLike) -> Floa
 def transfer(modes: Modes, damping: float, omega: FloatArray) -> ComplexArray:
     """Return 1 / (omega_j^2 - theta^2 + 2 i h omega_j theta), (6, n), s^2: denominators of [Okumura1987]_ eq. (15)."""
     w = modes.omega[:, None]
+    # factored difference of squares: no cancellation near resonance
     real = (w - omega) * (w + omega)
     imaginary = 2.0 * damping * w * omega
     real = np.where((real == 0.0) & (imaginary == 0.0), UNDAMPED_RESONANCE, real)
@@ -58,12 +59,12 @@ def transfer(modes: Modes, damping: float, omega: FloatArray) -> ComplexArray:
 
 
 def corner_response(body: SpringBlock, omega: ArrayLike, direction: ArrayLike) -> ComplexArray:
-    """Return the vertical displacement of the corners by modal superposition, over g / omega_z^2 and per A/g.
+    """Return the complex vertical displacement of the corners by modal superposition, over g / omega_z^2 and per A/g.
 
     Parameters
     ----------
     body : SpringBlock
-        Its damping is the modal ratio h.
+        Its damping is the modal damping ratio h.
     omega : (n,) array, rad/s
         Circular frequency theta of the shaking.
     direction : (3,) array
@@ -72,7 +73,7 @@ def corner_response(body: SpringBlock, omega: ArrayLike, direction: ArrayLike) -
     Returns
     -------
     (4, n) complex array
-        [Okumura1987]_ eqs. (11) to (15) put into (23). A corner lifts where A/g times its modulus exceeds 1.
+        [Okumura1987]_ eqs. (11) to (15) inserted into (23). A corner lifts where A/g times the modulus exceeds 1.
     """
     modes = natural_modes(body)
     response: ComplexArray = participation(body, modes, direction) @ transfer(modes, body.damping, np.asarray(omega, dtype=np.float64))
@@ -80,9 +81,9 @@ def corner_response(body: SpringBlock, omega: ArrayLike, direction: ArrayLike) -
 
 
 def corner_response_direct(body: SpringBlock, omega: ArrayLike, direction: ArrayLike, *, damping: Damping = "modal") -> ComplexArray:
-    """Return what :func:`corner_response` returns, from one complex linear system per frequency.
+    """Return the complex corner response of :func:`corner_response` from one linear system per frequency.
 
-    (K - theta^2 M + i theta C) q = -f of [Okumura1987]_ eqs. (3), (10), with C that of equal modal ratios, or of the corner dashpots.
+    (K - theta^2 M + i theta C) q = -f of [Okumura1987]_ eqs. (3), (10), with C for equal modal damping ratios or for corner dashpots.
     """
     theta = np.asarray(omega, dtype=np.float64)[:, None, None]
     mass, stiffness = mass_matrix(body), stiffness_matrix(body)
@@ -99,7 +100,7 @@ def corner_response_direct(body: SpringBlock, omega: ArrayLike, direction: Array
 
 
 def lifting_amplitude(response: ComplexArray) -> FloatArray:
-    """Return A/g that just lifts corners of that response ([Okumura1987]_): infinite where they stand still, 0 at an undamped resonance."""
+    """Return A/g at uplift for a corner response ([Okumura1987]_): infinite without response, 0 at an undamped resonance."""
     amplitude = np.abs(response)
     with np.errstate(divide="ignore"):
         return np.where(amplitude > 1.0 / UNDAMPED_RESONANCE**0.5, 0.0, 1.0 / amplitude)
@@ -113,24 +114,24 @@ def uplift_thresholds(
     rho_deg: float = 90.0,
     damping: Damping = "modal",
 ) -> FloatArray:
-    """Return the least A/g that lifts each corner in the steady state.
+    """Return the smallest A/g that lifts each corner in the steady state ([Okumura1987]_).
 
     Parameters
     ----------
     body : SpringBlock
-        Any base, square or not.
+        With a square or rectangular base.
     frequency_ratio : (n,) array
         Frequency of the shaking over the first rocking frequency, theta/omega_1.
     phi_deg, rho_deg : float, degrees
-        Direction: azimuth from x towards y, angle from the vertical.
+        Direction of the shaking: azimuth from x towards y, angle from the vertical.
     damping : "modal" or "dashpots"
-        The body's ratio read as the paper's modal h, or as that of its corner dashpots.
+        Damping ratio of the body as modal damping ratio h of the paper, or as ratio of the corner dashpots.
 
     Returns
     -------
     (4, n) array
-        A/g of corners 1 to 4; infinite where no amplitude lifts the corner. The block lifts at the least of the four, which
-        is not always the paper's corner 4 ([Okumura1987]_ eq. (26)).
+        A/g of corners 1 to 4; infinite where no amplitude lifts the corner. The block lifts at the smallest of the four, not
+        always at corner 4 of the paper ([Okumura1987]_ eq. (26)).
 
     Raises
     ------
@@ -143,11 +144,11 @@ def uplift_thresholds(
     >>> uplift_thresholds(block, [2.78225]).min(axis=0).round(6)
     array([0.676683])
     """
-    ratio = np.atleast_1d(checks.float_array("the frequency ratios", frequency_ratio))
+    ratio = np.atleast_1d(checks.float_array("`frequency_ratio`", frequency_ratio))
     if not (np.isfinite(ratio).all() and (ratio >= 0.0).all()):
-        raise ParameterError("frequency ratios theta/omega_1 must be finite and not negative")
+        raise ParameterError("`frequency_ratio` (theta/omega_1) must be finite and zero or more")
     if damping not in DAMPINGS:
-        raise ParameterError("the damping must be one of {known}, found {found}", known=DAMPINGS, found=repr(damping))
+        raise ParameterError("`damping` must be one of {known}, found {found}", known=DAMPINGS, found=repr(damping))
     omega = ratio * natural_modes(body).omega_1
     direction = shaking_direction(phi_deg, rho_deg)
     if damping == "modal":

@@ -1,4 +1,4 @@
-"""At which frequencies a block on corner springs lifts most easily: exact minima of the harmonic threshold."""
+"""Minima of the harmonic uplift threshold over frequency, located by root search."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from seisblock.models.uplift.harmonic import lifting_amplitude, participation, s
 from seisblock.models.uplift.modes import Modes, natural_modes
 
 SEARCH_LIMIT = 3.0
-"""Minima are sought up to this multiple of the highest natural frequency."""
+"""Upper end of the default search range over the highest natural frequency."""
 
 RESONANCE_TOLERANCE = 1e-6
-"""Without damping, a maximum this near to a natural frequency, relatively, is the resonance itself."""
+"""Relative distance from a natural frequency below which an undamped maximum is the resonance itself."""
 
 RELATIVE_TOLERANCE = 1e-9
-"""Frequencies and thresholds closer than this, relatively, are one."""
+"""Relative difference below which frequencies or thresholds are equal."""
 
 
 @dataclass(frozen=True)
 class UpliftMinimum:
-    """A frequency at which a block lifts more easily than at its neighbours.
+    """Local minimum of the uplift threshold over frequency.
 
     Parameters
     ----------
     frequency_ratio : float
         theta/omega_1.
     acceleration_ratio : float
-        Least A/g that lifts a corner there.
+        Smallest A/g that lifts a corner at this frequency.
     corners : tuple of int
-        Which corners lift at it, 1 to 4.
+        Corners that lift at this amplitude, 1 to 4.
     mode : str
-        Of the natural modes that move a corner, the one with the nearest frequency; empty at an end of the range.
+        Nearest natural mode that moves a corner; empty at an end of the range.
     """
 
     frequency_ratio: float
@@ -47,7 +47,7 @@ class UpliftMinimum:
 
 @dataclass(frozen=True, eq=False)
 class _Amplitudes:
-    """Amplitudes of the corners as functions of the shaking's circular frequency."""
+    """Corner amplitudes as functions of the circular frequency of the shaking."""
 
     modes: Modes
     damping: float
@@ -58,7 +58,7 @@ class _Amplitudes:
         return lifting_amplitude(self.parts @ transfer(self.modes, self.damping, omega))
 
     def slopes(self, omega: FloatArray) -> FloatArray:
-        """Return a number of the sign of the amplitude's derivative, (4, n)."""
+        """Return a quantity with the sign of the derivative of the corner amplitudes, (4, n) (derived here)."""
         t = transfer(self.modes, self.damping, omega)
         rate = t * t * (2.0 * omega - 2j * self.damping * self.modes.omega[:, None])
         v = self.parts @ t
@@ -70,7 +70,7 @@ class _Amplitudes:
         return float(self.slopes(np.array([omega]))[0, 0])
 
     def resonances(self) -> FloatArray:
-        """Return which modes take the corners to infinity without damping, (4, 6): equal frequencies act together."""
+        """Return which modes are undamped resonances of each corner, (4, 6); modes of equal frequency are added first."""
         w = self.modes.omega
         same_frequency = np.abs(w[:, None] - w) <= RELATIVE_TOLERANCE * w
         amplitude: FloatArray = np.abs(self.parts @ same_frequency)
@@ -85,34 +85,34 @@ def uplift_minima(
     corner: int | None = None,
     frequency_range: tuple[float, float] | None = None,
 ) -> tuple[UpliftMinimum, ...]:
-    """Return every frequency at which the block lifts more easily than at its neighbours, ascending.
+    """Return all local minima of the uplift threshold over frequency, in ascending order.
 
     Parameters
     ----------
     body : SpringBlock
-        Its damping is the modal ratio h.
+        Its damping is the modal damping ratio h.
     phi_deg, rho_deg : float, degrees
         Direction of the shaking.
     corner : int or None
-        Corner 1 to 4 alone, or whichever of the four lifts first.
+        Corner 1 to 4; None: the corner that lifts first.
     frequency_range : (low, high) or None
-        Range of theta/omega_1; None searches from zero to thrice the highest natural frequency.
+        Range of theta/omega_1; None: from zero to three times the highest natural frequency.
 
     Returns
     -------
     tuple of UpliftMinimum
-        Zeros of the derivative of the governing corner's amplitude, located by Brent's method, not read off a grid. Without
-        damping the minima are natural frequencies, at A/g = 0.
+        Zeros of the derivative of the governing corner's amplitude, by Brent's method. Without damping the minima are natural
+        frequencies, at A/g = 0.
 
     Raises
     ------
     ParameterError
-        If there is no such corner or an angle is not a number.
+        If `corner` is not 1 to 4 or an angle is not a number.
 
     Notes
     -----
-    [Okumura1987]_ section 6, statements 1) to 5), speak of these minima. Where the threshold passes from one corner to
-    another it has a peak, never a minimum, so that each corner is searched alone.
+    [Okumura1987]_ section 6, statements 1) to 5), refer to these minima. Where the governing corner changes the threshold has a peak,
+    never a minimum, so that each corner is searched separately.
 
     Examples
     --------
@@ -140,9 +140,9 @@ def lowest_uplift_threshold(
     corner: int | None = None,
     frequency_range: tuple[float, float] | None = None,
 ) -> UpliftMinimum:
-    """Return the frequency at which the least amplitude lifts the block, the ends of the range included.
+    """Return the global minimum of the uplift threshold, ends of the range included ([Okumura1987]_ section 6).
 
-    Parameters, and the sense of "least", as for :func:`uplift_minima` ([Okumura1987]_ section 6).
+    Parameters are those of :func:`uplift_minima`.
     """
     amplitudes, low, high = _amplitudes_in_range(body, phi_deg, rho_deg, corner, frequency_range)
     selection = slice(None) if corner is None else slice(corner - 1, corner)
@@ -159,18 +159,19 @@ def lowest_uplift_threshold(
 def _amplitudes_in_range(
     body: SpringBlock, phi_deg: float, rho_deg: float, corner: int | None, frequency_range: tuple[float, float] | None
 ) -> tuple[_Amplitudes, float, float]:
-    """Return the corners' amplitudes, and the range in rad/s."""
+    """Return the corner amplitudes and the range, rad/s."""
     if corner not in (None, 1, 2, 3, 4):
-        raise ParameterError("there are corners 1 to 4, found {corner}", corner=corner)
+        raise ParameterError("`corner` must be 1, 2, 3 or 4, found {corner}", corner=corner)
     modes = natural_modes(body)
     parts = participation(body, modes, shaking_direction(phi_deg, rho_deg))
+    # round-off must not make a mode participate: at an undamped resonance it would give a false minimum
     parts[np.abs(parts) < 1e-14 * np.abs(parts).max()] = 0.0
     low, high = frequency_range or (0.0, SEARCH_LIMIT * float(modes.omega[-1]) / modes.omega_1)
     return _Amplitudes(modes, body.damping, parts), low * modes.omega_1, high * modes.omega_1
 
 
 def _candidates(amplitudes: _Amplitudes, low: float, high: float, corner: int | None) -> list[float]:
-    """Return where the amplitude of any single corner has a maximum, rad/s."""
+    """Return the frequencies of maximum amplitude of any single corner, rad/s."""
     grid = _search_grid(amplitudes, low, high)
     slopes = amplitudes.slopes(grid)
     omega = amplitudes.modes.omega
@@ -188,7 +189,7 @@ def _candidates(amplitudes: _Amplitudes, low: float, high: float, corner: int | 
 
 
 def _root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return the root between two frequencies (Brent); an end that round-off has carried across zero is the root."""
+    """Return the root between two frequencies by Brent's method; without a sign change, by round-off, the end nearer to zero."""
     from scipy.optimize import brentq
 
     value_low, value_high = function(low), function(high)
@@ -198,7 +199,7 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
 
 
 def _search_grid(amplitudes: _Amplitudes, low: float, high: float) -> FloatArray:
-    """Return frequencies so dense about each natural one that no maximum hides between two of them."""
+    """Return a grid of frequencies, refined around each natural frequency to separate all maxima."""
     omega = amplitudes.modes.omega
     width = amplitudes.damping or 0.01
     offsets = np.concatenate([-np.geomspace(20.0, 0.01, 40), np.geomspace(0.01, 20.0, 40)]) * width
@@ -209,7 +210,7 @@ def _search_grid(amplitudes: _Amplitudes, low: float, high: float) -> FloatArray
 
 
 def _minimum_at(amplitudes: _Amplitudes, omega: float, corner: int | None) -> UpliftMinimum | None:
-    """Return the minimum at a frequency if it is one of the corner that lifts first there, else None."""
+    """Return the minimum at a frequency if it belongs to the governing corner there, else None."""
     if corner is None:
         neighbours = omega * (1.0 + 1e-6 * np.array([-1.0, 0.0, 1.0]))
         left_value, value, right_value = amplitudes.thresholds(neighbours).min(axis=0)
@@ -222,7 +223,7 @@ def _minimum_at(amplitudes: _Amplitudes, omega: float, corner: int | None) -> Up
 
 
 def _make_minimum(amplitudes: _Amplitudes, omega: float, corner: int | None, mode: str) -> UpliftMinimum:
-    """Return a minimum with the corners that lift at it."""
+    """Return the threshold at a frequency with the corners that lift."""
     thresholds = amplitudes.thresholds(np.array([omega]))[:, 0]
     threshold = float(thresholds.min()) if corner is None else float(thresholds[corner - 1])
     lifting = (

@@ -1,17 +1,17 @@
-"""A rigid block on corner springs that hold it only while compressed: the model that the engine follows.
+"""Hybrid model of a rigid block on unilateral corner springs.
 
 Assumptions ([Okumura1987]_ section 2, extended to records)
-    The corners' vertical springs and dashpots push only while compressed, u < 0; the horizontal ones stay attached. Rotations are
-    small, the weight has no lever from them (no P-delta), and the torsion about the vertical, which nothing drives, is left out.
-    The dashpot acts as long as u < 0, so that it may pull for an instant just before the corner opens.
+    Vertical springs and dashpots of the corners act only in compression, u < 0; horizontal ones stay attached. Small rotations, no P-delta
+    effect; torsion about the vertical is not excited and is omitted. The dashpot acts as long as u < 0, so that its force can be tensile
+    for an instant before uplift.
 Modes
-    One bit per corner, set while it is in contact: 15 is the whole base, 0 free flight on the horizontal springs. 31 is the base glued
-    to its springs, which no guard ends: the linear system, for the scale at which a record just lifts.
+    One bit per corner, set in contact: 15 is full contact, 0 free flight on the horizontal springs. 31 is the linear system with the base
+    bonded to the springs, without guards, for the scale factor to uplift.
 State
-    Vertical displacement u of each corner from the spring's natural length, m, positive when lifted; upward force of each corner over the
+    Vertical displacement u of each corner from the spring's natural length, m, positive upwards; upward force of each corner over the
     mass, m/s^2; b theta_x and b theta_y, m; displacement of the centre of gravity along x and y, m; the rates of u, x and y. All relative
-    to the ground. The four u of a rigid base obey u1 - u2 - u3 + u4 = 0, which the equations keep. What the resets count: how often a
-    corner lifted or landed, and which corners lifted first, one bit each.
+    to the ground. The four u of a rigid base satisfy u1 - u2 - u3 + u4 = 0, an invariant of the equations. Counted at resets: number of
+    uplifts and landings of corners, and the corners that lifted first, one bit each.
 """
 
 from __future__ import annotations
@@ -27,13 +27,12 @@ from seisblock.dynamics.model import Model
 from seisblock.dynamics.model_api import OFF, RESET, SERIES
 
 ALL_CORNERS, GLUED = 15, 31
-"""All four corners in contact; and never to part."""
+"""All four corners in contact; linear system without uplift."""
 
 ORDER = 20
-"""Terms of the series. The highest rocking frequency asks for more than the engine's usual 12: for a vertical frequency of 10 Hz and
-samples every 0.01 s, order 20 takes 1.4 us per sample, 12 takes 2.2 us and 28 takes 2.0 us. An exact matrix exponential per contact state
-takes 0.1 us where nothing can open or close, but the interior of 14 % of the samples (91 % at 50 Hz) must be looked at, for which
-the series is needed anyway."""
+"""Order of the series. The highest rocking frequency requires more than the engine's default of 12: for a vertical frequency of 10 Hz and a
+sampling interval of 0.01 s, order 20 takes 1.4 us per sample, 12 takes 2.2 us and 28 takes 2.0 us. An exact matrix exponential per contact
+state takes 0.1 us where no corner can open or close, but 14 % of the samples (91 % at 50 Hz) need the series for their interior."""
 
 U, F, TURN_X, TURN_Y, X, Y, W, VX, VY, CHANGES, FIRST = 0, 4, 8, 9, 10, 11, 12, 16, 17, 18, 19
 """First of four corner displacements, first of four forces, b theta_x, b theta_y, x, y, first of four rates, rates of x and y, counts."""
@@ -41,7 +40,7 @@ U, F, TURN_X, TURN_Y, X, Y, W, VX, VY, CHANGES, FIRST = 0, 4, 8, 9, 10, 11, 12, 
 N_STATES, TRACKED = 20, 10
 
 CROSSING_TOLERANCE = 1e-12
-"""Corners nearer to their springs than this share of the static settlement cross together."""
+"""Distance of a corner from its spring over the static settlement below which corners open or close together."""
 
 ALPHA, GAMMA, KX, KY, KZ, CX, CY, CZ, JX, JY, GRAVITY = range(11)
 """Ratios H/b and a/b; 4 kx/m, 4 ky/m, kz/m, 1/s^2; the dashpots likewise, 1/s; moments of inertia over m b^2; gravity, m/s^2."""
@@ -49,7 +48,7 @@ ALPHA, GAMMA, KX, KY, KZ, CX, CY, CZ, JX, JY, GRAVITY = range(11)
 
 @kernel(SERIES)
 def _series(mode, y, f, p, order, c, g):
-    """Write the series of corners and centre: [Okumura1987]_ eq. (1) with the springs of the corners in contact."""
+    """Write the series of corners and centre of gravity, [Okumura1987]_ eq. (1) with the springs in contact; return the degree."""
     alpha = p[ALPHA]
     gamma = p[GAMMA]
     for i in range(4):
@@ -63,8 +62,8 @@ def _series(mode, y, f, p, order, c, g):
     for k in range(order + 1):
         for i in range(4):
             c[F + i, k] = -(p[KZ] * c[U + i, k] + p[CZ] * c[W + i, k]) if (mode >> i) & 1 else 0.0
-        # b theta_x and b theta_y, and their rates, from the corners (+,+), (+,-), (-,+), (-,-); as sums of differences, which
-        # are exactly zero for corners that move alike
+        # b theta_x, b theta_y and their rates from the corners (+,+), (+,-), (-,+), (-,-), as sums of differences, which are
+        # exactly zero for equal corner motions
         turn_x = 0.5 * ((c[U, k] - c[U + 1, k]) + (c[U + 2, k] - c[U + 3, k]))
         turn_y = -0.5 * ((c[U, k] - c[U + 2, k]) + (c[U + 1, k] - c[U + 3, k])) / gamma
         c[TURN_X, k] = turn_x
@@ -108,10 +107,10 @@ def _series(mode, y, f, p, order, c, g):
 
 @kernel(RESET)
 def _reset(mode, guard, y, f, p):
-    """Let corner `guard` go, or catch it, with those that cross together: positions and rates continue, dashpot forces jump."""
+    """Open or close corner `guard` and those that cross with it: positions and rates are continuous, dashpot forces jump."""
     target_mode = mode
     for i in range(4):
-        # a crossing is known to round-off only, which must neither count as crossing back nor part corners that move alike
+        # round-off of a crossing must neither cause a crossing back nor separate corners with equal motion
         if i == guard or abs(y[U + i]) < CROSSING_TOLERANCE * p[GRAVITY] / (4.0 * p[KZ]):
             in_contact = (mode >> i) & 1
             y[U + i] = 0.0
@@ -156,13 +155,13 @@ UPLIFT = Model(
 
 
 UPLIFT_REPEAT = replace(UPLIFT, order=ORDER - 3)
-"""The same model with other round-off, to tell where that decides."""
+"""Same model with different round-off, to detect results that round-off decides."""
 
 
 def parameters(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the model's parameters ([Okumura1987]_); corner dashpots are c = 2 zeta k / omega of their direction (derived here).
+    """Return the parameter vector of the model ([Okumura1987]_); corner dashpots c = 2 zeta k / omega by direction (derived here).
 
-    The static settlement, and rates and forces to match, are the floors of the states.
+    Appended are the minimum magnitudes ("floors") of the states in the convergence test, from the static settlement.
     """
     wx, wy, wz = body.omega
     two_zeta = 2.0 * body.damping

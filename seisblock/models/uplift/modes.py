@@ -1,4 +1,4 @@
-"""Natural modes of a block on corner springs, all four corners in contact."""
+"""Natural modes of a rigid block on corner springs with all four corners in contact."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ UNCOUPLED_COORDINATES = {
     (N_("vertical"),): (2,),
     (N_("torsion"),): (5,),
 }
-"""Coordinates that move together: the base is symmetric about both of its axes, so that these four do not couple."""
+"""Uncoupled groups of coordinates, by symmetry of the base about both axes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Modes:
-    """Natural modes in the order of their frequencies.
+    """Natural modes in ascending order of frequency.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class Modes:
         Columns in the coordinates of ``COORDINATES``, normalised to a unit modal mass.
     names : tuple of str
     first_rocking : int
-        Which of them is the first rocking mode, whose frequency is omega_1.
+        Index of the first rocking mode, whose frequency is omega_1.
     """
 
     omega: FloatArray
@@ -55,7 +55,7 @@ class Modes:
 def natural_modes(body: SpringBlock) -> Modes:
     """Return the six natural modes of a block on corner springs.
 
-    Linear: small rotations and every corner in contact.
+    Linear model: small rotations and all corners in contact.
 
     Parameters
     ----------
@@ -67,8 +67,8 @@ def natural_modes(body: SpringBlock) -> Modes:
 
     Notes
     -----
-    K q = omega^2 M q of [Okumura1987]_ eqs. (3) to (5), solved by ``scipy.linalg.eigh`` in each of the four groups of
-    coordinates that symmetry keeps apart, so that equal frequencies of a square base do not mix the directions.
+    K q = omega^2 M q of [Okumura1987]_ eqs. (3) to (5), solved by ``scipy.linalg.eigh`` in each of the four uncoupled groups of
+    coordinates, so that equal frequencies of a square base do not mix the directions.
 
     Examples
     --------

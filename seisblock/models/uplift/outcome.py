@@ -1,4 +1,4 @@
-"""What a record makes of a block on corner springs: the numbers, the contact states and the warnings of one trajectory."""
+"""Outcome, contact states, events and warnings of an uplift run."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from seisblock.models.uplift.modes import natural_modes
 from seisblock.records.motion import Motion
 
 REPEAT_TOLERANCE = 1e-3
-"""Largest share by which two integrations may differ in the largest uplift before that is said."""
+"""Relative difference of the maximum uplift between two integrations above which a warning is issued."""
 
 
 @dataclass(frozen=True)
 class CornerOutcome:
-    """What one corner did.
+    """Result of one corner.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ class CornerOutcome:
     uplifts : bool
     first_uplift_s : float or None
     uplift_duration_s, longest_uplift_s : float
-        Total time in the air, and longest stretch of it.
+        Total time, and longest continuous time, out of contact.
     max_uplift_m, max_uplift_time_s : float
-        Highest position above the spring's natural length (negative: never lifted, and by this much), and when.
+        Highest position above the spring's natural length (negative: no uplift), and its time.
     max_contact_force_n, max_contact_force_time_s : float
-        Largest force of its vertical spring and dashpot, and when.
+        Largest force of the vertical spring and dashpot, and its time.
     """
 
     corner: int
@@ -53,7 +53,7 @@ class CornerOutcome:
 
 @dataclass(frozen=True)
 class UpliftOutcome:
-    """What a block on corner springs did under a record.
+    """Result of an uplift run ([Okumura1987]_ section 2, extended to records).
 
     Parameters
     ----------
@@ -61,30 +61,30 @@ class UpliftOutcome:
         With all corners in contact, ascending.
     uplifts : bool
     first_uplift_s : float or None
-        When a corner first leaves its spring, s from the record's first sample.
+        First uplift of a corner, s from the record's first sample.
     max_uplift_m : float
-        Largest height of a corner above its spring, 0 without uplift.
+        Maximum height of a corner above its spring, 0 without uplift.
     corner : int or None
-        The corner that lifts first, 1 to 4 as in :class:`CornerOutcome`; of several that lift together, the lowest number.
+        Corner that lifts first, 1 to 4 as in :class:`CornerOutcome`; the lowest number of several simultaneous ones.
     first_corners : tuple of int
-        All that lift first, at one instant.
+        All corners that lift at the first uplift.
     uplift_duration_s : float
-        Time during which at least one corner is in the air.
+        Time with at least one corner out of contact.
     max_contact_force_n, max_contact_force_ratio : float
-        Largest force at a corner, and over the static m g / 4.
+        Largest force at a corner, and its ratio to the static force m g / 4.
     contact_changes : int
-        How many times a corner lifted or landed.
+        Number of uplifts and landings of corners.
     share_on_corners : dict
         Share of the time on 4, 3, 2, 1 and 0 corners.
     uplift_scale : float or None
-        Factor on the record at which a corner just lifts: below it the response is linear.
+        Scale factor to uplift: below it the response is linear.
     max_rotation_rad : float
-        Largest rotation about x or y, between samples too.
+        Largest rotation about x or y, including the interior of samples.
     lean_ratio : float
-        The same over the slenderness of that side.
+        Largest ratio of rotation to the slenderness of the side.
     within_model : bool
-        Whether that stays below 0.1, so that leaving out the weight's lever is defensible; where it does not, sizes and times of the
-        motion are no answers, only the first uplift is.
+        True if `lean_ratio` is at most 0.1, where neglecting the P-delta effect is acceptable; otherwise only the first uplift is a
+        valid result.
     static_settlement_m : float
     corners : tuple of CornerOutcome
     """
@@ -109,19 +109,19 @@ class UpliftOutcome:
 
 
 def _contact_states(trajectory: Trajectory) -> tuple[FloatArray, IntArray]:
-    """Return when contact states begin, and the last one ends, (m + 1,), s after sample 0, and which they are, (m,)."""
+    """Return the edges, (m + 1,), s after sample 0, and modes, (m,), of the contact states."""
     changes = trajectory.events
     return np.concatenate([[0.0], changes.time, [trajectory.end_time]]), np.append(ALL_CORNERS, changes.target)
 
 
 def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:
-    """Return the lengths of the contact states, (m,), s, and which corners are in the air in each, (m, 4)."""
+    """Return the durations of the contact states, (m,), s, and the corners out of contact in each, (m, 4)."""
     edges, modes = _contact_states(trajectory)
     return np.diff(edges), (modes[:, None] >> np.arange(4) & 1) == 0
 
 
 def build_outcome(body: SpringBlock, motion: Motion, trajectory: Trajectory, results: UpliftBatchResult) -> UpliftOutcome:
-    """Return the numbers a user asks for."""
+    """Return the outcome of a trajectory."""
     lengths, in_air = _contacts(trajectory)
     (time,) = results.time_on_corners_s
     return UpliftOutcome(
@@ -134,10 +134,10 @@ def build_outcome(body: SpringBlock, motion: Motion, trajectory: Trajectory, res
 
 
 def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, lengths: FloatArray, in_air: BoolArray) -> CornerOutcome:
-    """Return what one corner did."""
+    """Return the result of corner `i`."""
     changes = trajectory.events
     lifts = changes.time[(changes.source & ~changes.target) >> i & 1 == 1]
-    # one stretch in the air may hold many changes of the other corners
+    # contact changes of other corners split one uplift of this corner into several contact states
     airborne_index = np.cumsum(np.append(False, in_air[1:] & ~in_air[:-1]))
     airborne_durations = np.bincount(airborne_index[in_air], lengths[in_air]) if in_air.any() else np.zeros(1)
     highest, highest_at = trajectory.extrema[U + i, :2]
@@ -156,19 +156,19 @@ def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, l
 
 
 def phases(motion: Motion, trajectory: Trajectory) -> Sequence[Phase]:
-    """Return the contact states in the order of time."""
+    """Return the contact states in chronological order."""
     edges, modes = _contact_states(trajectory)
     return make_phases(motion.start_s + edges, modes, contact_name)
 
 
 def events(motion: Motion, changes: EventLog) -> Sequence[Event]:
-    """Return what each corner did, one event for each that lifts or lands."""
+    """Return the events, one for each uplift or landing of a corner."""
     indices, corner = _corner_changes(changes)
     return LazySequence(indices.size, partial(_events, motion.start_s, changes, indices, corner))
 
 
 def _events(start_s: float, changes: EventLog, indices: IntArray, corner: IntArray, span: slice) -> list[Event]:
-    """Return some of the events."""
+    """Return the events in `span`."""
     return [
         Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", start_s + c.time, c.before, c.after)
         for c, i in zip(map(changes.__getitem__, indices[span].tolist()), corner[span].tolist(), strict=True)
@@ -176,31 +176,31 @@ def _events(start_s: float, changes: EventLog, indices: IntArray, corner: IntArr
 
 
 def _corner_changes(changes: EventLog) -> tuple[IntArray, IntArray]:
-    """Return the changes in which a corner lifts or lands, and which it is, from 0; one that several corners share stands once for each."""
+    """Return event index and corner (0 to 3) of each uplift or landing; an event of several corners appears once per corner."""
     indices, corner = np.nonzero((changes.source ^ changes.target)[:, None] >> np.arange(4) & 1)
     return indices, corner
 
 
 def warnings(motion: Motion, results: UpliftBatchResult, row: int) -> tuple[Message, ...]:
-    """Return what the user should know before believing the numbers of one run."""
+    """Return the warnings of one run."""
     lean, rise, repeat_rise = (float(column[row]) for column in (results.lean_ratio, results.rise_m, results.repeat_rise_m))
     messages = []
     if motion.record is not None and motion.record.vertical is None:
-        messages.append(lazy_gettext("the record has no vertical component: solved with zero vertical motion"))
+        messages.append(lazy_gettext("no vertical component in the record: vertical motion set to zero"))
     if motion.record is not None and len(motion.record.horizontals) < 2:
-        messages.append(lazy_gettext("the record has one horizontal component: solved with zero motion across it"))
+        messages.append(lazy_gettext("only one horizontal component in the record: motion across it set to zero"))
     if lean > 1.0:
         messages.append(
             lazy_gettext(
-                "the block leans beyond its slenderness, where it would fall and this model, which has no P-delta and never overturns, "
-                "does not hold: use 'seisblock rock'"
+                "peak tilt exceeds the overturning angle; this model has no P-delta effect, cannot overturn and is not valid here: use "
+                "'seisblock rock'"
             )
         )
     elif lean > MAX_LEAN_RATIO:
         messages.append(
             lazy_gettext(
-                "the block leans to {lean:.2f} of its slenderness, beyond {small}, where this model, which has no P-delta and never "
-                "overturns, no longer holds: use 'seisblock rock'",
+                "peak tilt is {lean:.2f} of the overturning angle; this model has no P-delta effect and is valid up to {small}: use "
+                "'seisblock rock'",
                 lean=lean,
                 small=MAX_LEAN_RATIO,
             )
@@ -208,16 +208,16 @@ def warnings(motion: Motion, results: UpliftBatchResult, row: int) -> tuple[Mess
     if lean > MAX_LEAN_RATIO and abs(rise - repeat_rise) > REPEAT_TOLERANCE * max(abs(rise), abs(repeat_rise)):
         messages.append(
             lazy_gettext(
-                "by round-off alone, after so many contact changes, the motion no longer follows from the record: trust its beginning"
+                "after many contact changes the motion is determined by round-off, not by the record: only its beginning is reliable"
             )
         )
     elif abs(rise - repeat_rise) > REPEAT_TOLERANCE * max(abs(rise), abs(repeat_rise)):
         messages.append(
             lazy_gettext(
-                "the largest uplift is {one:.4g} or {other:.4g} mm by round-off alone: after so many contact changes the motion no longer "
-                "follows from the record; trust its beginning, and the order of magnitude",
-                one=rise * 1e3,
-                other=repeat_rise * 1e3,
+                "maximum uplift {first:.4g} or {second:.4g} mm, depending on round-off: after many contact changes the motion is not "
+                "determined by the record; only its beginning and the order of magnitude are reliable",
+                first=rise * 1e3,
+                second=repeat_rise * 1e3,
             )
         )
     return tuple(messages)

@@ -1,4 +1,4 @@
-"""A rigid block on corner springs under a three-component record: which corner lifts, when, how far, for how long."""
+"""Uplift solver of a rigid block on corner springs under a three-component motion: `solve_uplift`."""
 
 from __future__ import annotations
 
@@ -22,32 +22,32 @@ from seisblock.references import papers
 def solve_uplift(
     body: SpringBlock, motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY
 ) -> Response[UpliftOutcome]:
-    """Solve a block on corner springs through a three-component motion, from static equilibrium.
+    """Solve the response of a block on corner springs to a three-component motion, from static equilibrium.
 
-    Extends [Okumura1987]_ eq. (1) to records: the vertical spring and dashpot of a corner act only while compressed, horizontal ones stay
-    attached. Small rotations and no P-delta: this model never overturns.
+    Extends [Okumura1987]_ eq. (1) to records: the vertical spring and dashpot of a corner act only in compression, horizontal ones stay
+    attached. Small rotations, no P-delta effect: the model cannot overturn.
 
     Parameters
     ----------
     body : SpringBlock
-        Its damping is the ratio zeta of each corner dashpot, c = 2 zeta k / omega of its direction.
+        Its damping is the ratio zeta of the corner dashpots, c = 2 zeta k / omega by direction.
     motion : Motion
         Ground acceleration along +x, across (+y) and up.
     vertical : bool, float or None
-        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
     gravity : float, m/s^2
 
     Returns
     -------
     Response of UpliftOutcome
-        Channels: corner displacements ``uplift_1`` to ``uplift_4`` (m, positive when lifted), ``contact_force_1`` to ``_4`` (N),
-        of the centre of gravity ``displacement``, ``displacement_across``, ``displacement_up`` (m, relative to the ground; up from the
-        springs' natural length), and ``rotation``, ``rotation_across`` (rad, positive when leaning to +x, +y).
+        Channels: corner displacements ``uplift_1`` to ``uplift_4`` (m, positive upwards), ``contact_force_1`` to ``_4`` (N),
+        ``displacement``, ``displacement_across``, ``displacement_up`` of the centre of gravity (m, relative to the ground; up from the
+        natural length of the springs), and ``rotation``, ``rotation_across`` (rad, positive for a tilt to +x, +y).
 
     Raises
     ------
     SolverError
-        If the integration had to be given up.
+        If the integration fails.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def solve_uplift(
 
 
 def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Histories:
-    """Return what corners and centre did, on the trajectory's own time axis, both limits at each event."""
+    """Return the time histories at samples and at both limits of each event."""
     time, states, _ = trajectory.table()
     theta_x, theta_y = rotations(states, body)
     channels = (

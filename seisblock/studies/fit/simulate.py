@@ -59,7 +59,7 @@ def outcome_shares(
             params, gains = family.versions(
                 np.repeat(unit_points[part], run_count, axis=0), shifts[part].reshape(-1, PERTURBATION_COUNT), shaking.motion, shaking.scale
             )
-            verdicts = rock_verdicts(params, shaking.motion, gains).answered()
+            verdicts = rock_verdicts(params, shaking.motion, gains).require_complete()
             events = verdicts.overturned if experiment.kind == FELL else verdicts.max_rotation_ratio > 0.0
             event_counts[part] = events.reshape(-1, run_count).sum(axis=1)
         return event_counts * (SHARE_DENOMINATOR // run_count)

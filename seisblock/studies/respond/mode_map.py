@@ -18,8 +18,8 @@ from seisblock.core.typing import ArrayLike, FloatArray, IntArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.initiation import friction_to_rock, peak_loading_ratio
 from seisblock.models.respond.batch import MODE_COLUMNS, RespondBatchResult, no_answer, respond_many
-from seisblock.models.respond.batch_params import RespondBatchParams
 from seisblock.models.respond.describe import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
+from seisblock.models.respond.params import RespondBatchParams
 from seisblock.records import Motion
 from seisblock.records._validation import Gain, validate_motion, vertical_gain
 

@@ -23,7 +23,7 @@ from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.respond.batch import RespondBatchResult, no_answer, respond_many
-from seisblock.models.respond.batch_params import RespondBatchParams
+from seisblock.models.respond.params import RespondBatchParams
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 from seisblock.records._validation import Gain, validate_inputs, vertical_gain

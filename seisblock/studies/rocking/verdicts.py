@@ -53,4 +53,4 @@ def parallel_verdicts(
 def overturns_at(block: RockParams, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:
     """Return True for each factor on a motion at which a block overturns, (m,)."""
     scales: FloatArray = np.asarray(factors, dtype=np.float64)
-    return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).answered().overturned
+    return parallel_verdicts([block], motion, scales[:, None] * np.array(block.gains()), progress=progress).require_complete().overturned

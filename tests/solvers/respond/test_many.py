@@ -7,8 +7,8 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond import respond_many, respond_params, solve_respond
-from seisblock.models.respond.batch_params import RespondBatchParams
 from seisblock.models.respond.constants import NEAR_JAM
+from seisblock.models.respond.params import RespondBatchParams
 from seisblock.records import Motion
 from tests.solvers.respond.cases import shaking
 
@@ -81,7 +81,7 @@ def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
     two = to_block_array([Block(0.3, 0.9), Block(0.3, 1.2)])
     for mu, kinetic, e, why in (
         (-0.1, -0.2, 0.0, "friction coefficient mu"),
-        (0.3, 0.4, 0.0, "must not exceed static friction"),
+        (0.3, 0.4, 0.0, "must not exceed"),
         (0.3, 0.3, 1.0, "restitution"),
     ):
         with pytest.raises(ParameterError, match=why):
