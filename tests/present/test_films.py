@@ -212,7 +212,7 @@ def test_a_bar_tells_the_scale_of_the_scene(model, gal):
 def test_a_key_names_the_bands_of_the_strips(model):
     """Whatever is shaded in a picture is named in it, once."""
     shown = film(model, 2)
-    wanted = {shown.called(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
+    wanted = {shown.phase_label(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
     key = build_figure(shown).panels[0].get_legend()
     named = [text.get_text() for text in key.get_texts()] if key else []
     assert sorted(named) == sorted(wanted)
