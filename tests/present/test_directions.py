@@ -44,7 +44,7 @@ def test_a_model_names_directions_after_the_record(model, lang):
         told = [
             verdict_text(found),
             *(text.get_text() for text in figure.findobj(Text)),
-            *(film.called(p.name) for p in film.visible_phases),
+            *(film.phase_label(p.name) for p in film.visible_phases),
         ]
         told += [film.title, film.note, film.heading, page.split("application/json")[0]]
         if model in ("rock", "slide", "jump", "uplift"):
