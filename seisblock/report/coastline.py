@@ -42,6 +42,7 @@ def coastlines(west: float, east: float, south: float, north: float) -> list[Flo
                 continue
             stream.seek(int(begin))
             points = np.frombuffer(stream.read(int(size)), "<f4").reshape(int(count), 2).astype(float)
+            # the box may cross the date line, hence three copies of each polygon
             for turn in (-360.0, 0.0, 360.0):
                 shifted = points + np.array([turn, 0.0])
                 inside = (shifted[:, 0] >= west) & (shifted[:, 0] <= east) & (shifted[:, 1] >= south) & (shifted[:, 1] <= north)
@@ -53,6 +54,7 @@ def _runs_inside(points: FloatArray, inside: BoolArray) -> list[FloatArray]:
     """Return the runs of points inside the box, each extended by one point at both ends."""
     if not inside.any():
         return []
+    # include the neighbours, so that lines are drawn up to the edge of the box
     padded = inside.copy()
     padded[1:] |= inside[:-1]
     padded[:-1] |= inside[1:]

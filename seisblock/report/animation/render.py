@@ -84,6 +84,7 @@ def frame_times(
     """Return the times of the frames of an interval, s, and the playback speed over real time."""
     speed = 1.0 / slow
     count = max(round((last - first) * fps / speed) + 1, 2)
+    # doubling keeps a simple ratio to real time
     while count > max_frames:
         speed *= 2
         count = max(round((last - first) * fps / speed) + 1, 2)
@@ -123,6 +124,7 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     samples = Image.new("RGB", (width, 3 * height))
     for row, index in enumerate((0, len(pictures) // 2, -1)):
         samples.paste(pictures[index], (0, row * height))
+    # one palette for all frames, which the transparent deltas require
     palette = samples.quantize(TRANSPARENT, method=Image.Quantize.MEDIANCUT)
     first, *later = _frame_deltas([picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures])
     timing = {"duration": round(100 / fps) * 10, "loop": 0}
@@ -145,6 +147,7 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     program = find_ffmpeg() or "ffmpeg"
     pictures = iter(frames)
     first = next(pictures)
+    # yuv420p requires even dimensions
     width, height = (size - size % 2 for size in first.size)
     command = [
         program,
@@ -197,6 +200,7 @@ def _is_complete_mp4(path: Path) -> bool:
             if len(box_header) < 8:
                 return False
             length = int.from_bytes(box_header[:4], "big")
+            # length 1: 64-bit length after the type
             if length == 1:
                 length = int.from_bytes(box_header[8:16], "big")
             if length < 8:

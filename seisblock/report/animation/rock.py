@@ -106,6 +106,7 @@ def ground_heights(outline: FloatArray, z: FloatArray, turn: FloatArray) -> Floa
     z, turn : (n,) arrays, m, rad
         Height of the origin above the ground, and tilt.
     """
+    # vertical position of the lowest corner after rotation by `turn`
     lowest = (np.outer(np.cos(turn), outline[:, 1]) - np.outer(np.sin(turn), outline[:, 0])).min(axis=1)
     return z - np.minimum(z + lowest, 0.0)
 

@@ -1,4 +1,4 @@
-"""Three-dimensional scene in orthographic projection: cuboids and cylinders on a patch of ground, optionally on corner springs."""
+"""Three-dimensional scene in orthographic projection: cuboids and cylinders on the ground or on corner springs."""
 
 from __future__ import annotations
 
@@ -123,6 +123,7 @@ class Scene3D:
         across, high = centres @ right, centres @ up
         ground, beside = self.patch + self.ground_displacement[:, np.newaxis], 0.05 * self.half
         aside, rise = ground @ right, ground @ up
+        # solids count only up to the visible radius, the ground always
         left = min(max(float(across.min()) - reach, -self.visible_radius), float(aside.min()) - beside)
         end = max(min(float(across.max()) + reach, self.visible_radius), float(aside.max()) + beside)
         low = min(max(float(high.min()) - reach, -self.visible_radius), float(rise.min()) - beside)
@@ -158,9 +159,11 @@ class Scene3D:
                 points = corners[list(corner_indices)]
                 normal = np.cross(points[1] - points[0], points[2] - points[1])
                 normal = normal / np.linalg.norm(normal)
+                # back-face culling; edge-on faces are skipped by the tolerance
                 if normal @ view_direction > 1e-9:
                     shade = np.clip(STONE * (0.72 + 0.32 * float(normal @ LIGHT)), 0.0, 1.0)
                     visible.append((float(points.mean(axis=0) @ view_direction), points, shade, time >= solid.fell_s))
+        # painter's algorithm: sorted by distance of the face centre
         for _, points, shade, has_fallen in sorted(visible, key=lambda entry: entry[0]):
             yield points, shade, has_fallen
 
@@ -178,7 +181,7 @@ def project(points: FloatArray) -> FloatArray:
 
 
 def ground_path(motion: Motion, acts: tuple[bool, bool, bool], times: FloatArray) -> FloatArray:
-    """Return the ground displacement along, across and up, (n, 3), m, with the baseline correction of PGD; zero in rows that do not act."""
+    """Return the ground displacement along, across and up, (n, 3), m, with the baseline of PGD; zero in inactive rows."""
     zeros = np.zeros(motion.samples)
     rows = zip(acts, motion.acceleration, strict=True)
     displacements = [ground_history(row, motion.dt).displacement if act and row.any() else zeros for act, row in rows]

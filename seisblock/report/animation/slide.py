@@ -80,6 +80,7 @@ def position_on_base(base: SlidingBase, slip: FloatArray) -> tuple[FloatArray, F
     downhill = math.copysign(1.0, base.slope_deg)
     angle = abs(base.angle)
     foot = math.inf if base.slope_length is None else base.slope_length
+    # split the path at the foot of the slope
     on_slope = np.minimum(downhill * slip, foot)
     overrun = downhill * slip - on_slope
     x = downhill * (on_slope * math.cos(angle) + overrun)

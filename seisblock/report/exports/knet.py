@@ -80,6 +80,7 @@ def _file_text(record: Record, component: Component, rate: int, start: datetime)
     decimals = MAX_DECIMALS
     while decimals > 0 and float(np.abs(gal).max()) * 10**decimals > MAX_COUNTS:
         decimals -= 1
+    # whole seconds, rounded up
     seconds = -(-gal.size // rate)
     counts = np.zeros(seconds * rate, dtype=np.int64)
     counts[: gal.size] = np.rint(gal * 10**decimals)

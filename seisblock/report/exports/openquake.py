@@ -127,6 +127,7 @@ def pool_adjacent_violators(shares: Sequence[float]) -> list[float]:
     pools: list[tuple[float, int]] = []
     for share in shares:
         pools.append((share, 1))
+        # merge decreasing neighbours into their weighted mean until the sequence is monotonic
         while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
             (a, m), (b, n) = pools[-2:]
             pools[-2:] = [((m * a + n * b) / (m + n), m + n)]

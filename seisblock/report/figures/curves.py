@@ -95,6 +95,7 @@ def insert_crossings(time: FloatArray, values: FloatArray, level: float) -> tupl
     ([0.0, 0.25, 1.0, 2.0], [0.0, 1.0, 4.0, 4.0])
     """
     difference = values - level
+    # strict sign change: points exactly on the level need no crossing
     index = np.flatnonzero(difference[:-1] * difference[1:] < 0.0)
     at = time[index] + (time[index + 1] - time[index]) * difference[index] / (difference[index] - difference[index + 1])
     return np.insert(time, index + 1, at), np.insert(values, index + 1, level)
@@ -145,6 +146,7 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
     >>> bin_extremes(np.arange(8.0), np.array([0.0, 1.0, 5.0, 2.0, -3.0, 0.0, 0.0, 1.0]), max_points=4).tolist()
     [0, 2, 4, 7]
     """
+    # two points per bin: minimum and maximum
     n = values.size
     if n <= max_points:
         return np.arange(n)
@@ -154,6 +156,7 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
     )
     starts = np.flatnonzero(np.diff(bin_number, prepend=-1))
     bin_index = np.repeat(np.arange(starts.size), np.diff(starts, append=n))
+    # NaN must win neither extreme; the first NaN of each gap is kept to break the line
     broken = np.isnan(values)
     lowest = _first_extremes(np.minimum.reduceat, np.where(broken, np.inf, values), starts, bin_index)
     highest = _first_extremes(np.maximum.reduceat, np.where(broken, -np.inf, values), starts, bin_index)
@@ -163,5 +166,6 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
 
 def _first_extremes(extreme: Callable[..., FloatArray], values: FloatArray, starts: IntArray, bin_index: IntArray) -> IntArray:
     """Return the index of the first extreme value in each bin."""
+    # `hits` is sorted by bin, so that the first index of each unique bin is its first extreme
     hits = np.flatnonzero(values == extreme(values, starts)[bin_index])
     return hits[np.unique(bin_index[hits], return_index=True)[1]]

@@ -1,4 +1,4 @@
-"""Fitting of a figure to a given size: smaller text, wrapped labels, moved legends; an error if the text still does not fit."""
+"""Fitting of a figure to a given size: smaller text, wrapped labels, moved legends."""
 
 from __future__ import annotations
 
@@ -109,6 +109,7 @@ def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> Style
         )
     if fig.narrow_layout is not None:
         return _fit(fig.build_narrow(fig.narrow_layout, title), target_size, title)
+    # no height fits: search the minimum width at the original aspect ratio
     share = layout.height / layout.width
     min_length = min_size(
         lambda broad: layout.fits(broad, round_up(max(high, share * broad), target_size.unit)), wide, layout.width, target_size.unit
@@ -168,6 +169,7 @@ class Layout:
     def fits(self, width: float, height: float) -> bool:
         """Set the figure to a size, inch, and return True if all text fits without overlap."""
         fig = self.fig
+        # restore the original state before every trial, which depends on nothing tried before
         share = max(min(width / self.width, height / self.height, 1.0), MIN_FONT_SCALE)
         fig.set_size_inches(width, height)
         fig.narrowed = fig.narrowed or width < self.width
@@ -215,7 +217,7 @@ def _redraw_legends(
 
 
 def _legend_changes(fig: StyledFigure) -> dict[Any, dict[str, Any]]:
-    """Return changed options: fewer columns for legends wider than their panel, above the panel for those that cover much of it."""
+    """Return changed options of legends: fewer columns if too wide, above the panel if they cover much of it."""
     changes: dict[Any, dict[str, Any]] = {}
     for axis, (_, options) in fig.keys.items():
         key, panel = (fig.legends[0], fig.bbox) if axis is None else (axis.get_legend(), axis.get_window_extent())
@@ -223,6 +225,7 @@ def _legend_changes(fig: StyledFigure) -> dict[Any, dict[str, Any]]:
         box, legend_columns = key.get_window_extent(), min(options["ncols"], len(key.get_texts()))
         if box.width > panel.width and legend_columns > 1:
             changes[axis] = {"ncols": max(int(legend_columns * panel.width / box.width), 1)}
+        # a legend inside its panel moves above it if it covers too much
         inside = axis is not None and options["bbox_to_anchor"] is None
         if inside and (box.width * box.height > MAX_HIDDEN * panel.width * panel.height or fig.legend_covers_curve(key)):
             changes[axis] = {**changes.get(axis, {}), "loc": "lower right", "bbox_to_anchor": (1.0, LEGEND_Y), "borderaxespad": 0.0}
@@ -274,6 +277,7 @@ def has_overlaps(figure: Figure) -> bool:
         return True
     low = np.maximum(boxes[:, None, :2], boxes[None, :, :2])
     high = np.minimum(boxes[:, None, 2:], boxes[None, :, 2:])
+    # overlap of every pair over the smaller area, so that a short label inside a long one counts fully
     area = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
     shared = np.prod(np.maximum(high - low, 0.0), axis=2) / np.minimum(area[:, None], area[None, :])
     np.fill_diagonal(shared, 0.0)

@@ -86,7 +86,8 @@ def _rocking_points(response: Response[JumpOutcome], gaps: IntArray, share: Floa
 
 def _interpolate(time: FloatArray, values: FloatArray, pull: FloatArray, gaps: IntArray, share: FloatArray) -> FloatArray:
     """Return a curve at fractions of steps, (m, k), with a second derivative linear in each step."""
+    # integral of x'' = start + change s over the step, minus the chord
     step, start, rise = (array[gaps, None] for array in (np.diff(time), pull, np.diff(values)))
     change = np.diff(pull)[gaps, None]
-    bow: FloatArray = -(step**2) * share * (1.0 - share) * (start / 2.0 + change * (1.0 + share) / 6.0)
-    return values[gaps, None] + share * rise + bow
+    deviation: FloatArray = -(step**2) * share * (1.0 - share) * (start / 2.0 + change * (1.0 + share) / 6.0)
+    return values[gaps, None] + share * rise + deviation

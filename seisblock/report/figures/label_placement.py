@@ -13,7 +13,7 @@ SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1))
 """Candidate sides of a label (east, north), in order of preference."""
 
 LETTER, LINE, LABEL_OFFSET = 0.034, 0.07, 0.03
-"""Width of a Latin character (a Japanese one has two), line height and offset from the point, fractions of a map of 35 mm, the smallest."""
+"""Width of a Latin character (half a Japanese one), line height, and offset from the point, fractions of a 35 mm map."""
 
 DOT = 0.012
 """Half width of a point, fraction of the map."""
@@ -51,6 +51,7 @@ def place_labels(places: Sequence[Place], occupied: Sequence[Box], dots: Sequenc
         boxes = {side: label_box(place, side) for side in SIDES}
         hidden = {side: sum(overlap_area(box, obstacle) for obstacle in boxes_taken) + _area_off_map(box) for side, box in boxes.items()}
         covered = {side: sum(overlap_area(box, dot) for dot in dot_boxes) for side, box in boxes.items()}
+        # labels and forbidden areas take precedence over points; ties keep the order of SIDES
         best = min(SIDES, key=lambda side: (hidden[side], covered[side]))
         if hidden[best] > 0.0 and place is not places[0]:
             continue

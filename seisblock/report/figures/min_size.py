@@ -46,8 +46,10 @@ def min_size(fits: Callable[[float], bool], too_small: float, default_size: floa
         too_small = size
     else:
         return None
+    # bisection in the logarithm: the tolerance is relative
     while size / too_small > 1.0 + RELATIVE_TOLERANCE:
         middle = round_up(math.sqrt(too_small * size), unit)
+        # rounding up may return the upper end
         if middle >= size:
             break
         if fits(middle):

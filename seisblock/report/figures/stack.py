@@ -84,7 +84,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Stac
 
 
 def line_style(index: int) -> tuple[str, Any]:
-    """Return colour and dashes of a stone, counted from the top; 7 colours and 6 dash patterns make 42 distinct combinations."""
+    """Return colour and dashes of a stone, counted from the top; 7 colours and 6 dash patterns give 42 combinations."""
     return SHADES[index % len(SHADES)], DASHES[index % len(DASHES)]
 
 
@@ -117,12 +117,13 @@ def max_standing(response: Response[StackOutcome], quantity: str) -> float:
 
 
 def motion_interval(response: Response[StackOutcome], *, margin: float, after_fall: float = AFTER_FALL_S) -> tuple[float, float]:
-    """Return the interval of noticeable motion, s, up to `after_fall` after overturning of a stone, or the strong motion without any."""
+    """Return the interval of noticeable motion, s, or the strong motion without any; stones count until `after_fall` after overturning."""
     time, moving = response.time, np.zeros(response.time.size, dtype=bool)
     for stone in response.outcome.stones:
         before_end = time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s + after_fall)
         for quantity, threshold in (("tilt", NOTICEABLE_TILT), ("slip", NOTICEABLE_SLIP)):
             values = response[f"{stone.name}_{quantity}"]
+            # in motion (gradient per row) and already noticeably away from the initial value
             moving |= (np.abs(np.gradient(values)) > 0.1 * threshold) & (np.abs(values - values[0]) > threshold) & before_end
     if not moving.any():
         return strong_motion_interval(response.motion)

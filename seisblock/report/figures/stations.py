@@ -46,7 +46,7 @@ NORTH = 0.95
 """Horizontal position of the north arrow, fraction of the map."""
 
 SCALE_AT = ((0.03, 0.02, 0.32, 0.15), (0.68, 0.02, 0.97, 0.15), (0.03, 0.85, 0.32, 0.98))
-"""Candidate boxes of the scale bar (west, south, east, north), fractions of the map; the one covering fewest points is used."""
+"""Candidate boxes of the scale bar (west, south, east, north), fractions of the map; the emptiest is used."""
 
 NORTH_AT = (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
 """Box of the north arrow, fractions of the map."""
@@ -255,6 +255,7 @@ def _set_extent(axis: Axes, places: FloatArray) -> Box:
     """Set extent and aspect of the map, draw scale bar and north arrow; return the box of the scale bar."""
     (west, south), (east, north) = places.min(axis=0), places.max(axis=0)
     middle = 0.5 * (south + north)
+    # equirectangular projection true to scale at the middle latitude
     narrowing = max(math.cos(math.radians(middle)), 0.01)
     km = np.array([(east - west) * narrowing, north - south]) * KM_PER_DEGREE
     half_width = 0.5 * max(float(km.max()) * (1.0 + 2.0 * MARGIN), MIN_EXTENT_KM) / KM_PER_DEGREE

@@ -74,6 +74,7 @@ def _to_svg(figure: Figure) -> bytes:
     with rc_context({"svg.hashsalt": "seisblock"}):
         # print_svg draws once; savefig would draw twice
         FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
+    # number the clip paths in order of appearance, so that the output is reproducible
     clips: dict[str, str] = {}
     svg = CLIP.sub(lambda name: clips.setdefault(name[0], f"clip{len(clips)}"), buffer.getvalue())
     return PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), svg).encode()

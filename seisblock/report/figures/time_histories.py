@@ -127,6 +127,7 @@ def strong_interval(time: FloatArray, *accelerations: FloatArray) -> Interval:
             last.append(float(time[min(end, time.size - 1)]))
     if not first:
         return float(time[0]), float(time[-1])
+    # union of the intervals of all components
     start, stop = min(first), max(last)
     margin = 0.15 * (stop - start) + 1.0
     return max(start - margin, float(time[0])), min(stop + margin, float(time[-1]))

@@ -30,7 +30,7 @@ OVERLAY_SIDE, MARGIN = 240.0, 34.0
 
 @dataclass(frozen=True)
 class Mark:
-    """Tolerance strip of a case: half width of the tolerance, and position of the computed value (None if not finite), SVG units."""
+    """Tolerance strip of a case: half width of the tolerance, and position of the computed value (or None), SVG units."""
 
     half: float
     at: float | None

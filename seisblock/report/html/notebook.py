@@ -157,7 +157,7 @@ ENERGIES = ("arias_m_s",)
 
 
 def _display_unit(unit: str, values: Sequence[Any]) -> tuple[float, str]:
-    """Return size in SI and name of the display unit; other than for accelerations, velocities and lengths the unit is unchanged."""
+    """Return size in SI and name of the display unit; only accelerations, velocities and lengths are converted."""
     if unit == "m/s^2":
         return acceleration_unit(gal=True)
     if unit == "m/s":

@@ -123,7 +123,7 @@ def governing_text(effect: ModelResponse) -> Iterator[str]:
 
 
 def card_text(effects: Sequence[ModelResponse]) -> tuple[str, list[str]]:
-    """Return head and text of a card: governing direction, other directions with possible overturning, reliability of the probability."""
+    """Return head and text of a card: governing direction, other directions with possible overturning, caveats."""
     worst, *remaining = sorted(effects, key=rank, reverse=True)
     head, *text = [*governing_text(worst), *share_caveat(worst)]
     for effect in remaining:
