@@ -197,7 +197,7 @@ def test_a_long_record_opens_on_what_matters():
 
 def test_the_strip_of_a_window_is_not_the_whole_record():
     """What was cut out of a record is said to be that, in the strip above its strong part."""
-    for shown, told in ((record(), "NS, the whole record"), (crop(record(), 40.0, 200.0), "NS, all that was cut out")):
+    for shown, told in ((record(), "NS, full record"), (crop(record(), 40.0, 200.0), "NS, cropped record")):
         strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
         assert strip.get_title(loc="left").startswith(told)
 
