@@ -1,1 +1,1 @@
-"""What one sees: tables, figures, animations, documents."""
+"""Output: text tables, figures, animations, HTML pages, JSON documents and export formats."""

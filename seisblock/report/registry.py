@@ -1,6 +1,6 @@
-"""How each model is shown: its verdict in words, its figure and its film, in one table for commands, notebook and report alike.
+"""Presenters of the models: verdict text, figure and animation of a response, for commands, notebook and report.
 
-Rooms load when they are asked for: a table needs no drawing, a figure no film.
+Every function imports its module when called, so that a text output loads neither matplotlib nor the animation code.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ Responses = Sequence[Response[Any]]
 
 @dataclass(frozen=True)
 class Presenter:
-    """What one sees of one model.
+    """Text, figure and animation functions of one model.
 
     Parameters
     ----------
     verdict : callable
-        ``verdict(response) -> str``: the sentence that answers the user's question, in the language spoken.
+        ``verdict(response) -> str``: the result in one sentence, in the language of the locale.
     figure : callable
         ``figure(responses, gal) -> Figure``.
     film : callable or None
-        ``film(response, path, filming)`` writes the animation of one response; None where there is none.
+        ``film(response, path, options)`` writes the animation of one response; None if the model has no animation.
     """
 
     verdict: Callable[[Response[Any]], str]
@@ -41,155 +41,137 @@ class Presenter:
 
 
 def get_presenter(model: str) -> Presenter:
-    """Return the face of a model, by the name that its responses bear.
+    """Return the presenter of a model by name.
 
     Raises
     ------
     ParameterError
-        If no such model is shown.
+        If the model has no presenter.
     """
     if model not in PRESENTERS:
-        raise ParameterError("there is no figure of the model {model!r}; there are {known}", model=model, known=list(PRESENTERS))
+        raise ParameterError("no figure for the model {model!r}; models with a figure: {known}", model=model, known=list(PRESENTERS))
     return PRESENTERS[model]
 
 
 def verdict_text(response: Response[Any]) -> str:
-    """Return what happened, in a sentence."""
+    """Return the result of a response as one sentence."""
     return get_presenter(response.model).verdict(response)
 
 
 def response_figure(responses: Responses, *, gal: bool = True) -> Figure:
-    """Return the figure of the responses of one model."""
+    """Return the figure of responses of one model."""
     return get_presenter(responses[0].model).figure(responses, gal)
 
 
 def animation_writer(responses: Responses) -> Callable[[Path, AnimationOptions], None] | None:
-    """Return what writes the animation of the first of some responses, or None where the model has none."""
+    """Return the function that writes the animation of the first response, None if the model has no animation."""
     film = get_presenter(responses[0].model).film
     return None if film is None else lambda path, options: film(responses[0], path, options)
 
 
 def _describe_respond(response: Response[Any]) -> str:
-    """Tell what a free-standing object did."""
     from seisblock.report.text.respond import verdict
 
     return verdict(response)
 
 
 def _describe_rock(response: Response[Any]) -> str:
-    """Tell what became of a block that rocks."""
     from seisblock.report.text.rock import first_line
 
     return first_line(response)
 
 
 def _describe_slide(response: Response[Any]) -> str:
-    """Tell what a slide came to."""
     from seisblock.report.text.slide import sentence
 
     return sentence(response)
 
 
 def _describe_jump(response: Response[Any]) -> str:
-    """Tell what became of a body that jumps."""
     from seisblock.report.text.jump import verdict
 
     return verdict(response)
 
 
 def _describe_uplift(response: Response[Any]) -> str:
-    """Tell what lifted."""
     from seisblock.report.text.uplift import sentence
 
     return sentence(response)
 
 
 def _describe_stack(response: Response[Any]) -> str:
-    """Tell what became of a pile."""
     from seisblock.report.text.stack import verdict
 
     return verdict(response)
 
 
 def _plot_respond(responses: Responses, gal: bool) -> Figure:
-    """Draw a free-standing object."""
     from seisblock.report.figures.respond import figure
 
     return figure(responses, gal=gal)
 
 
 def _plot_rock(responses: Responses, gal: bool) -> Figure:
-    """Draw rocking."""
     from seisblock.report.figures.rock import figure
 
     return figure(responses, gal=gal)
 
 
 def _plot_slide(responses: Responses, gal: bool) -> Figure:
-    """Draw sliding."""
     from seisblock.report.figures.slide import figure
 
     return figure(responses, gal=gal)
 
 
 def _plot_jump(responses: Responses, gal: bool) -> Figure:
-    """Draw jumps."""
     from seisblock.report.figures.jump import figure
 
     return figure(responses, gal=gal)
 
 
 def _plot_uplift(responses: Responses, gal: bool) -> Figure:
-    """Draw uplift under a record."""
     from seisblock.report.figures.uplift import record_figure
 
     return record_figure(responses, gal=gal)
 
 
 def _plot_stack(responses: Responses, gal: bool) -> Figure:
-    """Draw a pile."""
     from seisblock.report.figures.stack import figure
 
     return figure(responses, gal=gal)
 
 
 def _animate_respond(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film a free-standing object."""
     from seisblock.report.animation.respond import animate_respond
 
     animate_respond(response, path, options)
 
 
 def _animate_rock(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film rocking."""
     from seisblock.report.animation.rock import animate_rocking
 
     animate_rocking(response, path, options)
 
 
 def _animate_slide(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film a slide."""
     from seisblock.report.animation.slide import animate_slide
 
     animate_slide(response, path, options)
 
 
 def _animate_jump(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film a jump."""
     from seisblock.report.animation.jump import animate_jump
 
     animate_jump(response, path, options)
 
 
 def _animate_uplift(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film a block on its springs."""
     from seisblock.report.animation.uplift import animate_uplift
 
     animate_uplift(response, path, options)
 
 
 def _animate_stack(response: Response[Any], path: Path, options: AnimationOptions) -> None:
-    """Film a pile."""
     from seisblock.report.animation.stack import animate_stack
 
     animate_stack(response, path, options)
@@ -203,4 +185,4 @@ PRESENTERS = {
     "uplift": Presenter(_describe_uplift, _plot_uplift, _animate_uplift),
     "stack": Presenter(_describe_stack, _plot_stack, _animate_stack),
 }
-"""Models in the order in which a user meets them."""
+"""Presenter of each model, in the order of the documentation."""

@@ -1,4 +1,4 @@
-"""One self-contained page: it opens without network, on a phone and on paper."""
+"""Rendering of self-contained HTML pages from Jinja templates."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 TEMPLATES = Path(__file__).with_name("templates")
-"""What pages look like: HTML with fields; a text that is filled in cannot become a tag."""
+"""Folder of the templates; inserted text is HTML-escaped."""
 
 NUMBER_UNIT_SPACE = re.compile(r"(?<=\d) (?=(?:%|mm|cm|m|s|Hz|gal|kine|kg|J)(?![\w/]))")
-"""What may not be broken: the blank between a number and its unit, or its sign of per cent."""
+"""Space between a number and its unit or per cent sign, replaced by a no-break space."""
 
 
 def render_page(template: str, title: str, **values: Any) -> str:
-    """Return a whole HTML document in the language spoken.
+    """Return an HTML document in the language of the locale.
 
     Parameters
     ----------
     template : str
-        Name of a file among :data:`TEMPLATES`.
+        Name of a file in :data:`TEMPLATES`.
     title : str
-        Plain text, as is every text among the values.
+        Plain text, as all text values are.
     values : any
-        The template's fields; of every page ``subtitles``, lines below the title, and ``foot``, after the program's version.
+        Fields of the template; every page has ``subtitles`` (lines below the title) and ``foot`` (after the program version).
     """
     return _environment().get_template(template).render(title=title, lang=get_locale(), **values)
 
 
 @cache
 def _environment() -> Environment:
-    """Return the templates, ready to be filled in."""
+    """Return the Jinja environment."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
@@ -54,5 +54,5 @@ def _environment() -> Environment:
 
 
 def _finalize(value: Any) -> Any:
-    """Return a text that commands nothing, whose numbers stay on one line with their units; what is no text as it is."""
+    """Escape control characters and join numbers to their units; values other than plain ``str`` pass unchanged."""
     return NUMBER_UNIT_SPACE.sub("\N{NO-BREAK SPACE}", escape_control(value)) if type(value) is str else value

@@ -1,7 +1,6 @@
-"""The units in which people see things, chosen here and nowhere else: gal, kine and cm, or with ``--si`` m/s², m/s and m.
+"""Display units: gal, kine and cm, or with ``--si`` m/s², m/s and m.
 
-Lengths are those that a surveyor reads off a tape: cm, mm only where all that is shown together is below 1 cm, m where some of it is
-beyond 10 m.
+Lengths shown together have one unit: mm if all are below 1 cm, m if any reaches 10 m, else cm.
 """
 
 from __future__ import annotations
@@ -13,28 +12,28 @@ from seisblock.core.i18n import gettext
 from seisblock.core.units import GAL, KINE, LENGTH_UNITS
 
 SMALL_LIMIT = 0.00995
-"""Lengths below this are told in mm, m: what is larger would be written as 1 cm."""
+"""Upper limit of lengths in mm, m: larger ones round to 1 cm."""
 
 LARGE_LIMIT = 9.995
-"""Lengths from this on are told in m, m, and to 10 cm in a sentence."""
+"""Lower limit of lengths in m, m; sentences give them to 10 cm."""
 
 SCIENTIFIC_LIMIT = 1e6
-"""Lengths from this on are told as a power of ten, m: nobody counts the digits of 1000 km."""
+"""Lower limit of lengths in scientific notation, m."""
 
 TEXT_DECIMALS = {"mm": 2, "cm": 1, "m": 3}
 TABLE_DECIMALS = {"mm": 2, "cm": 2, "m": 4}
-"""Decimals of a length, by its unit: in a sentence, and in a table, where one compares."""
+"""Decimals of a length by unit, in sentences and in tables."""
 
 
 class Unit(NamedTuple):
-    """A unit: what one of it is in SI, and its name."""
+    """A display unit: its size in SI and its name."""
 
     size: float
     name: str
 
 
 def acceleration_unit(*, gal: bool) -> Unit:
-    """Return the unit in which accelerations are shown.
+    """Return the display unit of accelerations.
 
     Examples
     --------
@@ -45,7 +44,7 @@ def acceleration_unit(*, gal: bool) -> Unit:
 
 
 def velocity_unit(*, gal: bool) -> Unit:
-    """Return the unit in which velocities are shown.
+    """Return the display unit of velocities.
 
     Examples
     --------
@@ -56,11 +55,11 @@ def velocity_unit(*, gal: bool) -> Unit:
 
 
 def length_unit(lengths: Iterable[float | None], *, gal: bool) -> Unit:
-    """Return the one unit in which some displacements, m, are shown together; None among them is none.
+    """Return the common display unit of lengths, m; None values are skipped.
 
     Examples
     --------
-    >>> [length_unit(each, gal=True).name for each in ([0.215, -0.004], [0.0005, None], [], [18.0])], length_unit([0.2], gal=False).name
+    >>> [length_unit(row, gal=True).name for row in ([0.215, -0.004], [0.0005, None], [], [18.0])], length_unit([0.2], gal=False).name
     (['cm', 'mm', 'cm', 'm'], 'm')
     """
     if not gal:
@@ -72,13 +71,13 @@ def length_unit(lengths: Iterable[float | None], *, gal: bool) -> Unit:
 
 
 def format_length(length: float, unit: Unit | None = None, *, gal: bool = True) -> str:
-    """Return a length, m, with its unit, as a sentence holds it; what rounds to nothing has no sign.
+    """Return a length, m, with its unit, for a sentence; a zero has no sign.
 
     Parameters
     ----------
     length : float
     unit : Unit, optional
-        That of the other lengths of the sentence.
+        Unit of the other lengths of the sentence.
     gal : bool
 
     Examples
@@ -96,7 +95,7 @@ def format_length(length: float, unit: Unit | None = None, *, gal: bool = True) 
 
 
 def format_size(length: float, unit: Unit | None = None, *, gal: bool = True) -> str:
-    """Return how large a length is, m, with its unit; what is written as nothing and is something is less than the least that is written.
+    """Return the absolute value of a length, m, with its unit; "less than" the last digit for a nonzero length that rounds to zero.
 
     Examples
     --------
@@ -111,7 +110,7 @@ def format_size(length: float, unit: Unit | None = None, *, gal: bool = True) ->
 
 
 def length_cell(length: float | None, unit: Unit) -> str:
-    """Return a length, m, as the cell of a table under a heading that names the unit; a dash for none.
+    """Return a length, m, as a table cell without unit; a dash for None.
 
     Examples
     --------

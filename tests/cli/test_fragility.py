@@ -91,7 +91,7 @@ def test_files_are_written(folder, tmp_path):
         (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "leave --levels out"),
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "does not compute the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
-        (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are one file"),
+        (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are the same file"),
         (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "how rough is it under the body?"),
     ],
 )

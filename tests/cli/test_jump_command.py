@@ -192,7 +192,7 @@ BAD = {
     "window text": (("--window", "abc"), 2, "T0:T1"),
     "no unit of length": (("--width", "3 parsec"), 2, "parsec"),
     "plot suffix": (("--plot", "figure.xyz"), 3, ".png"),
-    "plot directory": (("--plot", "no/such/dir/f.png"), 3, "no directory"),
+    "plot directory": (("--plot", "no/such/dir/f.png"), 3, "does not exist"),
     "no animation format": (("--scale", "nan"), 2, "finite"),
 }
 

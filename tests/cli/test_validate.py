@@ -158,7 +158,7 @@ def test_the_gallery_can_be_linked_to(some_papers, tmp_path):
     text = page.read_text(encoding="utf-8")
     differ = sum(case.status == "differs" for case in some_papers)
     papers = dict.fromkeys(case.paper for case in some_papers)
-    lead = f"{len(some_papers)} statements of {len(papers)} papers: {len(some_papers) - differ} hold, {differ} differ as explained, 0 fail."
+    lead = f"{len(some_papers)} cases from {len(papers)} papers: {len(some_papers) - differ} hold, {differ} differ as explained, 0 fail."
     assert f'<p class="lead">{lead}' in text
     places = re.findall(r' id="([^"]+)"', text)
     assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)

@@ -205,8 +205,8 @@ def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
     ("text", "values", "sentence"),
     [
         ("  both, in flight (s)", {}, "  両方同時、跳躍 (s)"),
-        ("{time:.2f} s in the air", {"time": 35.46}, "合計 35.46 秒間浮く"),
-        ("{time:.2f} s in the air, the first", {"time": 35.46}, "最初に浮く、合計 35.46 秒間"),
+        ("uplift {time:.2f} s", {"time": 35.46}, "浮き上がり 35.46 秒間"),
+        ("uplift {time:.2f} s (first)", {"time": 35.46}, "浮き上がり 35.46 秒間（最初）"),
     ],
 )
 def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):

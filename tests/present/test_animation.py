@@ -89,7 +89,7 @@ def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
     """It says what is missing and what works instead, and leaves no file."""
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(atomic, "find_spec", lambda name: None)
-    with pytest.raises(OutputError, match="ffmpeg is not installed"):
+    with pytest.raises(OutputError, match="ffmpeg not found"):
         write_frames(pictures(3), tmp_path / "a.mp4")
     assert list(tmp_path.iterdir()) == []
 

@@ -44,11 +44,11 @@ def test_the_share_goes_before_the_verdict_as_given():
     assert severity_class([stands]) == "mild" and severity_class([stands, falls]) == "bad"
 
 
-@pytest.mark.parametrize(("share", "said"), [(0.0, "3 % fell where"), (0.5, ""), (1.0, "2 % stood where")])
+@pytest.mark.parametrize(("share", "said"), [(0.0, "3 % of those predicted 0/20"), (0.5, ""), (1.0, "2 % of those predicted 20/20")])
 def test_none_and_all_are_told_with_what_they_are_worth(share, said):
     """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
     found = effect("NS", None if share == 0.0 else 40.0, share)
-    assert said in "".join(share_caveat(found)) and bool(said) == any("shaking tables" in text for text in card_text([found])[1])
+    assert said in "".join(share_caveat(found)) and bool(said) == any("shaking-table runs" in text for text in card_text([found])[1])
     assert "scatter alone" in scatter_text([found]) and "fell where none of 20 versions did" in scatter_text([found])
 
 

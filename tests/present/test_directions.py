@@ -44,7 +44,7 @@ def test_a_model_names_directions_after_the_record(model, lang):
         told = [
             verdict_text(found),
             *(text.get_text() for text in figure.findobj(Text)),
-            *(film.called(p.name) for p in film.visible_phases),
+            *(film.phase_label(p.name) for p in film.visible_phases),
         ]
         told += [film.title, film.note, film.heading, page.split("application/json")[0]]
         if model in ("rock", "slide", "jump", "uplift"):
@@ -64,7 +64,7 @@ def test_a_side_is_a_component_or_an_azimuth():
     assert with_direction("0.0 mm", "NS", -1e-6) == "0.0 mm"
     with use_locale("ja"):
         assert with_direction("448 mm", "NS", -0.448) == "-NS へ 448 mm"
-        assert (phase_label("slip backward", "EW"), phase_label("rocks to +x", "127")) == ("-EW へすべる", "方位 127° へ傾斜")
+        assert (phase_label("slip backward", "EW"), phase_label("rocks to +x", "127")) == ("-EW へ滑動", "方位 127° へロッキング")
 
 
 def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():

@@ -148,7 +148,7 @@ def test_a_rose_names_the_side_to_which_the_worst_falls():
             drawn_rose = azimuths_figure([worst], [found])
         (rose,) = drawn_rose.axes
         assert drawn_rose.get_suptitle() == "all azimuths", "not that of the worst alone"
-        assert rose.get_title("left").endswith(f"worst: azimuth {azimuth}")
+        assert rose.get_title("left").endswith(f"governing: azimuth {azimuth}")
         fell = [np.degrees(bar.get_x() + bar.get_width() / 2.0) for bar in rose.patches if bar.get_height() == 1.0]
         assert fell == pytest.approx([azimuth])
 
@@ -228,7 +228,7 @@ def polygon_area(corners):
 def test_a_plane_is_its_cells():
     """The slip of each slope and friction, in the unit of the bar, a panel per ratio of frictions."""
     (bar,) = {axis.get_ylabel() for axis in axes_of("plane") if axis.get_label() == "<colorbar>"}
-    units = {"largest slip (cm)": 100.0, "largest slip (m)": 1.0}[bar]
+    units = {"max. sliding displacement (cm)": 100.0, "max. sliding displacement (m)": 1.0}[bar]
     panels = [axis for axis in axes_of("plane") if axis.collections and axis.get_label() != "<colorbar>"]
     (points,) = study(**PLANE)
     for axis, kappa in zip(panels, PLANE["kappa"], strict=True):

@@ -123,7 +123,7 @@ def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
     with Image.open(tmp_path / "1.gif") as fast, Image.open(tmp_path / "4.gif") as slow:
         assert slow.n_frames == pytest.approx(4 * fast.n_frames, abs=4)
         assert fast.info["duration"] == slow.info["duration"] == 50
-    assert [format_speed(1.0), format_speed(0.25), format_speed(2.0)] == ["real time", "4 x slower", "2 x real time"]
+    assert [format_speed(1.0), format_speed(0.25), format_speed(2.0)] == ["real time", "1/4 × real time", "2 × real time"]
 
 
 def test_drawing_tells_how_far_it_is(tmp_path):

@@ -37,7 +37,7 @@ def test_all_that_lies_on_the_ground_is_in_the_picture_from_each_side(model, bet
     lying = [solid.corners_at(-1) for solid in scene.solids]
     low, high = scene.patch[0, :2], scene.patch[2, :2]
     on_ground = [corners for corners in lying if (low <= corners[:, :2]).all() and (corners[:, :2] <= high).all()]
-    points = np.concatenate([scene.patch, *on_ground]) + scene.moved[-1]
+    points = np.concatenate([scene.patch, *on_ground]) + scene.ground_displacement[-1]
     for k, azimuth in enumerate(WHERE):
         left, end, bottom, top = (1.0 - between) * known[k] + between * known[(k + 1) % VIEW_AZIMUTHS]
         across, rise = seen_from(azimuth + between * 2.0 * math.pi / VIEW_AZIMUTHS, points)

@@ -212,7 +212,7 @@ def test_a_bar_tells_the_scale_of_the_scene(model, gal):
 def test_a_key_names_the_bands_of_the_strips(model):
     """Whatever is shaded in a picture is named in it, once."""
     shown = film(model, 2)
-    wanted = {shown.called(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
+    wanted = {shown.phase_label(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
     key = build_figure(shown).panels[0].get_legend()
     named = [text.get_text() for text in key.get_texts()] if key else []
     assert sorted(named) == sorted(wanted)
@@ -255,7 +255,7 @@ def test_stones_are_where_the_response_has_them():
     scene, motion = shown.scene, found.motion
     for row, axis in ((0, 0), (2, 2)):
         moved = ground_history(motion.acceleration[row], motion.dt).displacement
-        np.testing.assert_allclose(scene.moved[:, axis], np.interp(shown.time, motion.time, moved), atol=1e-15)
+        np.testing.assert_allclose(scene.ground_displacement[:, axis], np.interp(shown.time, motion.time, moved), atol=1e-15)
     for stone, solid in zip(found.body.stones, scene.solids, strict=True):
         index = 40
         near = int(np.argmin(np.abs(found.time - shown.time[index])))
@@ -360,7 +360,7 @@ def test_small_motion_is_magnified_by_a_round_factor():
     rise = max(float(np.abs(found[f"uplift_{i}"]).max()) for i in (1, 2, 3, 4))
     fill = factor * max(found.outcome.max_rotation_rad / uplift.MAX_LEAN, rise / (uplift.MAX_RISE * found.body.height))
     assert 0.39 < fill <= 1.0
-    assert f"drawn {factor:g} times as large" in animation_html(film("uplift"), AnimationOptions())
+    assert f"magnified {factor:g} times" in animation_html(film("uplift"), AnimationOptions())
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")

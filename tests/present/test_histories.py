@@ -30,7 +30,7 @@ def until_it_falls(found, name):
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
     "rock": lambda r: {"θ/α": r["rotation"] / r.outcome.slenderness_rad, "a (gal)": 100.0 * r["ground_acceleration"]},
-    "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "velocity (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
+    "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "v (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
     "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
     "stack": lambda r: {"tilt θ (deg)": np.degrees(until_it_falls(r, "sao")), "slip s (cm)": 100.0 * r["base_slip"]},
@@ -197,7 +197,7 @@ def test_a_long_record_opens_on_what_matters():
 
 def test_the_strip_of_a_window_is_not_the_whole_record():
     """What was cut out of a record is said to be that, in the strip above its strong part."""
-    for shown, told in ((record(), "NS, the whole record"), (crop(record(), 40.0, 200.0), "NS, all that was cut out")):
+    for shown, told in ((record(), "NS, full record"), (crop(record(), 40.0, 200.0), "NS, cropped record")):
         strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
         assert strip.get_title(loc="left").startswith(told)
 
@@ -220,16 +220,16 @@ def test_what_did_not_happen_has_no_panel():
     axes = response_figure([at_rest]).axes
     assert [axis.get_ylabel() for axis in axes] == ["", "a (gal)"]
     with_names = [text.get_text() for axis in axes if axis.get_legend() for text in axis.get_legend().get_texts()]
-    assert with_names == ["rests within ± g tan α"]
+    assert with_names == ["rest: |a| < g tan α"]
 
 
 @pytest.mark.parametrize(
     ("solve", "told"),
     [
-        (lambda faint: solve_rock(Block(0.3, 0.9), faint), "rocks beyond ±327 gal"),
-        (lambda faint: solve_slide(SlidingBase(0.3), faint), "limits of static friction ±294 gal"),
-        (lambda faint: solve_respond(Block(0.45, 1.8), faint, mu=0.3), "rocks: b/h ±245 gal, slides: μ ±294 gal"),
-        (lambda faint: solve_jump(PAVILION, faint, contact=Contact(mu=0.18)), "rocks beyond ±461 gal"),
+        (lambda faint: solve_rock(Block(0.3, 0.9), faint), "rocking threshold 327 gal"),
+        (lambda faint: solve_slide(SlidingBase(0.3), faint), "sliding threshold 294 gal"),
+        (lambda faint: solve_respond(Block(0.45, 1.8), faint, mu=0.3), "rocking threshold 245 gal, sliding threshold 294 gal"),
+        (lambda faint: solve_jump(PAVILION, faint, contact=Contact(mu=0.18)), "rocking threshold 461 gal"),
     ],
     ids=["rock", "slide", "respond", "jump"],
 )
@@ -239,7 +239,7 @@ def test_a_faint_record_fills_its_panel(solve, told):
     _, axis = response_figure([solve(faint)]).axes
     peak = 100.0 * np.abs(faint.horizontal).max()
     assert axis.get_ylim() == pytest.approx((-1.15 * peak, 1.15 * peak))
-    assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"out of sight: {told}"]
+    assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"off scale: {told}"]
     assert len([line for line in axis.get_lines() if line.get_xdata().size]) == 1 and not axis.collections
 
 

@@ -49,7 +49,7 @@ def test_what_slides_a_micrometre_has_not_slid_by_nothing(lang, said):
 def test_a_figure_of_rocking_says_what_happened():
     """As that of the governing answer does: above the ground motion."""
     found = response("rock")
-    for fell, told in ((True, ": overturns; "), (False, ": rocks; ")):
+    for fell, told in ((True, ": overturned; "), (False, ": rocking; ")):
         outcome = replace(found.outcome, rocks=True, overturned=fell, overturned_towards="+x" if fell else None)
         with use_locale("en"):
             titles = [axis.get_title(loc="left") for axis in response_figure([replace(found, outcome=outcome)]).axes]
@@ -63,4 +63,4 @@ def test_a_response_shows_itself_in_a_line():
     with use_locale("en"):
         shown = found._repr_html_()
     count = len(found.outcome.events)
-    assert count > 8 and f"events: 8 of {count}" in shown
+    assert count > 8 and f"events (8 of {count})" in shown

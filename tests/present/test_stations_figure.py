@@ -100,9 +100,9 @@ def test_where_it_falls_as_given_the_rim_is_thick():
     two = [replace(answer, effect=effect) for answer, effect in zip(found.answers, effects, strict=False)]
     made = figure(Stations(tuple(two), None, ""), subject)
     stands, falls = made.axes[0].collections[0].get_linewidths()  # the worst on top
-    assert falls > 2.0 * stands and made.axes[1].get_ylabel() == "share that falls; thick rim: falls as given"
+    assert falls > 2.0 * stands and made.axes[1].get_ylabel() == "overturning probability (1); thick rim: nominal body overturned"
     asleep = figure(Stations((two[1],), None, ""), subject)
-    assert asleep.axes[1].get_ylabel() == "share that falls"
+    assert asleep.axes[1].get_ylabel() == "overturning probability (1)"
 
 
 @pytest.mark.parametrize(("corner", "expected"), [((0, 0), 0.68), ((1, 0), 0.03)])

@@ -104,7 +104,7 @@ def test_no_journal_falls_on_a_record(link, folder):
 def test_outputs_do_not_fall_on_each_other(folder):
     """R1: --csv and --plot of one name are refused before either is written."""
     done = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
-    assert done.exit_code == 3 and "one file" in done.stderr
+    assert done.exit_code == 3 and "the same file" in done.stderr
     assert not (folder / "a.png").exists()
 
 
@@ -217,7 +217,7 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
     film = tmp_path / "film.mp4"
     film.write_bytes(b"old")
     frames = [Image.new("RGB", (4, 4)) for _ in range(2)]
-    with contextlib.nullcontext() if good else pytest.raises(OutputError, match="not whole"):
+    with contextlib.nullcontext() if good else pytest.raises(OutputError, match="incomplete file"):
         render.write_frames(frames, film)
     assert film.read_bytes() == (content if good else b"old")
 
@@ -388,10 +388,10 @@ def test_a_nameless_pipe_is_written_through(folder):
 REFUSED = {
     "an unknown figure": (["--plot", "out.xyz"], "must end in .png, .svg, .pdf"),
     "an unknown film": (["--animate", "out.avi"], "must end in .gif, .mp4, .html"),
-    "a film without ffmpeg": (["--animate", "out.mp4"], "ffmpeg is not installed"),
-    "a folder that is not there": (["--csv", "nowhere/out.csv"], "there is no directory nowhere"),
-    "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "one file"),
-    "a table that says it is a workbook": (["--csv", "out.xlsx"], "what is written there is CSV, the name must end in .csv, .txt"),
+    "a film without ffmpeg": (["--animate", "out.mp4"], "ffmpeg not found"),
+    "a folder that is not there": (["--csv", "nowhere/out.csv"], "the folder nowhere does not exist"),
+    "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "the same file"),
+    "a table that says it is a workbook": (["--csv", "out.xlsx"], "cannot write CSV to out.xlsx: the name must end in .csv, .txt"),
     "a table that says it is a picture": (["--csv", "out.PNG"], "the name must end in .csv, .txt"),
     "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv, .txt"),
     "a size of no figure": (["--size", "18x12"], "give --plot, too"),
@@ -412,10 +412,10 @@ def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, m
 
 
 OTHER_NAMES = (
-    ("report not_there.csv -o page.pdf", "what is written there is HTML, the name must end in .html, .htm"),
+    ("report not_there.csv -o page.pdf", "cannot write HTML to page.pdf: the name must end in .html, .htm"),
     ("validate --quick --html page.xlsx", "the name must end in .html, .htm"),
     ("map not_there.csv --html page.png", "the name must end in .html, .htm"),
-    ("map not_there.csv --geojson points.shp", "what is written there is GeoJSON, the name must end in .geojson, .json"),
+    ("map not_there.csv --geojson points.shp", "cannot write GeoJSON to points.shp: the name must end in .geojson, .json"),
     ("measure not_there.csv --csv rows.json", "the name must end in .csv, .txt"),
     ("overturn-rate --cemetery aoyama.csv --csv rows.tsv", "the name must end in .csv, .txt"),
 )
@@ -440,7 +440,7 @@ def test_names_that_say_nothing_else_are_taken(name, folder):
 def test_a_page_that_leads_nowhere_is_refused_first(words, folder):
     """Pages take long to make."""
     done = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
-    assert done.exit_code == 3 and "there is no directory nowhere" in done.stderr
+    assert done.exit_code == 3 and "the folder nowhere does not exist" in done.stderr
 
 
 def test_what_a_killed_run_left_is_swept(tmp_path):

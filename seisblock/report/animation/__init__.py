@@ -1,1 +1,1 @@
-"""Answers as animations."""
+"""Animations of responses: GIF, MP4 and HTML."""

@@ -1,4 +1,4 @@
-"""What an animation shows, before anyone decides how to draw it: a scene, and curves against time below it."""
+"""Content of an animation, independent of its format: a scene, and curves against time below."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from seisblock.core.typing import FloatArray
 from seisblock.records import Motion
 from seisblock.report.animation.scene2d import Scene2D
 from seisblock.report.animation.scene3d import Scene3D
-from seisblock.report.directions import phase_label as called
+from seisblock.report.directions import phase_label
 from seisblock.report.units_display import acceleration_unit
 
 GROUND, RESPONSE = "#737373", "#c0392b"
-"""Colours of the ground's motion and of what answers it."""
+"""Colours of ground motion and response."""
 
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """One curve: times and values, (n,), its colour, its name where there are several, and its dashes, points on and off."""
+    """A curve: times and values, (n,), colour, name for the legend, and dash pattern (points on, off)."""
 
     time: FloatArray
     values: FloatArray
@@ -34,14 +34,14 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Strip:
-    """Curves against time under the scene, with their thresholds."""
+    """Panel of curves against time below the scene, with threshold lines."""
 
     label: str
     lines: tuple[Line, ...]
     levels: tuple[float, ...] = ()
 
     def range_over(self, first: float, last: float) -> tuple[float, float]:
-        """Return the least and the largest value between two times, zero among them."""
+        """Return the smallest and the largest value between two times, zero included."""
         low = high = 0.0
         for line in self.lines:
             inside = line.values[(line.time >= first) & (line.time <= last)]
@@ -51,24 +51,24 @@ class Strip:
 
 @dataclass(frozen=True, eq=False)
 class Animation:
-    """One animation.
+    """Content of an animation.
 
     Parameters
     ----------
     title : str
-        What is seen, and what becomes of it.
+        Body and result.
     time : (n,) array, s
-        Times of the pictures, from the record's first sample, evenly spaced.
-    scene : Plane or Space
+        Times of the frames from the first sample of the record, evenly spaced.
+    scene : Scene2D or Scene3D
     strips : tuple of Strip
     heading : str
-        Which record this is, as above every figure.
+        Record, as in the title of every figure.
     note : str
-        What one must know to read the scene.
+        Explanation of the scene.
     direction : str
-        Which direction of the record +x is.
+        Component or azimuth that is +x.
     phases, colours : sequence, mapping
-        Stretches of time and the colours of those to be shaded.
+        Phases of the response, and the colours of those to be shaded.
     """
 
     title: str
@@ -83,49 +83,49 @@ class Animation:
 
     @cached_property
     def panels(self) -> tuple[Strip, ...]:
-        """The strips that show something: what did not happen has no panel."""
+        """Strips with a nonzero curve in the time shown; the others get no panel."""
         span = float(self.time[0]), float(self.time[-1])
         return tuple(strip for strip in self.strips if any(strip.range_over(*span)))
 
     @cached_property
     def visible_phases(self) -> tuple[Phase, ...]:
-        """The phases in the time shown that last long enough to be seen: dying hops come by the thousand."""
+        """Phases in the time shown that are long enough to be visible; decaying impacts produce thousands of shorter ones."""
         first, last = float(self.time[0]), float(self.time[-1])
         shortest = (last - first) / 1500
         return tuple(p for p in self.phases if p.duration_s >= shortest and p.end_s >= first and p.start_s <= last)
 
-    def called(self, name: str) -> str:
-        """Return what a phase is called, in the direction of this motion."""
-        return called(name, self.direction)
+    def phase_label(self, name: str) -> str:
+        """Return the display name of a phase in the direction of this motion."""
+        return phase_label(name, self.direction)
 
     def phase_at(self, time: float) -> str:
-        """Return what the phase seen at a time is called, empty outside all."""
-        return next((self.called(phase.name) for phase in reversed(self.visible_phases) if phase.start_s <= time <= phase.end_s), "")
+        """Return the display name of the visible phase at a time, empty if none."""
+        return next((self.phase_label(phase.name) for phase in reversed(self.visible_phases) if phase.start_s <= time <= phase.end_s), "")
 
 
 BuildAnimation = Callable[[FloatArray], Animation]
-"""Makes the film for the times of its pictures."""
+"""Function from the times of the frames, s, to the animation."""
 
 
 def animation_title(body: str, outcome: str) -> str:
-    """Return what a film is about, told: the body, and what becomes of it."""
+    """Return the title of an animation: body and result, translated."""
     return gettext("{name}: {what}", name=gettext(body), what=gettext(outcome))
 
 
 def ground_strip(motion: Motion, levels: tuple[float, ...] = (), *, gal: bool) -> Strip:
-    """Return the ground's acceleration with its thresholds, m/s^2, in the unit wanted."""
+    """Return the strip of ground acceleration with thresholds, m/s^2, in the display unit."""
     unit, name = acceleration_unit(gal=gal)
     line = Line(motion.time, motion.horizontal / unit, GROUND)
     return Strip(gettext("a ({unit})", unit=name), (line,), tuple(level / unit for level in levels))
 
 
 def sample_at(times: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:
-    """Return a channel at the times of the pictures; where an event stands twice, either side."""
+    """Interpolate a channel at the times of the frames; at an event, which has two rows, either side is taken."""
     return np.interp(times, time, values)
 
 
 def motion_interval(phases: Sequence[Phase], moving: Mapping[str, str], first: float, last: float) -> tuple[float, float]:
-    """Return the stretch of time that holds all movement, with a margin; all of it when nothing moves, at most 20 s then."""
+    """Return the interval that contains all phases of motion, with a margin; without motion the first 20 s."""
     motion_phases = [phase for phase in phases if phase.name in moving]
     if not motion_phases:
         return first, min(last, first + 20.0)

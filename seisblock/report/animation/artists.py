@@ -1,4 +1,4 @@
-"""Scenes as artists of a figure: what of them moves, and where it is in each picture."""
+"""Matplotlib artists of 2-D and 3-D scenes."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ from seisblock.report.units_display import Unit, length_unit
 FLOOR, EDGE = "#c9ccd0", "0.2"
 
 BAR_LENGTHS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
-"""Lengths of a bar of scale, m."""
+"""Lengths of the scale bar, m."""
 
 COILS, COIL_WIDTH = 5, 0.35
-"""Turns of a spring, and how wide it is drawn, of its free height."""
+"""Coils of a spring, and its drawn width over its free height."""
 
 
 class SceneArtist(Protocol):
-    """What puts a scene into a panel."""
+    """Artist of a scene in a panel."""
 
     @property
     def artists(self) -> Sequence[Any]:
-        """What is drawn anew in each picture."""
+        """Artists redrawn in every frame."""
 
     def place(self, index: int, time: float) -> None:
-        """Put everything where it is in a picture."""
+        """Move the artists to frame `index` at `time`, s."""
 
 
 class Artist2D:
-    """Bodies on their ground from the side, in a frame that stands still or in the ground's."""
+    """Side view of bodies on the ground, in a fixed frame (`moving`) or in the frame of the ground."""
 
     def __init__(self, axis: Axes, scene: Scene2D, *, moving: bool, gal: bool = True) -> None:
         self.scene, self.moving = scene, moving
@@ -54,7 +54,7 @@ class Artist2D:
             self.bar = []
             style.style_axes(axis)
             _format_axes(axis, length_unit([right - left], gal=gal))
-            axis.set_title(gettext("enlarged, seen from the ground"), fontsize=8, loc="left")
+            axis.set_title(gettext("close-up, relative to the ground"), fontsize=8, loc="left")
         self.floors = [Polygon(floor, facecolor=FLOOR, edgecolor="none") for floor in scene.floors]
         self.ticks = axis.plot([], [], "|", color="0.45", markersize=6, clip_on=True)[0] if moving else None
         self.marks = _ground_marks(left, right)
@@ -76,12 +76,12 @@ class Artist2D:
 
     @property
     def artists(self) -> Sequence[Any]:
-        """What is drawn anew in each picture."""
+        """Artists redrawn in every frame."""
         ticks = [self.ticks] if self.ticks is not None else []
         return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails), *self.key, *self.bar]
 
     def place(self, index: int, time: float) -> None:
-        """Put everything where it is in a picture."""
+        """Move the artists to frame `index` at `time`, s."""
         shift = np.array([float(self.scene.shift[index]) if self.moving else 0.0, 0.0])
         for floor, patch in zip(self.scene.floors, self.floors, strict=True):
             patch.set_xy(floor + shift)
@@ -95,7 +95,7 @@ class Artist2D:
 
 
 class Artist3D:
-    """Cuboids on their patch of ground in three dimensions."""
+    """Solids on a patch of ground in three dimensions."""
 
     def __init__(self, axis: Axes, scene: Scene3D, *, gal: bool = True) -> None:
         self.scene = scene
@@ -114,12 +114,12 @@ class Artist3D:
 
     @property
     def artists(self) -> Sequence[Any]:
-        """What is drawn anew in each picture."""
+        """Artists redrawn in every frame."""
         return [self.floor, self.springs, self.hidden, self.faces, self.corners, *self.bar]
 
     def place(self, index: int, time: float) -> None:
-        """Put everything where it is in a picture."""
-        scene, ground = self.scene, self.scene.moved[index]
+        """Move the artists to frame `index` at `time`, s."""
+        scene, ground = self.scene, self.scene.ground_displacement[index]
         self.floor.set_verts([project(scene.floor(index))])
         faces = list(scene.faces(index, time))
         self.faces.set_verts([project(points) for points, _, _ in faces])
@@ -127,7 +127,7 @@ class Artist3D:
         self.faces.set_edgecolor([style.ACCENT if has_fallen else "0.25" for _, _, has_fallen in faces])
         coils = [_spring_line(spring.foot + ground, min(float(spring.top[index, 2]), spring.free), spring.free) for spring in scene.springs]
         self.springs.set_segments(coils)
-        # of the corners below a block the farthest is behind it
+        # the spring farthest from the viewer is hidden behind the block
         hidden_spring, *visible_springs = sorted(scene.springs, key=lambda spring: float(spring.foot @ view_axes()[2])) or (None,)
         for dots, springs in ((self.hidden, [hidden_spring] if hidden_spring else []), (self.corners, visible_springs)):
             dots.set_offsets(np.array([project(spring.top[index] + ground) for spring in springs]).reshape(-1, 2))
@@ -135,7 +135,7 @@ class Artist3D:
 
 
 def _format_axes(axis: Axes, unit: Unit) -> None:
-    """Let both axes of a panel, m, tell places in a unit of length."""
+    """Label the axes of a panel, m, in a display unit."""
     style.label_axes(axis, f"x ({unit.name})", f"z ({unit.name})")
     formatter = FuncFormatter(lambda metres, _: f"{metres / unit.size:.6g}".replace("-", "\N{MINUS SIGN}"))
     axis.xaxis.set_major_formatter(formatter)
@@ -143,25 +143,25 @@ def _format_axes(axis: Axes, unit: Unit) -> None:
 
 
 def _scale_bar(axis: Axes, box: Box, *, gal: bool) -> list[Any]:
-    """Put a bar of a round length, and how long it is, into the lower right corner of a scene true to scale."""
+    """Draw a labelled scale bar of round length in the lower right corner of a scene."""
     left, right, bottom, top = box
     length = max((candidate for candidate in BAR_LENGTHS if candidate < (right - left) / 3), default=BAR_LENGTHS[0])
     size, name = length_unit([length], gal=gal and length < 1.0)
     end, low = right - 0.02 * (right - left), bottom + 0.04 * (top - bottom)
     (line,) = axis.plot([end - length, end], [low, low], color="0.1", linewidth=1.6, solid_capstyle="butt")
-    # beside it: above it are the marks on the ground
+    # beside the bar, since the ground marks are above it
     style: dict[str, Any] = {"xytext": (-3.0, 0.0), "textcoords": "offset points", "ha": "right", "va": "center_baseline"}
     return [line, axis.annotate(f"{length / size:g} {name}", (end - length, low), fontsize=8, **style)]
 
 
 def _hide_axes(axis: Axes) -> None:
-    """Take everything off a panel but what is put into it."""
+    """Hide frame, ticks and labels of a panel."""
     axis.axis("off")
     axis.set(xticks=[], yticks=[])
 
 
 def _spring_line(foot: FloatArray, height: float, free: float) -> FloatArray:
-    """Return a spring in the picture: a zigzag from its foot so high, (k, 2)."""
+    """Return the zigzag of a spring from its foot to a height, projected, (k, 2)."""
     low, high = project(np.array([foot, [foot[0], foot[1], height]]))
     share = np.linspace(0.0, 1.0, 2 * COILS + 2)
     aside = np.array([0.0, *(COIL_WIDTH * free * (0.5 if i % 2 else -0.5) for i in range(2 * COILS)), 0.0])
@@ -169,6 +169,6 @@ def _spring_line(foot: FloatArray, height: float, free: float) -> FloatArray:
 
 
 def _ground_marks(left: float, right: float) -> Any:
-    """Return places of marks on the ground, without which one would not see it move."""
+    """Return the positions of marks on the ground that make its motion visible, m."""
     width = right - left
     return np.arange(left - width, right + width, width / 12)

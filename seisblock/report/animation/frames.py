@@ -1,4 +1,4 @@
-"""The pictures of a film, for formats that hold pictures."""
+"""Frames of an animation for raster formats."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from seisblock.report.figures.curves import draw_curve
 from seisblock.report.text.wrap import display_width
 
 MAX_LABEL_COLUMNS = 12
-"""Of a label as high as its strip; a longer one has two lines."""
+"""Width of a one-line axis label; longer labels are split in two lines."""
 
 CURSOR: dict[str, Any] = {"color": "0.1", "linewidth": 1.2, "clip_on": False, "marker": "v", "markersize": 5, "markevery": [1]}
-"""Whole, and with a head, where the film begins and ends, too: there it stands on the edge of its strip."""
+"""Style of the time cursor; not clipped, so that its head is complete at the edges of the panel."""
 
 
 @dataclass(frozen=True, eq=False)
 class AnimationFigure:
-    """A film's figure: scenes above, a panel per strip below, a clock and a cursor in each panel."""
+    """Figure of an animation: scenes above, a panel per strip below, a clock, and a time cursor in every panel."""
 
     film: Animation
     fig: style.StyledFigure
@@ -39,11 +39,11 @@ class AnimationFigure:
 
     @property
     def moving(self) -> list[Any]:
-        """What is drawn anew in each picture."""
+        """Artists redrawn in every frame."""
         return [*(artist for actor in self.actors for artist in actor.artists), self.clock, *self.cursors]
 
     def show(self, index: int, speed_text: str) -> None:
-        """Set everything to a picture, with what is told beside the clock."""
+        """Move the figure to frame `index`, with `speed_text` beside the clock."""
         time = float(self.film.time[index])
         for actor in self.actors:
             actor.place(index, time)
@@ -53,16 +53,16 @@ class AnimationFigure:
 
 
 def animation_frames(film: Animation, speed: float, options: AnimationOptions) -> Iterator[Image.Image]:
-    """Yield the pictures.
+    """Yield the frames of an animation.
 
     Parameters
     ----------
-    film : Film
-        For the times of these pictures.
+    film : Animation
+        Built for the times of these frames.
     speed : float
-        How many times faster than life it plays.
-    options : Filming
-        Progress.
+        Playback speed over real time.
+    options : AnimationOptions
+        Units and progress callback.
     """
     figure, speed_text = build_figure(film, gal=options.gal), format_speed(speed)
 
@@ -75,7 +75,7 @@ def animation_frames(film: Animation, speed: float, options: AnimationOptions) -
 
 
 def build_figure(film: Animation, *, gal: bool = True) -> AnimationFigure:
-    """Return a film's figure: the scene true to scale, what is shown enlarged beside it, in cm or in m, and the curves below."""
+    """Return the figure of an animation: scene to scale, close-up beside it, curves below."""
     strips, scene = film.panels, film.scene
     tall = 3.0 if isinstance(scene, Scene2D) else 4.4
     fig = style.StyledFigure(8.0, 0.6 + tall + 1.15 * len(strips), dpi=100)
@@ -102,14 +102,14 @@ def build_figure(film: Animation, *, gal: bool = True) -> AnimationFigure:
 
 
 def format_speed(speed: float) -> str:
-    """Say how fast a film plays."""
+    """Return the playback speed as text."""
     if abs(speed - 1.0) < 1e-9:
         return gettext("real time")
-    return gettext("{times:g} x real time", times=speed) if speed > 1.0 else gettext("{times:g} x slower", times=1 / speed)
+    return gettext("{times:g} × real time", times=speed) if speed > 1.0 else gettext("1/{times:g} × real time", times=1 / speed)
 
 
 def _draw_strip(axis: Axes, film: Animation, index: int) -> None:
-    """Draw one strip with its thresholds and the phases; the last has the clock's axis."""
+    """Draw one strip with thresholds and phases; only the last has labels on the time axis."""
     strip, last = film.panels[index], index + 1 == len(film.panels)
     style.style_axes(axis)
     style.shade_phases(axis, film.visible_phases, dict(film.colours), names=index == 0, direction=film.direction)

@@ -1,4 +1,4 @@
-"""A film as one page: its data and the script that draws them, so that it plays at any size and any speed."""
+"""Animation as a self-contained HTML page, drawn by a script at any size and speed."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ from seisblock.report.templating import render_page
 
 SPEEDS = (0.02, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 LENGTH_DECIMALS, ANGLE_DECIMALS, TIME_DECIMALS = 5, 6, 4
-"""Decimals that are kept: 0.01 mm, 1e-6 rad, 0.1 ms."""
+"""Decimals of lengths, angles and times: 0.01 mm, 1e-6 rad, 0.1 ms."""
 
 SCENE3D_DECIMALS = 4
-"""Decimals of metres and quaternions in a scene in three dimensions: 0.1 mm."""
+"""Decimals of metres and quaternions in 3-D scenes: 0.1 mm."""
 
 VIEW_AZIMUTHS = 36
-"""Directions from which it is told what a scene in three dimensions takes of the picture; between them it changes evenly."""
+"""View azimuths for which the extent of a 3-D scene is stored; the script interpolates between them."""
 
 MAX_POINTS, MAX_PATH_POINTS = 3000, 8000
-"""Of a curve against time, and of the path of a point."""
+"""Points of a curve against time, and of the path of a point, at most."""
 
 
 def animation_html(film: Animation, options: AnimationOptions) -> str:
-    """Return the page of a film.
+    """Return the page of an animation.
 
     Parameters
     ----------
-    film : Film
-        For as many moments as slow motion needs.
-    options : Filming
-        Speed at the start.
+    film : Animation
+        Built for enough times that slow motion is smooth.
+    options : AnimationOptions
+        Units and initial speed.
     """
     speed = 1.0 / options.slow
     phase_colours = {phase.name: film.colours[phase.name] for phase in film.visible_phases if phase.name in film.colours}
@@ -53,7 +53,7 @@ def animation_html(film: Animation, options: AnimationOptions) -> str:
         close=isinstance(film.scene, Scene2D) and film.scene.close is not None,
         space=isinstance(film.scene, Scene3D),
         trails=[(trail.name, trail.colour) for trail in film.scene.trails] if isinstance(film.scene, Scene2D) else [],
-        phases=[(film.called(name), colour) for name, colour in phase_colours.items()],
+        phases=[(film.phase_label(name), colour) for name, colour in phase_colours.items()],
         lines=_lines(film),
         data=_data(film, options),
         pace=speed,
@@ -62,14 +62,14 @@ def animation_html(film: Animation, options: AnimationOptions) -> str:
 
 
 def _speed_choices(speed: float) -> list[tuple[float, str]]:
-    """Return the choices of speed, the chosen one among them."""
+    """Return value and label of the speeds offered, the initial one included."""
     return [
         (value, gettext("× {pace:g} (real time)", pace=value) if value == 1.0 else f"× {value:g}") for value in sorted({*SPEEDS, speed})
     ]
 
 
 def _lines(film: Animation) -> list[tuple[str, str, str]]:
-    """Return the curves that have a name: name, colour, and the style of a border that looks like them."""
+    """Return the legend of the named curves: name, colour, CSS border style."""
     styles = {}
     for line in (line for strip in film.panels for line in strip.lines if line.name):
         styles[line.name] = (line.colour, "solid" if not line.dashes else "dashed" if line.dashes[0] > 2 else "dotted")
@@ -77,7 +77,7 @@ def _lines(film: Animation) -> list[tuple[str, str, str]]:
 
 
 def _data(film: Animation, options: AnimationOptions) -> dict[str, Any]:
-    """Return everything the script draws."""
+    """Return the data of the page script."""
     return {
         "first": float(film.time[0]),
         "last": float(film.time[-1]),
@@ -88,13 +88,12 @@ def _data(film: Animation, options: AnimationOptions) -> dict[str, Any]:
         "scene": _plane(film.scene, float(film.time[0]), float(film.time[-1])) if isinstance(film.scene, Scene2D) else _space(film.scene),
         "strips": [_strip(film, strip) for strip in film.panels],
         "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.visible_phases if phase.name in film.colours],
-        "names": [[phase.start_s, phase.end_s, film.called(phase.name)] for phase in film.visible_phases],
+        "names": [[phase.start_s, phase.end_s, film.phase_label(phase.name)] for phase in film.visible_phases],
         "words": {"play": gettext("play"), "pause": gettext("pause")},
     }
 
 
 def _plane(scene: Scene2D, first: float, last: float) -> dict[str, Any]:
-    """Return a scene from the side."""
     return {
         "extent": scene.extent,
         "close": scene.close,
@@ -114,7 +113,7 @@ def _plane(scene: Scene2D, first: float, last: float) -> dict[str, Any]:
 
 
 def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
-    """Return the path of a point between two times; of too many points those furthest to either side, up and down."""
+    """Return the path of a point between two times, thinned to the extremes of x and z if too long."""
     index = np.flatnonzero((trail.time >= first) & (trail.time <= last))
     if index.size > MAX_PATH_POINTS:
         index = index[np.union1d(*(bin_extremes(trail.time[index], values[index], MAX_PATH_POINTS // 2) for values in (trail.x, trail.z)))]
@@ -126,7 +125,6 @@ def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
 
 
 def _space(scene: Scene3D) -> dict[str, Any]:
-    """Return a scene in three dimensions."""
     return {
         "extents": [
             _numbers(np.array(scene.extent(azimuth)), SCENE3D_DECIMALS)
@@ -137,14 +135,13 @@ def _space(scene: Scene3D) -> dict[str, Any]:
         "patch": [_numbers(corner, LENGTH_DECIMALS) for corner in scene.patch],
         "stone": STONE.tolist(),
         "light": LIGHT.tolist(),
-        "moved": _columns(scene.moved),
+        "ground": _columns(scene.ground_displacement),
         "solids": [_solid(solid) for solid in scene.solids],
         "springs": [_spring(spring) for spring in scene.springs],
     }
 
 
 def _solid(solid: Solid) -> dict[str, Any]:
-    """Return a cuboid or a cylinder."""
     fell = solid.fell_s if math.isfinite(solid.fell_s) else None
     return {
         "size": solid.size,
@@ -156,18 +153,17 @@ def _solid(solid: Solid) -> dict[str, Any]:
 
 
 def _spring(spring: Spring) -> dict[str, Any]:
-    """Return a spring under a corner."""
     return {"foot": _numbers(spring.foot, LENGTH_DECIMALS), "free": spring.free, "top": _columns(spring.top)}
 
 
 def _columns(values: FloatArray) -> list[Any]:
-    """Return the columns of an (n, k) array; one that never changes is a single number."""
+    """Return the columns of an (n, k) array; a constant column is a single number."""
     rounded = (np.round(values, SCENE3D_DECIMALS) + 0.0).T
     return [float(row[0]) if (row == row[0]).all() else row.tolist() for row in rounded]
 
 
 def _strip(film: Animation, strip: Strip) -> dict[str, Any]:
-    """Return the curves of a strip over the time shown, with the range of its axis."""
+    """Return the curves of a strip in the time shown, with the range of the axis."""
     first, last = float(film.time[0]), float(film.time[-1])
     low, high = strip.range_over(first, last)
     margin = 0.08 * (high - low)
@@ -180,5 +176,5 @@ def _strip(film: Animation, strip: Strip) -> dict[str, Any]:
 
 
 def _numbers(values: FloatArray, decimals: int) -> Any:
-    """Return rounded numbers; adding zero after rounding turns -0.0 into 0.0."""
+    """Return rounded numbers; adding zero turns -0.0 into 0.0."""
     return (np.round(values, decimals) + 0.0).tolist()

@@ -1,4 +1,4 @@
-"""The jump as a film: the pavilion on its shaking ground, the path of its feet enlarged, the record below."""
+"""Animation of a jumping two-layer block: side view, close-up of the path of its feet, record below."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from seisblock.report.figures.jump import COLOURS
 from seisblock.report.units_display import length_unit
 
 PEDESTAL = 0.06
-"""Half width of the stone under each foot, a share of the block's width."""
+"""Half width of the stone under each foot over the width of the block."""
 
 
 def animate_jump(response: Response[JumpOutcome], path: Path | str, options: AnimationOptions) -> None:
-    """Write the film of a jump, see :func:`seisblock.report.animation.writers.write_animation`."""
+    """Write the animation of a jump, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(
         response.phases, COLOURS, float(response.motion.time[0]), float(max(response.motion.time[-1], response.time[-1]))
     )
@@ -34,7 +34,7 @@ def animate_jump(response: Response[JumpOutcome], path: Path | str, options: Ani
 
 
 def jump_animation(response: Response[JumpOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film of a jump for the times of its pictures, (n,), s."""
+    """Return the animation of a jump for the times of its frames, (n,), s."""
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
     time, curves = interpolate_phases(response)
@@ -73,11 +73,11 @@ def jump_animation(response: Response[JumpOutcome], times: FloatArray, *, gal: b
 
 
 FEET = ("#1f5a8c", "#c0392b")
-"""Colours of the paths of the left and the right foot."""
+"""Colours of the paths of the left and right foot."""
 
 
 def _layers(block: TwoLayerBlock) -> tuple[Piece, ...]:
-    """Return both layers about the centroid."""
+    """Return the outlines of both layers relative to the centroid."""
     half, centroid_height = block.width / 2, block.centroid_height
     lower = rectangle(-half, half, -centroid_height, block.lower_height - centroid_height)
     upper = rectangle(-half, half, block.lower_height - centroid_height, block.height - centroid_height)
@@ -85,9 +85,9 @@ def _layers(block: TwoLayerBlock) -> tuple[Piece, ...]:
 
 
 def _floors(block: TwoLayerBlock, drop: float, reach: float) -> list[FloatArray]:
-    """Return the ground, and when the block stands above it the stones under its feet."""
-    wide, deep = 4.0 * (block.width + reach) + 2.0, block.height
-    ground = rectangle(-wide, wide, -drop - deep, -drop)
+    """Return the ground, and the stones under the feet if the block stands above it."""
+    half_width, depth = 4.0 * (block.width + reach) + 2.0, block.height
+    ground = rectangle(-half_width, half_width, -drop - depth, -drop)
     if drop == 0.0:
         return [ground]
     half, stone = block.width / 2, PEDESTAL * block.width
@@ -95,7 +95,7 @@ def _floors(block: TwoLayerBlock, drop: float, reach: float) -> list[FloatArray]
 
 
 def _close_up(feet: list[tuple[FloatArray, FloatArray]], displacement: float, drop: float) -> Box:
-    """Return the window about the path of the foot towards which the block goes."""
+    """Return the window around the path of the foot on the side of the displacement."""
     x, z = feet[1] if displacement >= 0.0 else feet[0]
     size = 1.2 * max(float(np.ptp(x)), float(np.ptp(z)), 0.02)
     middle_x, middle_z = (float(np.min(v) + np.max(v)) / 2 for v in (x, z))

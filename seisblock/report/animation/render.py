@@ -1,4 +1,4 @@
-"""Pictures on one stage, written as .gif or .mp4."""
+"""Rendering of frames and writing of GIF and MP4 files."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from seisblock.core.typing import Progress
 from seisblock.report.io.atomic import atomic_write, check_animation, find_ffmpeg
 
 FRAMES_PER_SECOND = 20
-"""Default rate; a .gif counts in hundredths of a second, so 20, 25 and 50 play at true speed."""
+"""Default frame rate, 1/s; GIF times are in 0.01 s, hence 20, 25 and 50 are exact."""
 
 TRANSPARENT = 128
-"""Of the palette of a .gif, after its colours: what lets the picture before it show."""
+"""Palette index of transparent pixels in a GIF, after the colours."""
 
 MAX_FRAMES = 1200
-"""A longer answer plays faster than it was, rather than filling the disk."""
+"""Frames of an animation at most; longer responses are played faster."""
 
 
 @dataclass(frozen=True)
 class AnimationOptions:
-    """How an animation is wanted.
+    """Options of an animation.
 
     Parameters
     ----------
     slow : float
-        How many times slower than life it plays.
+        Slow-motion factor.
     progress : callable
     gal : bool
-        Unit of accelerations: gal, else m/s^2.
+        Accelerations in gal if true, else m/s².
     """
 
     slow: float = 1.0
@@ -49,20 +49,20 @@ class AnimationOptions:
 
 
 REAL_TIME = AnimationOptions()
-"""As fast as life."""
+"""Default options: real time."""
 
 
 def render(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], count: int) -> Iterator[Image.Image]:
-    """Yield the pictures of a figure of which only some artists move.
+    """Yield the frames of a figure of which only some artists move.
 
     Parameters
     ----------
     figure : Figure
-        Everything but `moving` is drawn once.
+        All artists except `moving` are drawn once.
     moving : sequence of artists
-        Drawn anew in each picture, in this order; each must belong to an axis or to the figure.
+        Redrawn in every frame, in this order; must belong to axes or to the figure.
     draw : callable
-        ``draw(i)`` sets the moving artists to picture i.
+        ``draw(i)`` moves these artists to frame i.
     count : int
     """
     canvas = FigureCanvasAgg(figure)
@@ -81,9 +81,10 @@ def render(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], c
 def frame_times(
     first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0, max_frames: int = MAX_FRAMES
 ) -> tuple[list[float], float]:
-    """Return the times of the pictures of a stretch, s, and how many times faster than life it plays (0.25: four times slower)."""
+    """Return the times of the frames of an interval, s, and the playback speed over real time."""
     speed = 1.0 / slow
     count = max(round((last - first) * fps / speed) + 1, 2)
+    # doubling keeps a simple ratio to real time
     while count > max_frames:
         speed *= 2
         count = max(round((last - first) * fps / speed) + 1, 2)
@@ -91,38 +92,39 @@ def frame_times(
 
 
 def write_frames(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAMES_PER_SECOND) -> None:
-    """Write pictures as an animation, whole or not at all; the suffix decides the format.
+    """Write frames as an animation atomically, in the format of the suffix.
 
     Parameters
     ----------
     frames : iterable of RGB images of one size
     path : path
-        ``.gif`` (plays anywhere) or ``.mp4`` (needs ffmpeg, or the package imageio-ffmpeg).
+        ``.gif`` or ``.mp4`` (requires ffmpeg or the package imageio-ffmpeg).
     fps : int
-        Pictures per second.
+        Frames per second.
 
     Raises
     ------
     OutputError
-        If the suffix is another, an .mp4 has no program that makes it, or the file cannot be written.
+        If the suffix is not supported, ffmpeg is missing for .mp4, or the file cannot be written.
     """
     target = Path(path)
     writers = {".gif": _write_gif, ".mp4": _write_mp4}
     check_animation(target)
     writer = writers.get(target.suffix.lower())
     if writer is None:
-        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(writers))
+        raise OutputError("cannot save the animation as {target}: the name must end in {suffixes}", target=target, suffixes=list(writers))
     with atomic_write(target) as temporary:
         writer(frames, temporary, fps)
 
 
 def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
-    """Write a GIF that repeats; one palette, from the first, the middle and the last picture, serves all."""
+    """Write a looping GIF with one palette, from the first, middle and last frame."""
     pictures = list(frames)
     width, height = pictures[0].size
     samples = Image.new("RGB", (width, 3 * height))
     for row, index in enumerate((0, len(pictures) // 2, -1)):
         samples.paste(pictures[index], (0, row * height))
+    # one palette for all frames, which the transparent deltas require
     palette = samples.quantize(TRANSPARENT, method=Image.Quantize.MEDIANCUT)
     first, *later = _frame_deltas([picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures])
     timing = {"duration": round(100 / fps) * 10, "loop": 0}
@@ -130,7 +132,7 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
 
 
 def _frame_deltas(pictures: Sequence[Image.Image]) -> Iterator[Image.Image]:
-    """Yield pictures of one palette of which each but the first is clear where the one before it shows the same: that packs well."""
+    """Yield frames with pixels unchanged from the previous frame made transparent, which compresses better."""
     previous = None
     for picture in pictures:
         pixels = np.asarray(picture)
@@ -141,10 +143,11 @@ def _frame_deltas(pictures: Sequence[Image.Image]) -> Iterator[Image.Image]:
 
 
 def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
-    """Pipe the pictures through ffmpeg."""
+    """Encode frames with ffmpeg through a pipe."""
     program = find_ffmpeg() or "ffmpeg"
     pictures = iter(frames)
     first = next(pictures)
+    # yuv420p requires even dimensions
     width, height = (size - size % 2 for size in first.size)
     command = [
         program,
@@ -181,13 +184,13 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
         message = process.stderr.read().decode(errors="replace").strip()
         if process.wait() != 0 or message or not _is_complete_mp4(path):
             if os.strerror(errno.ENOSPC) in message:
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # its last line is about something else
-            reason = message.splitlines()[-1] if message else gettext("the file is not whole; is the disk full?")
-            raise OutputError("ffmpeg could not write the animation: {reason}", reason=reason)
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # the last line of ffmpeg does not name it
+            reason = message.splitlines()[-1] if message else gettext("incomplete file (disk full?)")
+            raise OutputError("ffmpeg failed to write the animation: {reason}", reason=reason)
 
 
 def _is_complete_mp4(path: Path) -> bool:
-    """Whether the boxes of an MP4 fill the file exactly, the index among them: a player can open it."""
+    """Return True if the boxes of an MP4, index included, fill the file exactly."""
     size = path.stat().st_size
     at, kinds = 0, set()
     with path.open("rb") as stream:
@@ -197,6 +200,7 @@ def _is_complete_mp4(path: Path) -> bool:
             if len(box_header) < 8:
                 return False
             length = int.from_bytes(box_header[:4], "big")
+            # length 1: 64-bit length after the type
             if length == 1:
                 length = int.from_bytes(box_header[8:16], "big")
             if length < 8:

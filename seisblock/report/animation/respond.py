@@ -1,4 +1,4 @@
-"""A free-standing object on its shaking ground, with the record, its displacement and its lean running below."""
+"""Animation of the full response: side view of the object, with record, displacement and tilt below."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ from seisblock.report.units_display import length_unit
 
 
 def animate_respond(response: Response[RespondOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
-    """Write the film of a free-standing object, see :func:`seisblock.report.animation.writers.write_animation`."""
+    """Write the animation of a full response, see :func:`seisblock.report.animation.writers.write_animation`."""
     write_animation(lambda times: respond_animation(response, times, gal=options.gal), motion_interval(response), path, options)
 
 
 def respond_animation(response: Response[RespondOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film for the times of its pictures, (n,), s."""
+    """Return the animation of a full response for the times of its frames, (n,), s."""
     block: Block = response.body
     motion, outcome, options = response.motion, response.outcome, response.options
     centre = np.array([block.centroid_offset, block.centre])
     outline = corners(block, 0.0) - centre
-    x, z, lean = (sample_at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
+    x, z, tilt = (sample_at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
     level = options["gravity_m_s2"] * min(effective_friction(options), min(block.arms) / block.centre)
     alpha = math.degrees(block.slenderness)
-    wide = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
+    half_width = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     disp_unit = length_unit([outcome.max_displacement_m], gal=gal)
     return Animation(
         title=animation_title(block.name, outcome.outcome),
@@ -46,8 +46,8 @@ def respond_animation(response: Response[RespondOutcome], times: FloatArray, *, 
         time=times,
         scene=Scene2D(
             shift=ground_shift(motion, times),
-            bodies=(Body((Piece(outline),), block.centroid_offset + x, ground_heights(outline, z, lean), lean),),
-            floors=(rectangle(-wide, wide, -block.height, 0.0),),
+            bodies=(Body((Piece(outline),), block.centroid_offset + x, ground_heights(outline, z, tilt), tilt),),
+            floors=(rectangle(-half_width, half_width, -block.height, 0.0),),
             trails=(
                 Trail(gettext("centre of gravity"), response.time, block.centroid_offset + response["displacement"], response["height"]),
             ),

@@ -1,4 +1,4 @@
-"""The block rocking on its shaking ground, with the record running below."""
+"""Animation of a rocking block, with record and tilt below."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.core.i18n import gettext
+from seisblock.core.i18n import N_, gettext
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
 from seisblock.models.rock.outcome import RockOutcome
@@ -23,40 +23,40 @@ from seisblock.report.figures.rock import COLOURS, motion_interval
 
 
 def animate_rocking(response: Response[RockOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
-    """Draw a rocking block, true to scale and, unless told otherwise, in real time.
+    """Write the animation of a rocking block, to scale and by default in real time.
 
     Parameters
     ----------
     response : Response
-        Of :func:`~seisblock.models.rock.solve.solve_rock`.
+        Result of :func:`~seisblock.models.rock.solve.solve_rock`.
     path : path
         ``.gif``, ``.mp4`` or ``.html``.
-    options : Filming
-        Speed and progress.
+    options : AnimationOptions
+        Speed, units and progress callback.
     """
     write_animation(lambda times: rocking_animation(response, times, gal=options.gal), motion_interval(response), path, options)
 
 
 def rocking_animation(response: Response[RockOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film of a rocking block for the times of its pictures, (n,), s."""
+    """Return the animation of a rocking block for the times of its frames, (n,), s."""
     block: Block = response.body
     motion, outcome = response.motion, response.outcome
-    lean = sample_at(times, response.time, response["rotation"])
-    origins = np.array([corners(block, float(theta))[0] for theta in lean])
+    tilt = sample_at(times, response.time, response["rotation"])
+    origins = np.array([corners(block, float(theta))[0] for theta in tilt])
     outline = corners(block, 0.0)
     piece = outline - outline[0]
     level = outcome.threshold_m_s2
     alpha = math.degrees(outcome.slenderness_rad)
-    wide = 4.0 * math.hypot(block.width, block.height)
+    half_width = 4.0 * math.hypot(block.width, block.height)
     return Animation(
-        title=animation_title(block.name, "overturns" if outcome.overturned else "stands"),
+        title=animation_title(block.name, N_("overturned") if outcome.overturned else N_("did not overturn")),
         heading=motions_heading([motion]),
         direction=motion.name,
         time=times,
         scene=Scene2D(
             shift=ground_shift(motion, times),
-            bodies=(Body((Piece(piece),), origins[:, 0], ground_heights(piece, origins[:, 1], lean), lean),),
-            floors=(rectangle(-wide, wide, -block.height, 0.0),),
+            bodies=(Body((Piece(piece),), origins[:, 0], ground_heights(piece, origins[:, 1], tilt), tilt),),
+            floors=(rectangle(-half_width, half_width, -block.height, 0.0),),
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
@@ -68,7 +68,7 @@ def rocking_animation(response: Response[RockOutcome], times: FloatArray, *, gal
 
 
 def extend_to_fall(response: Response[RockOutcome]) -> Response[RockOutcome]:
-    """Return the response with the fall that follows the record, when the block overturns only then."""
+    """Extend a response beyond the record until the block has overturned, if it overturns after the record."""
     outcome, motion, options = response.outcome, response.motion, response.options
     if not (outcome.decided_after_record and outcome.overturning_time_s is not None):
         return response
@@ -86,7 +86,7 @@ def extend_to_fall(response: Response[RockOutcome]) -> Response[RockOutcome]:
 
 
 def corners(block: Block, theta: float) -> FloatArray:
-    """Return the corners of the leaning block, (4, 2), m, from the middle of its base at rest; (6, 2) with bevels where it is worn."""
+    """Return the corners of the tilted block, (4, 2), or (6, 2) with worn edges, m, from the middle of its base at rest."""
     half, top, bevel = block.width / 2, block.height, block.inset
     base = [[bevel - half, 0.0], [half - bevel, 0.0]]
     sides = [[half, bevel], [half, top], [-half, top], [-half, bevel]] if bevel else [[half, top], [-half, top]]
@@ -95,28 +95,29 @@ def corners(block: Block, theta: float) -> FloatArray:
 
 
 def ground_heights(outline: FloatArray, z: FloatArray, turn: FloatArray) -> FloatArray:
-    """Return heights of a body's origin, (n,), m, at which no corner is below the ground.
+    """Return heights of the origin of a body, (n,), m, with no corner below the ground.
 
-    A worn block that falls turns about the edge it has left in the models; beyond 45 degrees it lies on its bevel, then on its side.
+    In the models a block with worn edges keeps its pivot while overturning; beyond 45 degrees it is drawn on its bevel, then on its side.
 
     Parameters
     ----------
     outline : (k, 2) array, m
         Corners about the origin, upright.
     z, turn : (n,) arrays, m, rad
-        Height of the origin above the ground, and how far the body leans.
+        Height of the origin above the ground, and tilt.
     """
+    # vertical position of the lowest corner after rotation by `turn`
     lowest = (np.outer(np.cos(turn), outline[:, 1]) - np.outer(np.sin(turn), outline[:, 0])).min(axis=1)
     return z - np.minimum(z + lowest, 0.0)
 
 
 def centroid_position(block: Block, theta: float) -> tuple[float, float]:
-    """Return where the centre of gravity of the leaning block is, m."""
+    """Return the position of the centre of gravity of the tilted block, m."""
     x, z = _rotate_about_corner(np.array([[block.centroid_offset, block.centre]]), block, theta)[0]
     return float(x), float(z)
 
 
 def _rotate_about_corner(points: FloatArray, block: Block, theta: float) -> FloatArray:
-    """Turn points about the corner in contact: the right one when the lean is positive."""
+    """Rotate points about the corner in contact, the right one for positive tilt."""
     pivot = np.array([math.copysign(block.width / 2 - block.inset, theta), 0.0])
     return rotate(points - pivot, theta) + pivot

@@ -1,4 +1,4 @@
-"""A scene seen from the side: rigid polygons on a ground that shakes along x, and the paths of some of their points."""
+"""Side view: rigid polygons on a ground moving along x, and the paths of points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A rigid polygon of a body: (k, 2) corners, m, in the body's own frame, and its colour."""
+    """A rigid polygon of a body: corners (k, 2), m, in the frame of the body, and colour."""
 
     corners: FloatArray
     colour: str = "#d9d3c7"
@@ -24,14 +24,14 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """What moves: pieces, and where their common origin is relative to the ground.
+    """A moving body: polygons, and the position of their common origin relative to the ground.
 
     Parameters
     ----------
     pieces : tuple of Piece
     x, z : (n,) arrays, m
     turn : (n,) array, rad
-        Positive when the body leans to +x.
+        Positive for a tilt to +x.
     """
 
     pieces: tuple[Piece, ...]
@@ -40,18 +40,18 @@ class Body:
     turn: FloatArray
 
     def corners_at(self, corners: FloatArray, index: int) -> FloatArray:
-        """Return corners where they are in picture `index`, (k, 2), m relative to the ground."""
+        """Return corners in frame `index`, (k, 2), m relative to the ground."""
         return rotate(corners, float(self.turn[index])) + np.array([self.x[index], self.z[index]])
 
     def path(self, corner: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the path of one point of the body relative to the ground, x and z, (n,), m."""
+        """Return the path of a point of the body relative to the ground, x and z, (n,), m."""
         cosine, sine = np.cos(self.turn), np.sin(self.turn)
         return self.x + corner[0] * cosine + corner[1] * sine, self.z + corner[1] * cosine - corner[0] * sine
 
 
 @dataclass(frozen=True, eq=False)
 class Trail:
-    """The path of a point relative to the ground, drawn behind it as far as it has come, on times of its own: s, x and z, (m,), m."""
+    """Path of a point relative to the ground, drawn up to the current time: time (m,), s, x and z (m,), m."""
 
     name: str
     time: FloatArray
@@ -60,7 +60,7 @@ class Trail:
     colour: str = "#c0392b"
 
     def until(self, end_time: float) -> tuple[FloatArray, FloatArray]:
-        """Return the path up to a time, x and z, where the point then is being its end."""
+        """Return the path up to a time, x and z, ending at the interpolated position."""
         past = self.time <= end_time
         end = (np.interp(end_time, self.time, values) for values in (self.x, self.z))
         x, z = (np.append(values[past], last) for values, last in zip((self.x, self.z), end, strict=True))
@@ -69,7 +69,7 @@ class Trail:
 
 @dataclass(frozen=True, eq=False)
 class Scene2D:
-    """The scene.
+    """Side view of bodies on the ground.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ class Scene2D:
     floors : tuple of (k, 2) arrays, m
         Polygons that move with the ground.
     close : Box or None
-        Window, relative to the ground, that is shown enlarged.
+        Close-up window relative to the ground.
     """
 
     shift: FloatArray
@@ -90,7 +90,7 @@ class Scene2D:
 
     @property
     def extent(self) -> Box:
-        """Box that holds every body in every picture and a strip of floor, in a frame that does not move."""
+        """Bounding box of all bodies in all frames with a margin, in a fixed frame."""
         bounds = [
             (np.min(x + self.shift), np.max(x + self.shift), np.min(z), np.max(z))
             for body in self.bodies
@@ -103,7 +103,7 @@ class Scene2D:
 
 
 def rotate(points: FloatArray, angle: float) -> FloatArray:
-    """Turn points about the origin, positive to +x (clockwise), (k, 2)."""
+    """Rotate points (k, 2) about the origin, positive to +x (clockwise)."""
     cosine, sine = np.cos(angle), np.sin(angle)
     x, z = points.T
     return np.column_stack([x * cosine + z * sine, z * cosine - x * sine])
@@ -115,6 +115,6 @@ def rectangle(left: float, right: float, bottom: float, top: float) -> FloatArra
 
 
 def ground_shift(motion: Motion, times: FloatArray) -> FloatArray:
-    """Return the displacement of the ground at some times, on the baseline of PGD, (n,), m."""
+    """Return the ground displacement at given times, with the baseline correction of PGD, (n,), m."""
     displacement = ground_history(motion.horizontal, motion.dt).displacement
     return np.interp(times, motion.time, displacement)

@@ -1,4 +1,4 @@
-"""A scene in three dimensions, seen without perspective: cuboids and cylinders on a patch of ground, some on springs at their corners."""
+"""Three-dimensional scene in orthographic projection: cuboids and cylinders on the ground or on corner springs."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from seisblock.models.stack.outcome import rotate_vectors
 from seisblock.records import Motion
 
 AZIMUTH, ELEVATION = math.radians(-60.0), math.radians(16.0)
-"""Where the viewer stands: from +x towards +y, and above the ground."""
+"""Direction to the viewer: azimuth from +x towards +y, and elevation, rad."""
 
 STONE, LIGHT = np.array([0.80, 0.77, 0.72]), np.array([0.25, -0.55, 0.80])
-"""Colour of a face towards the light, and where that comes from."""
+"""Base colour (RGB) of a lit face, and direction to the light."""
 
 FRAMES_PER_RAD = 100.0
-"""Moments a second that a page holds: each has seven numbers for every cuboid."""
+"""Frames per second of an HTML page; every frame has seven numbers per solid."""
 
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 
 BORDER = 0.5
-"""Width of the ground that is seen beside what lies on it, over its least size."""
+"""Margin of the ground around a solid over the smallest dimension of the solid."""
 
 SIDES = 20
-"""Of the prism that a cylinder is drawn as."""
+"""Sides of the prism that represents a cylinder."""
 
 _RIM_ANGLES = 2.0 * math.pi * np.arange(SIDES) / SIDES
 RIMS = np.array([(0.5 * math.cos(a), 0.5 * math.sin(a), z) for z in (-0.5, 0.5) for a in _RIM_ANGLES])
@@ -40,20 +40,20 @@ CAPS = (tuple(reversed(range(SIDES))), tuple(range(SIDES, 2 * SIDES)))
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A cuboid, or an upright cylinder.
+    """A cuboid or an upright cylinder.
 
     Parameters
     ----------
     size : (float, float, float), m
-        Of a cylinder the first two are its diameter.
+        The first two are the diameter of a cylinder.
     centre : (n, 3) array, m
         Relative to the ground.
     turn : (n, 4) array
         Quaternions w, x, y, z.
     fell_s : float, s
-        From when its edges are marked; infinite where it never falls.
+        Time of overturning, from which the edges are highlighted; infinite if it does not overturn.
     is_round : bool
-        Whether it is a cylinder.
+        True for a cylinder.
     """
 
     size: tuple[float, float, float]
@@ -63,27 +63,27 @@ class Solid:
     is_round: bool = False
 
     def corners_at(self, index: int) -> FloatArray:
-        """Return its corners in picture `index`, (8, 3), m relative to the ground; (40, 3) on the rims of a cylinder."""
+        """Return the corners in frame `index`, (8, 3), or (40, 3) on the rims of a cylinder, m relative to the ground."""
         return self.centre[index] + rotate_vectors(self.turn[index], (RIMS if self.is_round else CORNERS) * np.array(self.size))
 
     @property
     def sides(self) -> tuple[tuple[int, ...], ...]:
-        """Its faces: which corners they have, counter-clockwise seen from outside."""
+        """Corner indices of the faces, counter-clockwise seen from outside."""
         return (*MANTLE, *CAPS) if self.is_round else FACES
 
 
 @dataclass(frozen=True, eq=False)
 class Spring:
-    """What stands between the ground and a corner.
+    """Spring between the ground and a corner.
 
     Parameters
     ----------
     foot : (3,) array, m
-        On the ground.
+        Position on the ground.
     top : (n, 3) array, m
-        The corner.
+        Position of the corner.
     free : float, m
-        Height above which the corner leaves the spring.
+        Free height, above which the corner separates from the spring.
     """
 
     foot: FloatArray
@@ -92,37 +92,38 @@ class Spring:
 
     @property
     def lifted(self) -> BoolArray:
-        """In which pictures the corner is in the air, (n,)."""
+        """Frames in which the corner is uplifted, (n,)."""
         return self.top[:, 2] > self.free
 
 
 @dataclass(frozen=True, eq=False)
 class Scene3D:
-    """The scene.
+    """Solids and springs on a moving patch of ground.
 
     Parameters
     ----------
-    moved : (n, 3) array, m
+    ground_displacement : (n, 3) array, m
         Displacement of the ground.
     solids, springs : tuples
     half : float, m
-        Half the side of the patch of ground about where the solids stand; it goes on to where they come to lie, if that is in sight.
+        Half side of the patch of ground around the initial position; extended to the final positions of the solids in sight.
     """
 
-    moved: FloatArray
+    ground_displacement: FloatArray
     solids: tuple[Solid, ...]
     half: float
     springs: tuple[Spring, ...] = ()
 
     def extent(self, azimuth: float = AZIMUTH, elevation: float = ELEVATION) -> tuple[float, float, float, float]:
-        """Return a box in the picture that holds the ground and everything wherever it goes, but not a stone that rolls far away, m."""
+        """Return the bounding box in the picture of ground and solids at all times, without stones that roll far away, m."""
         right, up, _ = view_axes(azimuth, elevation)
         tall = max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids)
         reach = 0.6 * max(math.hypot(*solid.size) for solid in self.solids)
-        centres = np.concatenate([solid.centre + self.moved for solid in self.solids])
+        centres = np.concatenate([solid.centre + self.ground_displacement for solid in self.solids])
         across, high = centres @ right, centres @ up
-        ground, beside = self.patch + self.moved[:, np.newaxis], 0.05 * self.half
+        ground, beside = self.patch + self.ground_displacement[:, np.newaxis], 0.05 * self.half
         aside, rise = ground @ right, ground @ up
+        # solids count only up to the visible radius, the ground always
         left = min(max(float(across.min()) - reach, -self.visible_radius), float(aside.min()) - beside)
         end = max(min(float(across.max()) + reach, self.visible_radius), float(aside.max()) + beside)
         low = min(max(float(high.min()) - reach, -self.visible_radius), float(rise.min()) - beside)
@@ -130,12 +131,12 @@ class Scene3D:
 
     @property
     def visible_radius(self) -> float:
-        """How far from where the solids stand is in the picture at most, m."""
+        """Largest distance from the initial position that is shown, m."""
         return 1.2 * max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids) + self.half
 
     @cached_property
     def patch(self) -> FloatArray:
-        """The corners of the patch of ground about its place, (4, 3), m: under all that comes to lie in sight, with a margin."""
+        """Corners of the patch of ground, (4, 3), m, below all final positions in sight, with a margin."""
         low, high = np.full(2, -self.half), np.full(2, self.half)
         for solid in self.solids:
             corners, margin = solid.corners_at(-1), BORDER * min(solid.size)
@@ -145,40 +146,42 @@ class Scene3D:
         return np.array([(left, front, 0.0), (right, front, 0.0), (right, back, 0.0), (left, back, 0.0)])
 
     def floor(self, index: int) -> FloatArray:
-        """Return the patch of ground in picture `index`, (4, 3), m."""
-        return self.patch + self.moved[index]
+        """Return the patch of ground in frame `index`, (4, 3), m."""
+        return self.patch + self.ground_displacement[index]
 
     def faces(self, index: int, time: float) -> Iterator[tuple[FloatArray, FloatArray, bool]]:
-        """Yield the faces that the viewer sees, the farthest first: corners (k, 3), m, shade (3,), and whether the solid has fallen."""
+        """Yield the visible faces, farthest first: corners (k, 3), m, colour (3,), and overturned flag of the solid."""
         view_direction = view_axes()[2]
         visible = []
         for solid in self.solids:
-            corners = solid.corners_at(index) + self.moved[index]
+            corners = solid.corners_at(index) + self.ground_displacement[index]
             for corner_indices in solid.sides:
                 points = corners[list(corner_indices)]
                 normal = np.cross(points[1] - points[0], points[2] - points[1])
                 normal = normal / np.linalg.norm(normal)
+                # back-face culling; edge-on faces are skipped by the tolerance
                 if normal @ view_direction > 1e-9:
                     shade = np.clip(STONE * (0.72 + 0.32 * float(normal @ LIGHT)), 0.0, 1.0)
                     visible.append((float(points.mean(axis=0) @ view_direction), points, shade, time >= solid.fell_s))
+        # painter's algorithm: sorted by distance of the face centre
         for _, points, shade, has_fallen in sorted(visible, key=lambda entry: entry[0]):
             yield points, shade, has_fallen
 
 
 def view_axes(azimuth: float = AZIMUTH, elevation: float = ELEVATION) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the unit vectors to the right, upwards in the picture, and towards the viewer."""
+    """Return the unit vectors to the right and upwards in the picture, and towards the viewer."""
     c, s, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
     return np.array([-s, c, 0.0]), np.array([-c * se, -s * se, ce]), np.array([c * ce, s * ce, se])
 
 
 def project(points: FloatArray) -> FloatArray:
-    """Return where points (..., 3) stand in the picture, (..., 2)."""
+    """Project points (..., 3) to the picture, (..., 2)."""
     right, up, _ = view_axes()
     return np.stack([points @ right, points @ up], axis=-1)
 
 
 def ground_path(motion: Motion, acts: tuple[bool, bool, bool], times: FloatArray) -> FloatArray:
-    """Return the displacement of the ground along, across and up, (n, 3), m, on the baseline of PGD; rows that do not act stay zero."""
+    """Return the ground displacement along, across and up, (n, 3), m, with the baseline of PGD; zero in inactive rows."""
     zeros = np.zeros(motion.samples)
     rows = zip(acts, motion.acceleration, strict=True)
     displacements = [ground_history(row, motion.dt).displacement if act and row.any() else zeros for act, row in rows]

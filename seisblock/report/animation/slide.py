@@ -1,4 +1,4 @@
-"""Sliding as a film: the object on its shaking base, level or sloping, with the record and the slip below."""
+"""Animation of a sliding object on a level or sloping base, with record and slip below."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from seisblock.report.text.slide import describe_base
 from seisblock.report.units_display import Unit, format_length, length_unit
 
 MIN_HALF_WIDTH = 0.05
-"""Least width at which the object is drawn, m: the model gives it none, so it is drawn half as wide as it slides far."""
+"""Smallest half width of the drawn object, m; the model has no width, so it is drawn half as wide as the range of the slip."""
 
 
 def animate_slide(response: Response[SlideOutcome], path: Path | str, options: AnimationOptions) -> None:
-    """Write the film of a slide, see :func:`seisblock.report.animation.writers.write_animation`."""
+    """Write the animation of sliding, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
     write_animation(lambda times: slide_animation(response, times, gal=options.gal), span, path, options)
 
 
 def slide_animation(response: Response[SlideOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film of a slide for the times of its pictures, (n,), s."""
+    """Return the animation of sliding for the times of its frames, (n,), s."""
     base: SlidingBase = response.body
     motion = response.motion
     slip = sample_at(times, response.time, response["displacement"])
@@ -64,18 +64,23 @@ def slide_animation(response: Response[SlideOutcome], times: FloatArray, *, gal:
 
 
 def _outcome_text(outcome: SlideOutcome, disp_unit: Unit) -> str:
-    """Return what becomes of the object, in few words."""
-    return gettext("slides up to {most}", most=format_length(outcome.max_slip_m, disp_unit)) if outcome.slips else gettext("does not slide")
+    """Return the result as a short text."""
+    return (
+        gettext("maximum sliding displacement {most}", most=format_length(outcome.max_slip_m, disp_unit))
+        if outcome.slips
+        else gettext("no sliding")
+    )
 
 
 def position_on_base(base: SlidingBase, slip: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return where an object is that has slid so far along its base: x, z, m, and its turn, rad, (n,).
+    """Return position x, z, m, and rotation, rad, (n,), of an object after a slip along its base.
 
-    Downhill is +x on a positive slope; beyond the foot of the slope the path is level.
+    Downhill is +x for a positive slope; beyond the foot of the slope the path is level.
     """
     downhill = math.copysign(1.0, base.slope_deg)
     angle = abs(base.angle)
     foot = math.inf if base.slope_length is None else base.slope_length
+    # split the path at the foot of the slope
     on_slope = np.minimum(downhill * slip, foot)
     overrun = downhill * slip - on_slope
     x = downhill * (on_slope * math.cos(angle) + overrun)
@@ -83,11 +88,11 @@ def position_on_base(base: SlidingBase, slip: FloatArray) -> tuple[FloatArray, F
 
 
 def _floor(base: SlidingBase, travel: float) -> FloatArray:
-    """Return the outline of the base, as far as the object gets and further."""
+    """Return the outline of the base, beyond the range of the object."""
     downhill = math.copysign(1.0, base.slope_deg)
     ends = [-downhill * 3.0 * travel, *([] if base.slope_length is None else [downhill * base.slope_length]), downhill * 3.0 * travel]
     if base.slope_length is not None:
         ends[-1] = downhill * (base.slope_length + 3.0 * travel)
     x, z, _ = position_on_base(base, np.array(ends))
-    deep = float(z.min()) - 2.0 * travel
-    return np.array([*zip(x, z, strict=True), (x[-1], deep), (x[0], deep)])
+    bottom = float(z.min()) - 2.0 * travel
+    return np.array([*zip(x, z, strict=True), (x[-1], bottom), (x[0], bottom)])

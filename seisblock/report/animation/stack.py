@@ -1,4 +1,4 @@
-"""The pile in three dimensions on its moving ground, with the record and the tilts and slips of its stones below."""
+"""Animation of a pile of stones in three dimensions, with record, tilts and slips below."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from seisblock.report.units_display import length_unit
 
 
 def animate_stack(response: Response[StackOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
-    """Write the film of a pile, see :func:`seisblock.report.animation.writers.write_animation`."""
+    """Write the animation of a pile, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(response, margin=1.5)
     write_animation(lambda times: stack_animation(response, times, gal=options.gal), span, path, options, rate=FRAMES_PER_RAD)
 
 
 def stack_animation(response: Response[StackOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film of a pile for the times of its pictures, (n,), s."""
+    """Return the animation of a pile for the times of its frames, (n,), s."""
     body: Pile = response.body
     motion, options = response.motion, response.options
     fall_times = {stone.name: math.inf if stone.fell_at_s is None else stone.fell_at_s for stone in response.outcome.stones}
@@ -53,14 +53,13 @@ def stack_animation(response: Response[StackOutcome], times: FloatArray, *, gal:
 
 
 def _outcome_text(stones: tuple[str, ...]) -> str:
-    """Return what becomes of the pile."""
     if not stones:
-        return gettext("every stone stands")
-    return gettext("{stones} falls" if len(stones) == 1 else "{stones} fall", stones=join_list(map(gettext, stones)))
+        return gettext("no stone overturns")
+    return gettext("{stones} overturns" if len(stones) == 1 else "{stones} overturn", stones=join_list(map(gettext, stones)))
 
 
 def _lines(response: Response[StackOutcome], quantity: str, factor: float) -> tuple[Line, ...]:
-    """Return one curve per stone, in the colours and dashes of the figure; each ends where its stone falls."""
+    """Return one curve per stone in the styles of the figure; a curve ends at the overturning of its stone."""
     lines = []
     for index, stone in enumerate(reversed(response.outcome.stones)):
         values = (stone_slip if quantity == "slip" else stone_tilt)(response, stone.name) * factor
@@ -71,7 +70,7 @@ def _lines(response: Response[StackOutcome], quantity: str, factor: float) -> tu
 
 
 def _stone_trajectory(response: Response[StackOutcome], name: str, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return where the centre of a stone is at the times of the pictures, and how it is turned, (n, 3), m, and (n, 4)."""
+    """Return centre (n, 3), m, and unit quaternion (n, 4) of a stone at the times of the frames."""
     centre = np.array([np.interp(times, response.time, response[f"{name}_{axis}"]) for axis in "xyz"]).T
     turn = np.array([np.interp(times, response.time, response[f"{name}_q{axis}"]) for axis in "wxyz"]).T
     return centre, turn / np.linalg.norm(turn, axis=1, keepdims=True)

@@ -1,4 +1,4 @@
-"""A block on its corner springs, in three dimensions, its motion magnified, with the record and the rise of its corners below."""
+"""Animation of a block on corner springs, motion magnified, with record and uplift of the corners below."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ from seisblock.report.figures.uplift import LIFTED_COLOUR, motion_interval
 from seisblock.report.units_display import length_unit
 
 MAX_LEAN, MAX_RISE = 0.15, 0.15
-"""Largest lean, rad, and rise, of the height, that are drawn: smaller ones are magnified up to it, by a round factor."""
+"""Largest drawn tilt, rad, and rise over the height; smaller motions are magnified up to these by a round factor."""
 
 SPRING_LENGTH = 0.16
-"""Height at which a spring is drawn when nothing presses on it, of the block's."""
+"""Drawn free height of a spring over the height of the block."""
 
 COLOURS = ("#c0392b", "#1f5a8c", "#7d7d7d", "#b8860b")
 DASHES: tuple[tuple[float, ...], ...] = ((), (6, 2), (2, 1.5), (6, 2, 1, 2))
-"""Of the corners."""
+"""Dash patterns of the corners."""
 
-IN_AIR = N_("a corner in the air")
-LIFTS, STAYS, BEYOND = N_("a corner lifts"), N_("no corner lifts"), N_("lifts beyond what the model holds for")
+IN_AIR = N_("corner uplift")
+LIFTS, STAYS, BEYOND = N_("uplift"), N_("no uplift"), N_("uplift beyond the range of the model")
 
 
 def animate_uplift(response: Response[UpliftOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
-    """Write the film of a block on springs, see :func:`seisblock.report.animation.writers.write_animation`."""
+    """Write the animation of a block on springs, see :func:`seisblock.report.animation.writers.write_animation`."""
     write_animation(
         lambda times: uplift_animation(response, times, gal=options.gal), motion_interval(response), path, options, rate=FRAMES_PER_RAD
     )
 
 
 def uplift_animation(response: Response[UpliftOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
-    """Return the film of a block on springs for the times of its pictures, (n,), s."""
+    """Return the animation of a block on springs for the times of its frames, (n,), s."""
     body: SpringBlock = response.body
     motion, outcome = response.motion, response.outcome
     factor = magnification(response)
@@ -58,7 +58,7 @@ def uplift_animation(response: Response[UpliftOutcome], times: FloatArray, *, ga
         title=animation_title(f"{body.width:g} × {body.depth:g} × {body.height:g} m", outcome_text),
         heading=motions_heading([motion]),
         direction=motion.name,
-        note=gettext("motion on the springs drawn {factor:g} times as large; +x = {name}", factor=factor, name=motion.name or "x"),
+        note=gettext("motion on the springs magnified {factor:g} times; +x = {name}", factor=factor, name=motion.name or "x"),
         time=times,
         scene=_scene(response, times, factor),
         strips=(ground_strip(motion, gal=gal), Strip(gettext("u ({unit})", unit=disp_unit.name), lines, (0.0,))),
@@ -68,7 +68,7 @@ def uplift_animation(response: Response[UpliftOutcome], times: FloatArray, *, ga
 
 
 def magnification(response: Response[UpliftOutcome]) -> float:
-    """Return by which factor the motion on the springs is drawn: 1, 2, 5, 10 ..., or less than 1 for what is no small motion."""
+    """Return the magnification of the motion on the springs: 1, 2, 5, 10 ..., or below 1 for large motions."""
     rise = max(float(np.abs(response[f"uplift_{i + 1}"]).max()) for i in range(len(CORNER_SIGNS)))
     max_factor = min(MAX_LEAN / max(response.outcome.max_rotation_rad, 1e-12), MAX_RISE * response.body.height / max(rise, 1e-12))
     decade = 10.0 ** math.floor(math.log10(max_factor))
@@ -76,20 +76,20 @@ def magnification(response: Response[UpliftOutcome]) -> float:
 
 
 def _scene(response: Response[UpliftOutcome], times: FloatArray, factor: float) -> Scene3D:
-    """Return the block and its springs, everything relative to the ground magnified."""
+    """Return block and springs with magnified motion relative to the ground."""
     body: SpringBlock = response.body
-    dx, dy, dz, lean, lean_across = (
+    dx, dy, dz, tilt, tilt_across = (
         factor * sample_at(times, response.time, response[name])
         for name in ("displacement", "displacement_across", "displacement_up", "rotation", "rotation_across")
     )
-    # positive leans to +x and +y are turns about +y and -x
-    turns = Rotation.from_rotvec(np.column_stack([-lean_across, lean, np.zeros_like(lean)]))
+    # positive tilts to +x and +y are rotations about +y and -x
+    turns = Rotation.from_rotvec(np.column_stack([-tilt_across, tilt, np.zeros_like(tilt)]))
     free = SPRING_LENGTH * body.height
     centre = np.column_stack([dx, dy, free + 0.5 * body.height + dz])
     corners = [np.array([x * body.width / 2, y * body.depth / 2, -body.height / 2]) for x, y in CORNER_SIGNS]
     tops = [centre + turns.apply(corner) for corner in corners]
     for i, top in enumerate(tops):
-        # the corner's own height: whether it touches its spring must not hang on the curvature of a magnified turn
+        # height of the corner from its uplift, since a magnified rotation has a spurious second-order rise
         top[:, 2] = free + factor * sample_at(times, response.time, response[f"uplift_{i + 1}"])
     springs = tuple(Spring(corner * [1.0, 1.0, 0.0], top, free) for corner, top in zip(corners, tops, strict=True))
     solid = Solid((body.width, body.depth, body.height), centre, np.roll(turns.as_quat(), 1, axis=1))
@@ -99,7 +99,7 @@ def _scene(response: Response[UpliftOutcome], times: FloatArray, factor: float) 
 
 
 def _airborne_phases(response: Response[UpliftOutcome]) -> tuple[Phase, ...]:
-    """Return the stretches in which at least one corner is in the air."""
+    """Return the phases with at least one corner uplifted, adjacent ones merged."""
     lifts: list[Phase] = []
     for phase in response.phases:
         if phase.name == contact_name(ALL_CORNERS):

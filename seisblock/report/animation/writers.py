@@ -1,4 +1,4 @@
-"""The projector: from a film to a file, pictures or a page."""
+"""Writing of animations to files."""
 
 from __future__ import annotations
 
@@ -14,35 +14,34 @@ from seisblock.report.animation.render import AnimationOptions
 from seisblock.report.io.atomic import check_animation, write_text
 
 MAX_GIF_FRAMES = 600
-"""Pictures of a .gif, which holds of each what is new in it: some 2 to 4 MB."""
+"""Frames of a GIF at most (2 to 4 MB)."""
 
 HTML_RATE, MAX_HTML_FRAMES = 250.0, 12000
-"""Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""
+"""Frames per second of an HTML page, enough for smooth slow motion, and frames at most."""
 
 
 def write_animation(
     build: BuildAnimation, span: tuple[float, float], path: Path | str, options: AnimationOptions, *, rate: float = HTML_RATE
 ) -> None:
-    """Write a film; the suffix decides the format.
+    """Write an animation in the format of the suffix.
 
     Parameters
     ----------
     build : callable
-        Returns the film for the times of its pictures.
+        Returns the animation for the times of its frames.
     span : (float, float), s
-        First and last time shown.
+        First and last time.
     path : path
-        ``.gif``, ``.mp4`` (needs ffmpeg, or the package imageio-ffmpeg), or ``.html`` (one page that draws the film itself, at any size and
-        speed).
-    options : Filming
-        Speed and progress.
+        ``.gif``, ``.mp4`` (requires ffmpeg or the package imageio-ffmpeg), or ``.html`` (self-contained page, any size and speed).
+    options : AnimationOptions
+        Speed, units and progress callback.
     rate : float, 1/s
-        Moments that a page holds; fewer where there are many bodies.
+        Frames per second of a page; fewer for many bodies.
 
     Raises
     ------
     OutputError
-        If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
+        If the suffix is not supported, ffmpeg is missing for .mp4, or the file cannot be written.
     """
     target = Path(path)
     check_animation(target)

@@ -1,1 +1,1 @@
-"""Answers in the formats of other programs."""
+"""Results in the formats of other programs: OpenQuake, pelicun, GeoJSON, K-NET."""

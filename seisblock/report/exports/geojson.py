@@ -1,4 +1,4 @@
-"""Stations for maps: GeoJSON (RFC 7946), a point each, longitude before latitude."""
+"""Stations as GeoJSON points (RFC 7946), longitude before latitude."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from seisblock.studies.map.stations import Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison
 
 DECIMALS = 6
-"""Of a degree: a tenth of a metre."""
+"""Decimals of coordinates, degrees (0.1 m)."""
 
 
 def feature_collection(stations: Stations, surveys: Sequence[SurveyComparison] = ()) -> dict[str, Any]:
-    """Return the stations whose place is known as a GeoJSON FeatureCollection; properties carry the keys of the document.
+    """Return the stations with known coordinates as a GeoJSON FeatureCollection; properties have the keys of the JSON document.
 
     Parameters
     ----------
     stations : Stations
-    surveys : sequence of SurveyAnswer
-        Points of their own, whose properties begin with the place.
+    surveys : sequence of SurveyComparison
+        Surveyed cemeteries, added as points whose properties begin with ``place``.
     """
     features = [
         {
@@ -52,7 +52,7 @@ def feature_collection(stations: Stations, surveys: Sequence[SurveyComparison] =
     collection: dict[str, Any] = {"type": "FeatureCollection", "features": features}
     earthquake = stations.earthquake
     if earthquake is not None:
-        # a member of our own, which RFC 7946 section 6.1 lets readers pass over
+        # foreign member, ignored by other readers (RFC 7946 section 6.1)
         collection["earthquake"] = {
             "name": earthquake.name,
             "origin_time": earthquake.origin_time.isoformat() if earthquake.origin_time else None,
@@ -64,13 +64,13 @@ def feature_collection(stations: Stations, surveys: Sequence[SurveyComparison] =
 
 
 def write_geojson(path: Path, stations: Stations, surveys: Sequence[SurveyComparison] = ()) -> None:
-    """Write the stations whose place is known as GeoJSON.
+    """Write the stations with known coordinates as GeoJSON.
 
     Parameters
     ----------
     path : Path
     stations : Stations
-    surveys : sequence of SurveyAnswer
+    surveys : sequence of SurveyComparison
     """
     with atomic_write(path) as temporary:
         text = json.dumps(feature_collection(stations, surveys), ensure_ascii=False, allow_nan=False)
@@ -78,6 +78,6 @@ def write_geojson(path: Path, stations: Stations, surveys: Sequence[SurveyCompar
 
 
 def _position(longitude: float | None, latitude: float | None) -> list[float]:
-    """Return a position, longitudes from -180 to 180."""
+    """Return longitude and latitude, longitude wrapped to -180..180 degrees."""
     east = float(longitude or 0.0)
     return [round((east + 180.0) % 360.0 - 180.0 if abs(east) > 180.0 else east, DECIMALS), round(float(latitude or 0.0), DECIMALS)]

@@ -1,4 +1,4 @@
-"""Records in the layout of K-NET ASCII, for programs that read NIED's files: three files of whole counts each."""
+"""Records in K-NET ASCII format: three files of integer counts per record."""
 
 from __future__ import annotations
 
@@ -15,34 +15,32 @@ from seisblock.report.io.atomic import make_folder, write_text
 
 JAPAN = timezone(timedelta(hours=9))
 UNKNOWN_TIME = datetime(2000, 1, 1, tzinfo=JAPAN)
-"""When a record that says no time begins: the layout cannot leave it out."""
+"""Start of records without time: the format requires one."""
 
 DELAY = timedelta(seconds=15)
-"""The time in the header lies so long after the first sample."""
+"""Offset of ``Record Time`` in the header from the first sample."""
 
 MAX_COUNTS = 9_999_999
-"""Largest count: seven digits and a sign fill a column of eight."""
+"""Largest count: seven digits and a sign fit the column of eight characters."""
 
 MAX_DECIMALS = 4
-"""Most decimals of a count, gal."""
+"""Decimals of the finest count, gal."""
 
 COUNTS_PER_LINE = 8
-"""Counts on a line."""
 
 DIRECTIONS = {"NS": "N-S", "EW": "E-W", "UD": "U-D"}
 
 
 def write_knet(folder: Path, records: Sequence[Record]) -> list[Path]:
-    """Write records in the layout of K-NET ASCII, three files each, into a folder that is made if need be; return the files.
+    """Write records in K-NET ASCII format, three files each, into a folder that is created if needed; return the files.
 
-    A count is 1e-4 gal, or, where a component reaches beyond 999 gal, the least power of ten that keeps it within seven digits. The
-    layout wants whole seconds: a record is lengthened by zeros. It wants a time and places too: where a record says none they are the
-    first instant of 2000 and zeros.
+    A count is 1e-4 gal; for components above 999 gal it is the smallest power of ten that keeps counts within seven digits. The format
+    requires whole seconds (the record is padded with zeros), a start time and coordinates (2000-01-01 and zeros if unknown).
 
     Raises
     ------
     OutputError
-        If a component is none of NS, EW and UD, the sampling rate is no whole number, or a file cannot be written.
+        If a component is not NS, EW or UD, the sampling rate is not an integer, or a file cannot be written.
 
     Examples
     --------
@@ -62,26 +60,27 @@ def write_knet(folder: Path, records: Sequence[Record]) -> list[Path]:
 
 
 def _component_files(record: Record) -> Iterator[tuple[str, str]]:
-    """Yield the name and the text of each file of a record."""
+    """Yield name and content of each file of a record."""
     rate = round(1.0 / record.dt)
     if set(record.codes) - set(DIRECTIONS) or abs(rate * record.dt - 1.0) > 1e-9:
         raise OutputError(
-            "{name}: K-NET files hold NS, EW and UD at whole numbers of samples a second; found {codes} every {dt:g} s",
+            "{name}: K-NET format requires the components NS, EW, UD and an integer sampling rate in Hz; found {codes} at `dt` {dt:g} s",
             name=record.source,
             codes=record.codes,
             dt=record.dt,
         )
-    began = (UNKNOWN_TIME if record.start is None else record.start).astimezone(JAPAN)
+    start = (UNKNOWN_TIME if record.start is None else record.start).astimezone(JAPAN)
     for component in record.components:
-        yield f"{record.station}{began:%y%m%d%H%M}.{component.code}", _file_text(record, component, rate, began)
+        yield f"{record.station}{start:%y%m%d%H%M}.{component.code}", _file_text(record, component, rate, start)
 
 
 def _file_text(record: Record, component: Component, rate: int, start: datetime) -> str:
-    """Return the file of one component."""
+    """Return the content of the file of one component."""
     gal = component.acceleration / GAL
     decimals = MAX_DECIMALS
     while decimals > 0 and float(np.abs(gal).max()) * 10**decimals > MAX_COUNTS:
         decimals -= 1
+    # whole seconds, rounded up
     seconds = -(-gal.size // rate)
     counts = np.zeros(seconds * rate, dtype=np.int64)
     counts[: gal.size] = np.rint(gal * 10**decimals)

@@ -1,4 +1,4 @@
-"""Names that other programs take: letters, digits and underlines, each once, a letter first."""
+"""Unique ASCII identifiers for body names: letters, digits and underscores, a letter first."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Iterable
 
 
 def ascii_identifiers(names: Iterable[str], *, prefix: str = "body") -> dict[str, str]:
-    """Return names by which other programs can call some bodies; what has no such letters is numbered.
+    """Return a unique ASCII identifier for each name; names without ASCII letters are numbered.
 
     Parameters
     ----------
     names : iterable of str
     prefix : str
-        Begins the names of those.
+        Prefix of identifiers that would not begin with a letter.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A fragility as OpenQuake reads it: a ``fragilityModel`` in NRML 0.5, continuous (lognormal) or discrete (shares at the levels)."""
+"""OpenQuake fragility models (NRML 0.5): continuous (lognormal) or discrete (observed fractions at the levels)."""
 
 from __future__ import annotations
 
@@ -19,55 +19,57 @@ NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 SHAPES = ("logncdf", "discrete")
 
 _IMTS = {PGA: ("PGA", STANDARD_GRAVITY), PGV: ("PGV", 0.01), PGD: ("PGD", 0.01), SA: ("SA", STANDARD_GRAVITY), ARIAS: ("IA", 1.0)}
-"""What OpenQuake calls a measure, and its unit there, SI: g, cm/s, cm, m/s."""
+"""OpenQuake name of each intensity measure, and its unit in SI (g, cm/s, cm, m/s)."""
 
 UPPER_PROBABILITY = 0.9999
-"""Probability up to which, and from whose complement on, a continuous curve is followed at least."""
+"""Probability at the upper end of a continuous curve; the lower end is at its complement."""
 
 
 def imt_of(measure: IntensityMeasure) -> tuple[str, float]:
-    """Return what OpenQuake calls a measure, and its unit there, SI.
+    """Return the OpenQuake name of an intensity measure, and the size of its unit in SI.
 
     Raises
     ------
     OutputError
-        If it has none such.
+        If OpenQuake has no such measure.
     """
     if measure.kind not in _IMTS:
-        raise OutputError("OpenQuake knows no intensity measure {im}: take pga, pgv, pgd, sa or arias", im=measure.name)
+        raise OutputError("intensity measure {im} not supported by OpenQuake: use pga, pgv, pgd, sa or arias", im=measure.name)
     name, size = _IMTS[measure.kind]
     return (name if measure.period_s is None else f"{name}({measure.period_s:g})"), size
 
 
 def nrml(study: FragilityStudy, *, shape: str = "logncdf") -> str:
-    """Return a fragility model in NRML 0.5: a function for each body, a limit state for each limit that has a curve.
+    """Return a fragility model in NRML 0.5: one function per body, one limit state per limit with a curve.
 
     Parameters
     ----------
     study : FragilityStudy
     shape : str
-        ``logncdf``, by mean and standard deviation of the intensity itself, or ``discrete``, the shares at the levels, made to rise.
+        ``logncdf``: mean and standard deviation of the intensity; ``discrete``: observed fractions at the levels, made monotonic.
 
     Raises
     ------
     OutputError
-        If OpenQuake has no such measure, no body has a curve for each limit, or records were not scaled to levels that shares stand at.
+        If OpenQuake has no such measure, no body has a curve for every limit, or a discrete shape is requested of a cloud analysis.
 
     Notes
     -----
-    Of a lognormal intensity the mean is median exp(beta^2/2), and the standard deviation mean sqrt(exp(beta^2) - 1) (derived here).
+    The mean of a lognormal intensity is median exp(beta^2/2), its standard deviation mean sqrt(exp(beta^2) - 1) (derived here).
     """
     imt, size = imt_of(study.measure)
     if shape not in SHAPES:
-        raise OutputError("there is no shape {shape!r} of a fragility model; there are {known}", shape=str(shape)[:40], known=list(SHAPES))
+        raise OutputError("unknown shape {shape!r} of a fragility model: expected {known}", shape=str(shape)[:40], known=list(SHAPES))
     if shape == "discrete" and study.method == CLOUD:
-        raise OutputError("a cloud has no levels that shares stand at: take logncdf, or the method stripes")
+        raise OutputError("a cloud analysis has no intensity levels for a discrete shape: use the shape logncdf or the method stripes")
     bodies = dict.fromkeys(curve.body for curve in study.curves if curve.curve is not None)
     limits = list(dict.fromkeys(curve.limit for curve in study.curves if shape == "discrete" or curve.curve is not None))
     complete = {body: [c for c in study.curves if c.body == body and c.limit in limits] for body in bodies}
     complete = {body: curves for body, curves in complete.items() if shape == "discrete" or all(c.curve is not None for c in curves)}
     if not complete:
-        raise OutputError("no body has a curve for each limit, which a fragility model needs: leave a limit out, or ask for other levels")
+        raise OutputError(
+            "a fragility model requires a curve for every limit state, and no body has all of them: omit a limit or choose other levels"
+        )
     states = list(ascii_identifiers(limits, prefix="state").values())
     root = ElementTree.Element("nrml", xmlns=NAMESPACE)
     model = ElementTree.SubElement(root, "fragilityModel", id="seisblock", assetCategory="contents", lossCategory="contents")
@@ -84,7 +86,7 @@ def nrml(study: FragilityStudy, *, shape: str = "logncdf") -> str:
 def _add_function(
     model: ElementTree.Element, name: str, imt: str, curves: Sequence[Fragility], states: Sequence[str], size: float, *, continuous: bool
 ) -> None:
-    """Add the function of one body."""
+    """Add the fragility function of one body to the model."""
     levels = [level.im / size for level in curves[0].levels]
     if continuous:
         function = ElementTree.SubElement(model, "fragilityFunction", id=name, format="continuous", shape="logncdf")
@@ -104,18 +106,18 @@ def _add_function(
 
 
 def _format_number(value: float) -> str:
-    """Return a number with all digits that count."""
+    """Return a number to 12 significant digits."""
     return f"{value:.12g}"
 
 
 def lognormal_moments(curve: Lognormal) -> tuple[float, float]:
-    """Return mean and standard deviation of a lognormal intensity: median exp(beta^2/2), mean sqrt(exp(beta^2) - 1) (derived here)."""
+    """Return mean, median exp(beta^2/2), and standard deviation, mean sqrt(exp(beta^2) - 1), of a lognormal (derived here)."""
     mean = curve.median * math.exp(curve.beta**2 / 2.0)
     return mean, mean * math.sqrt(math.expm1(curve.beta**2))
 
 
 def pool_adjacent_violators(shares: Sequence[float]) -> list[float]:
-    """Return shares that never fall, nearest to those given by least squares: neighbours that fall are pooled.
+    """Return the isotonic least-squares fit to fractions (pool adjacent violators).
 
     Examples
     --------
@@ -125,6 +127,7 @@ def pool_adjacent_violators(shares: Sequence[float]) -> list[float]:
     pools: list[tuple[float, int]] = []
     for share in shares:
         pools.append((share, 1))
+        # merge decreasing neighbours into their weighted mean until the sequence is monotonic
         while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
             (a, m), (b, n) = pools[-2:]
             pools[-2:] = [((m * a + n * b) / (m + n), m + n)]

@@ -1,4 +1,4 @@
-"""A fragility as pelicun and its library of models, DLML, hold it: a row of parameters, and what it means beside it."""
+"""Fragility models for pelicun and its model library DLML: ``fragility.csv`` and ``fragility.json``."""
 
 from __future__ import annotations
 
@@ -19,35 +19,35 @@ _DEMANDS = {
     PGD: ("Peak Floor Displacement", "m", 1.0),
     SA: ("Spectral Acceleration", "g", STANDARD_GRAVITY),
 }
-"""What pelicun calls a measure at the object's feet, the unit told, and that unit in SI."""
+"""Pelicun demand type of each intensity measure, its unit, and that unit in SI."""
 
 DIRECTIONAL = 1
-"""The demand of one direction counts, as the object was shaken; the library's own shelves take the larger of both (0)."""
+"""``Demand-Directional``: 1, demand in one direction, as analysed (0: the larger of both, as for the shelves of DLML)."""
 
 
 def demand_of(measure: IntensityMeasure, *, ground: bool = False) -> tuple[str, str, float]:
-    """Return what pelicun calls a measure, its unit, and that unit in SI.
+    """Return the pelicun demand type of an intensity measure, its unit, and that unit in SI.
 
     Parameters
     ----------
     measure : IntensityMeasure
     ground : bool
-        Whether it is that of the ground under a storey, not that at the object's feet.
+        Measure of the ground motion below the building, else of the floor motion at the object.
 
     Raises
     ------
     OutputError
-        If pelicun has none such.
+        If pelicun has no such demand type.
     """
     if measure.kind not in _DEMANDS:
-        raise OutputError("pelicun knows no demand {im}: take pga, pgv, pgd or sa", im=measure.name)
+        raise OutputError("intensity measure {im} not supported by pelicun: use pga, pgv, pgd or sa", im=measure.name)
     name, unit, size = _DEMANDS[measure.kind]
     name = name.replace("Floor", "Ground") if ground else name
     return (name if measure.period_s is None else f"{name}|{measure.period_s:g}"), unit, size
 
 
 def pelicun_rows(study: FragilityStudy) -> tuple[list[str], list[list[Any]]]:
-    """Return the header and the rows of a ``fragility.csv``: a body each, its limit states in their order.
+    """Return header and rows of ``fragility.csv``: one row per body, limit states in order.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def pelicun_rows(study: FragilityStudy) -> tuple[list[str], list[list[Any]]]:
     Raises
     ------
     OutputError
-        If pelicun has no such demand.
+        If pelicun has no such demand type.
     """
     demand, unit, size = demand_of(study.measure, ground=study.floor is not None)
     bodies = _curves_by_name(study)
@@ -74,7 +74,7 @@ def pelicun_rows(study: FragilityStudy) -> tuple[list[str], list[list[Any]]]:
 
 
 def pelicun_metadata(study: FragilityStudy) -> str:
-    """Return the ``fragility.json`` that stands beside the rows: what each body and each of its states is, in English.
+    """Return ``fragility.json``: descriptions of the bodies and limit states, in English.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def pelicun_metadata(study: FragilityStudy) -> str:
 
 
 def _curves_by_name(study: FragilityStudy) -> dict[str, Sequence[Fragility]]:
-    """Return the curves of each body that has any, under the names of the file."""
+    """Return the curves of each body with at least one, by identifier."""
     with_curve = [curve for curve in study.curves if curve.curve is not None]
     identifiers = ascii_identifiers(dict.fromkeys(curve.body for curve in with_curve))
     return {name: [curve for curve in with_curve if curve.body == body] for body, name in identifiers.items()}

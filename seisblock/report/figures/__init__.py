@@ -1,1 +1,1 @@
-"""Answers as figures, in one style."""
+"""Figures of results, one module per command."""

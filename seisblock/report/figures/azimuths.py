@@ -1,4 +1,4 @@
-"""What becomes of a body in every direction: a rose for each record, in which falls stand out."""
+"""Polar diagrams of peak tilt and maximum displacement over azimuth."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ from seisblock.report.units_display import length_unit
 Directions = Sequence[Any]
 
 RIM = 1.0
-"""Lean over alpha at the rim of a rose: what falls reaches it."""
+"""Tilt over alpha at the rim of a polar panel, drawn for overturned blocks."""
 
 
 def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True) -> Figure:
-    """Return the figure: per record a rose of the largest lean over alpha and, of what slides, one of the furthest displacement.
+    """Return the figure: per record a polar panel of peak tilt over alpha and, with sliding, one of maximum displacement.
 
     Parameters
     ----------
     responses : sequence of Response
-        That of the worst direction, for each record.
+        Response in the governing direction of each record.
     directions : sequence of sequences
-        What became of the body in each direction.
+        Results in each direction, per record.
     gal : bool
         Displacements in cm, else m.
     """
@@ -45,7 +45,7 @@ def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions],
 def _build_figure(
     responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, narrow: bool, gal: bool
 ) -> style.StyledFigure:
-    """Return the figure, the roses of a record beside or below each other."""
+    """Return the figure, panels of a record side by side, or stacked if `narrow`."""
     across, down = 1 + slides, len(responses)
     rows, columns = (across * down, 1) if narrow else (down, across)
     title = records_heading([response.motion.record for response in responses], [gettext("all azimuths")])
@@ -53,21 +53,21 @@ def _build_figure(
     for row, (response, results) in enumerate(zip(responses, directions, strict=True)):
         record = response.motion.record
         prefix = f"{record_label(record)}: " if record is not None and down > 1 else ""
-        lean = fig.add_subplot(rows, columns, across * row + 1, projection="polar")
+        tilt = fig.add_subplot(rows, columns, across * row + 1, projection="polar")
         worst = direction_label(response.motion.name, _worst_direction(response, results))
-        _bars(lean, results, [RIM if result.overturned else min(result.max_rotation_ratio, RIM) for result in results])
+        _bars(tilt, results, [RIM if result.overturned else min(result.max_rotation_ratio, RIM) for result in results])
         if not any(result.max_rotation_ratio for result in results):
-            lean.annotate(
-                gettext("rocks in no direction"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
+            tilt.annotate(
+                gettext("no rocking in any direction"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
             )
-        style_rose(lean, prefix + gettext("largest lean over α, worst: {direction}", direction=worst), RIM)
+        style_rose(tilt, prefix + gettext("peak tilt θ/α, governing: {direction}", direction=worst), RIM)
         if slides:
             path = fig.add_subplot(rows, columns, across * row + 2, projection="polar")
             unit = length_unit((result.max_displacement_m for result in results), gal=gal)
             displacements = [result.max_displacement_m / unit.size for result in results]
             _bars(path, results, displacements)
-            style_rose(path, prefix + gettext("furthest from start ({unit})", unit=unit.name), max(*displacements, 1e-3 / unit.size))
-    handles = [Patch(facecolor=ROCKED_COLOUR, edgecolor="0.4", linewidth=0.5, label=gettext("stands"))]
+            style_rose(path, prefix + gettext("maximum displacement ({unit})", unit=unit.name), max(*displacements, 1e-3 / unit.size))
+    handles = [Patch(facecolor=ROCKED_COLOUR, edgecolor="0.4", linewidth=0.5, label=gettext("did not overturn"))]
     half_circle = all(map(_is_half_circle, directions))
     if any(result.overturned for results in directions for result in results):
         handles.append(
@@ -75,7 +75,7 @@ def _build_figure(
                 facecolor=OVERTURNED_COLOUR,
                 edgecolor="0.4",
                 linewidth=0.5,
-                label=gettext("falls to this side") if half_circle else gettext("falls"),
+                label=gettext("overturned to this side") if half_circle else gettext("overturned"),
             )
         )
     style.add_figure_legend(fig, handles, loc="outside lower center", ncols=2)
@@ -83,13 +83,13 @@ def _build_figure(
 
 
 def _worst_direction(response: Response[Any], results: Directions) -> str:
-    """Return to which side of its direction the worst is told: to that to which the body falls, where its bar is."""
+    """Return the sense of the governing direction: that of overturning, else +x."""
     name = response.motion.name
     return next((result.overturned_towards for result in results if result.overturned and f"{result.azimuth_deg:g}" == name), "+x")
 
 
 def _bars(panel: Any, results: Directions, values: Sequence[float]) -> None:
-    """Draw a bar for each direction; where half of the circle stands for all of it to both sides, or to that to which the body falls."""
+    """Draw a bar per direction; of a half circle in both senses, or only in the sense of overturning."""
     sides = ("+x", "-x") if _is_half_circle(results) else ("+x",)
     width = np.radians((180.0 if len(sides) == 2 else 360.0) / len(results))
     for result, value in zip(results, values, strict=True):
@@ -106,5 +106,5 @@ def _bars(panel: Any, results: Directions, values: Sequence[float]) -> None:
 
 
 def _is_half_circle(results: Directions) -> bool:
-    """Return whether directions are those of half the circle."""
+    """Return True if the directions cover half of the circle."""
     return max(result.azimuth_deg for result in results) < 180.0

@@ -1,4 +1,4 @@
-"""A scanned body in pictures: what it stands on, seen from above, and how easily it turns towards each azimuth."""
+"""Figure of a scanned body: plan of its base, and alpha and p over azimuth."""
 
 from __future__ import annotations
 
@@ -19,33 +19,33 @@ from seisblock.core.typing import FloatArray
 from seisblock.report.figures import style
 
 STEP_DEG = 1.0
-"""Between the azimuths that are drawn."""
+"""Step of azimuth, degrees."""
 
 ROUND = 4
-"""Rings of a rose."""
+"""Rings of a polar panel, at most."""
 
 OUTLINE, BASE, CONTACT_AREA = "0.94", "#9cc3dc", "#2f5f8c"
-"""What is seen from above, the sharp base, and what is left of it within worn edges; apart in grey."""
+"""Colours of outline, base polygon and support polygon, distinct in greyscale."""
 
 
 def figure(scan: Scan) -> Figure:
-    """Return the figure of a scan: its plan with north up, and alpha and p all around."""
+    """Return the figure of a scan: plan with north up, and alpha and p over azimuth."""
     fig = _build_figure(scan, narrow=False)
     fig.narrow_layout = lambda: _build_figure(scan, narrow=True)
     return fig
 
 
 def _build_figure(scan: Scan, *, narrow: bool) -> style.StyledFigure:
-    """Return the figure, its panels beside or below each other."""
+    """Return the figure, panels side by side, or stacked if `narrow`."""
     body = scan.body
-    title = gettext("{name}: {mass:.4g} kg, {height:.3g} m high", name=body.name, mass=body.mass, height=body.height)
+    title = gettext("{name}: {mass:.4g} kg, height {height:.3g} m", name=body.name, mass=body.mass, height=body.height)
     fig = style.titled_figure(title, width=4.6 if narrow else 11.6, height=12.0 if narrow else 4.6)
     rows, columns = (3, 1) if narrow else (1, 3)
     _plan(fig.add_subplot(rows, columns, 1), scan)
     results = scan_azimuths(body, step_deg=STEP_DEG)
     azimuths = np.radians([result.azimuth_deg for result in results])
     for place, values, text in (
-        (2, [math.degrees(result.slenderness_rad) for result in results], gettext("α (degrees)")),
+        (2, [math.degrees(result.slenderness_rad) for result in results], gettext("α (deg)")),
         (3, [result.frequency_parameter_rad_s for result in results], gettext("p (rad/s)")),
     ):
         panel = fig.add_subplot(rows, columns, place, projection="polar")
@@ -55,7 +55,7 @@ def _build_figure(scan: Scan, *, narrow: bool) -> style.StyledFigure:
 
 
 def style_rose(panel: Any, title: str, largest: float) -> None:
-    """Give a polar panel the common style: north up, azimuths clockwise, rings up to the largest value."""
+    """Style a polar panel: north up, azimuth clockwise, rings up to the largest value."""
     panel.set_theta_zero_location("N")
     panel.set_theta_direction(-1)
     panel.set_xticks(np.radians(np.arange(0, 360, 45)), [f"{azimuth}°" for azimuth in range(0, 360, 45)])
@@ -71,12 +71,12 @@ def style_rose(panel: Any, title: str, largest: float) -> None:
 
 
 def _plan(panel: Axes, scan: Scan) -> None:
-    """Draw the body from above: its outline, its base, what of it carries, and the centre of gravity."""
+    """Draw the plan: outline, base polygon, support polygon and centre of gravity."""
     style.style_axes(panel)
     body = scan.body
     parts = [(np.array(scan.outline), OUTLINE, "0.6", gettext("outline")), (body.corners, BASE, "0.3", gettext("base polygon"))]
     if body.inset_m:
-        parts.append((body.support_polygon, CONTACT_AREA, "0.1", gettext("within worn edges")))
+        parts.append((body.support_polygon, CONTACT_AREA, "0.1", gettext("support polygon (edge wear)")))
     for corners, colour, edge, name in parts:
         east, north = _to_east_north(body, corners)
         panel.fill(east, north, facecolor=colour, edgecolor=edge, linewidth=0.8, label=name)
@@ -88,7 +88,7 @@ def _plan(panel: Axes, scan: Scan) -> None:
 
 
 def _to_east_north(body: ScannedBody, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return points of the body to the east and to the north of its axis, m."""
+    """Return the east and north coordinates of points of the body from its axis, m."""
     turn = math.radians(body.facing)
     x, y = points.T
     return x * math.sin(turn) - y * math.cos(turn), x * math.cos(turn) + y * math.sin(turn)

@@ -1,4 +1,4 @@
-"""Cemeteries in pictures: how slender the stones are, and which share falls ([Furukawa2009]_ figs. 14 to 20)."""
+"""Figures of cemeteries: distribution of H/B and overturning rates ([Furukawa2009]_ figs. 14 to 20)."""
 
 from __future__ import annotations
 
@@ -28,35 +28,43 @@ LINES = (
     ("#3fa08f", "-"),
     ("#9bb3c4", (0, (6, 1.5))),
 )
-"""Colour and dashes of the curves by frequency: dark to light, so that their order can be read in grey too."""
+"""Colour and dashes of the curves by frequency, dark to light, so that the order is readable in greyscale."""
 
 MARKERS = "osD^vP"
 BIN = 0.25
 """Width of the histogram's bins of H/B."""
 
 FINE_PGA = tuple(round(0.1 * i, 1) for i in range(1, 181))
-"""PGA at which curves of the formula are drawn, m/s^2."""
+"""PGA of the points of the rate curves, m/s^2."""
 
 
 def draw_slenderness(axis: Axes, cemetery: Cemetery, threshold: float | None = None) -> None:
-    """Draw how slender the stones are: shares per bin, and the share above each H/B; what lies beyond a threshold is in colour."""
+    """Draw the histogram and the exceedance curve of H/B; stones above the threshold in colour."""
     ratios = np.sort(cemetery.ratios)
     edges = np.arange(np.floor(ratios[0] / BIN) * BIN, ratios[-1] + BIN, BIN).tolist()
     share = np.full(ratios.size, 1.0 / ratios.size)
-    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=gettext("share per {width:g}", width=BIN))
+    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=gettext("fraction per {width:g}", width=BIN))
     if threshold is not None:
         exceeds = ratios > threshold
-        axis.hist(ratios[exceeds], bins=edges, weights=share[exceeds], color=ACCENT, alpha=0.55, edgecolor="white", label=gettext("falls"))
+        axis.hist(
+            ratios[exceeds],
+            bins=edges,
+            weights=share[exceeds],
+            color=ACCENT,
+            alpha=0.55,
+            edgecolor="white",
+            label=gettext("above threshold"),
+        )
         axis.axvline(threshold, color=ACCENT, linewidth=0.9, linestyle=(0, (4, 2)))
     exceedance = 1.0 - np.arange(ratios.size + 1) / ratios.size
-    axis.step(np.concatenate([ratios, ratios[-1:]]), exceedance, where="pre", color="0.15", linewidth=1.1, label=gettext("share above"))
+    axis.step(np.concatenate([ratios, ratios[-1:]]), exceedance, where="pre", color="0.15", linewidth=1.1, label=gettext("fraction above"))
     axis.set_ylim(0.0, 1.02)
-    label_axes(axis, x=gettext("H/B"), y=gettext("share of stones"))
+    label_axes(axis, x=gettext("H/B"), y=gettext("fraction of stones (1)"))
     add_legend(axis, loc="upper right", bbox_to_anchor=None, ncols=1)
 
 
 def draw_rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, frequencies: Sequence[float] = FREQUENCIES) -> None:
-    """Draw the rate against PGA for each frequency."""
+    """Draw the overturning rate against PGA for each frequency."""
     unit, name = acceleration_unit(gal=gal)
     points = list(curve)
     for frequency in dict.fromkeys(point.frequency_hz for point in points):
@@ -66,11 +74,11 @@ def draw_rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, fre
         colour, dashes = LINES[index % len(LINES)]
         axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
     axis.set_ylim(-0.02, 1.02)
-    label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("overturning rate"))
+    label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("overturning rate (1)"))
 
 
 def _add_side_legend(axis: Axes) -> None:
-    """Add the key beside the panel: six curves and some points hide too much inside it."""
+    """Add the legend beside the panel; inside, it would hide curves."""
     add_legend(axis, loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=1)
 
 
@@ -81,15 +89,15 @@ def overturn_rate_figure(
     *,
     gal: bool = True,
 ) -> Figure:
-    """Return the figure of ``overturn-rate``: the stones, the curves and the points of a record, and the same with dowels.
+    """Return the figure of ``overturn-rate``: distribution of H/B, rate curves with the results of records, and the same with dowels.
 
     Parameters
     ----------
     cemetery : Cemetery
     groups : sequence of (Record or None, results)
-        Of records' components, or of bare numbers; may be empty.
+        Results of the components of records, or of given values; may be empty.
     curve : sequence of CurvePoint
-        Drawn where there is no result.
+        Curve drawn without results.
     gal : bool
         Unit of accelerations, else m/s^2.
     """
@@ -115,7 +123,7 @@ def overturn_rate_figure(
 
 
 def _point_label(record: Record | None, result: CemeteryRate, records: Sequence[Record | None]) -> str:
-    """Return what a point is called before its frequency."""
+    """Return the label of a point up to its frequency."""
     return "" if record is None else f"{panel_label(record, result.component or '', records)}, "
 
 
@@ -127,7 +135,7 @@ def _draw_rates(
     *,
     gal: bool,
 ) -> None:
-    """Draw the curves, those of the results in colour, and the rate of each result with its interval."""
+    """Draw the rate curves, those of the results in colour, and the rate of each result with its interval."""
     unit, _ = acceleration_unit(gal=gal)
     frequencies = {result.equivalent_frequency_hz for _, result, _ in shakings}
     draw_rates(axis, [p for p in (governing.curve if governing else curve) if p.frequency_hz not in frequencies], gal=gal)
@@ -140,7 +148,7 @@ def _draw_rates(
             [pga],
             [curve_source.rate],
             yerr=[[curve_source.rate - low], [high - curve_source.rate]],
-            fmt=MARKERS[index % len(MARKERS)] + "-",  # of one point there is no line but in the key, which so names the curve, too
+            fmt=MARKERS[index % len(MARKERS)] + "-",  # the line shows only in the legend, which thereby covers the curve as well
             color=ACCENT,
             ecolor="black",
             markeredgecolor="black",
@@ -152,12 +160,12 @@ def _draw_rates(
             zorder=4,
             label=f"{name}{result.equivalent_frequency_hz:.3g} Hz",
         )
-    axis.set_xlim(left=0.0)  # last, for it ends the scaling to what is drawn
+    axis.set_xlim(left=0.0)  # last, since it disables autoscaling
 
 
 def figure_14(cemetery: Cemetery) -> Figure:
     """Return the histogram and the cumulative distribution of H/B ([Furukawa2009]_ figs. 14, 15)."""
-    title = gettext("{name}: height over width of {stones} stones", name=cemetery.name, stones=cemetery.size)
+    title = gettext("{name}: H/B of {stones} stones", name=cemetery.name, stones=cemetery.size)
     figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=title)
     draw_slenderness(axis, cemetery)
     return figure
@@ -170,9 +178,9 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
     ----------
     cemetery : Cemetery
     reinforced : bool
-        All stones with a dowel.
+        All stones with dowels.
     surveys : sequence of SurveyedRate
-        Points to draw; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
+        Surveyed rates; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
     """
     kind = gettext("reinforced") if reinforced else gettext("not reinforced")
     figure, (axis,) = new_figure(1, width=7.2, height=4.4, title=f"{cemetery.name}, {kind}")
@@ -186,8 +194,8 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
 
 
 def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> Figure:
-    """Return surveyed rates against those of the curves, without a dowel and with one ([Furukawa2009]_ fig. 20)."""
-    title = gettext("rates: curves of {name}, and surveys", name=cemetery.name)
+    """Return the figure of surveyed against predicted rates, without and with dowels ([Furukawa2009]_ fig. 20)."""
+    title = gettext("Overturning rates: curves of {name} and surveys", name=cemetery.name)
     figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=title)
     axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)
     for index, survey in enumerate(surveys):
@@ -198,6 +206,6 @@ def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> 
         axis.scatter([undowelled], [survey.rate], marker=marker, color=ACCENT, s=30, zorder=3, label=survey.name)
         axis.scatter([dowelled], [survey.rate], marker=marker, facecolor="white", edgecolor="0.4", s=26, zorder=2)
     axis.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
-    label_axes(axis, x=gettext("rate by the curves (hollow: reinforced)"), y=gettext("surveyed rate"))
+    label_axes(axis, x=gettext("predicted rate (1); hollow: reinforced"), y=gettext("surveyed rate (1)"))
     _add_side_legend(axis)
     return figure

@@ -1,4 +1,4 @@
-"""The criteria card as a figure: demand over threshold."""
+"""Figure of overturning criteria: demand over threshold."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from seisblock.report.text.criteria import DEFINITIONS
 from seisblock.studies.criteria_comparison import CriteriaComparison
 
 COLOURS = {False: "#a9bccf", True: style.ACCENT}
-"""Of a criterion, by whether it says that the block falls; light and dark, so that they differ in grey."""
+"""Colour of a criterion by its prediction of overturning, distinct in greyscale."""
 
 
 def figure(cards: Sequence[CriteriaComparison], *, gal: bool = True) -> Figure:
-    """Return the figure: demand over threshold of every criterion; right of one it says that the block falls."""
+    """Return the figure: demand over threshold of every criterion; overturning is predicted above 1."""
     records = [card.record for card in cards]
     heading = records_heading(records, [card.component for card in cards])
     fig, axes = style.new_figure(
@@ -39,26 +39,26 @@ def figure(cards: Sequence[CriteriaComparison], *, gal: bool = True) -> Figure:
         axis.axvline(1.0, color=style.THRESHOLD, linewidth=1.0)
         axis.tick_params(axis="y", labelsize=7)
         axis.set_ylim(-0.6, len(names) - 0.4)
-        verdict = gettext("overturns") if card.outcome.overturned else gettext("stands")
+        verdict = gettext("overturned") if card.outcome.overturned else gettext("did not overturn")
         style.set_panel_title(
-            axis, gettext("{name}, simulated: {outcome}", name=panel_label(card.record, card.component, records), outcome=verdict)
+            axis, gettext("{name}, simulation: {outcome}", name=panel_label(card.record, card.component, records), outcome=verdict)
         )
-        style.label_axes(axis, gettext("demand over threshold"))
+        style.label_axes(axis, gettext("demand / threshold (1)"))
     axes[0].invert_yaxis()
-    labels = {False: gettext("says that it stands"), True: gettext("says that it overturns")}
+    labels = {False: gettext("predicted: no overturning"), True: gettext("predicted: overturning")}
     handles = [Patch(color=COLOURS[falls], label=labels[falls]) for falls in sorted(outcomes)]
     style.add_figure_legend(fig, handles, loc="outside lower right", ncols=2)
     return fig
 
 
 def _block_label(cards: Sequence[CriteriaComparison]) -> str:
-    """Return which block this is; of a body that is another one in each direction its name alone."""
+    """Return name and size of the block; the name alone if the size depends on the direction."""
     block = cards[0].block
     name = gettext(block.name)
     return f"{name} {block.width:.3g} × {block.height:.3g} m" if all(card.block == block for card in cards) else name
 
 
 def _criterion_label(row: CriterionResult) -> str:
-    """Return what a criterion is called, with the frequency that it was given."""
+    """Return the name of a criterion with the definition of its frequency."""
     definition = gettext(DEFINITIONS.get(row.frequency, row.frequency)) if row.frequency else ""
     return f"{gettext(row.criterion)} ({definition})" if definition else gettext(row.criterion)

@@ -1,4 +1,4 @@
-"""Curves against time: cut to what their panel shows, then thinned, so that what is seen is what was computed at any length."""
+"""Drawing of long time histories: clipping to the view and decimation that keeps extrema."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from matplotlib.axes import Axes
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 
 MAX_POINTS = 4000
-"""What is shown of a curve, if it is more than this, is reduced to the extrema of its bins, so that no peak is lost."""
+"""Points of a drawn curve, at most; longer curves are reduced to the extrema of bins."""
 
 
 def draw_curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
-    """Draw a curve that holds every point in view, or every peak where there are too many, whenever the panel's limits change.
+    """Draw a curve, decimated with its extrema kept whenever the limits of the panel change.
 
     Parameters
     ----------
     axis : Axes
     time, values : (n,) arrays
-        In the order of time; the two sides of an event may share an instant.
+        Sorted by time; both sides of an event may share an instant.
     longest_gap : float, optional
-        The curve is broken where two points are further apart.
+        Gaps longer than this break the curve.
     style
-        Of the line.
+        Properties of the line.
     """
     if longest_gap is not None:
         gaps = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
         time, values = np.insert(time, gaps, time[gaps]), np.insert(values, gaps, np.nan)
-    # the whole curve first: the panel's own limits are those of all of it
+    # all points first, since autoscaling uses the full data
     (line,) = axis.plot(time, values, **{"linewidth": 0.9, **style})
 
     def show(panel: Axes) -> None:
@@ -43,21 +43,21 @@ def draw_curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap:
 def refine(
     time: FloatArray, values: FloatArray, slopes: FloatArray, coarse: BoolArray, parts: int = 8
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return a curve whose slopes are known with more points, where it is coarse: on the cubic through both ends of a step.
+    """Refine a curve with known slopes at its coarse steps by cubic Hermite interpolation.
 
     Parameters
     ----------
     time, values, slopes : (n,) arrays
-        In the order of time; the slopes are the derivatives of the values.
+        Sorted by time; the slopes are the derivatives of the values.
     coarse : (n - 1,) array of bool
-        Which steps are divided; those between the two sides of an event never are.
+        Steps to be divided; steps of zero length (events) never are.
     parts : int
-        Into how many.
+        Number of parts per step.
 
     Returns
     -------
     time, values, slopes : (m,) arrays
-        With all of the points that were given.
+        Includes all original points.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def refine(
     share = np.arange(1, parts) / parts
     left = 1.0 - share
     long, rise, first, last = step[index], np.diff(values)[index], slopes[index], slopes[index + 1]
-    # Hermite's cubic, as the chord and what bends it at either end
+    # cubic Hermite polynomial as chord plus deviation of the slopes at both ends
     first_off, last_off = long * first - rise, long * last - rise
     midpoints = values[index] + share * rise + share * left * (left * first_off - share * last_off)
     bent = (left * (left - 2.0 * share) * first_off + share * (share - 2.0 * left) * last_off) / long
@@ -80,12 +80,12 @@ def refine(
 
 
 def insert_crossings(time: FloatArray, values: FloatArray, level: float) -> tuple[FloatArray, FloatArray]:
-    """Return a curve, (n,), with a point of its own wherever it passes a level.
+    """Insert a point at every crossing of a level into a curve.
 
     Parameters
     ----------
     time, values : (n,) arrays
-        In the order of time.
+        Sorted by time.
     level : float
 
     Examples
@@ -95,13 +95,14 @@ def insert_crossings(time: FloatArray, values: FloatArray, level: float) -> tupl
     ([0.0, 0.25, 1.0, 2.0], [0.0, 1.0, 4.0, 4.0])
     """
     difference = values - level
+    # strict sign change: points exactly on the level need no crossing
     index = np.flatnonzero(difference[:-1] * difference[1:] < 0.0)
     at = time[index] + (time[index + 1] - time[index]) * difference[index] / (difference[index] - difference[index + 1])
     return np.insert(time, index + 1, at), np.insert(values, index + 1, level)
 
 
 def in_view(time: FloatArray, values: FloatArray, first: float, last: float) -> tuple[FloatArray, FloatArray]:
-    """Return the points of a curve between two times, and the next one on each side, which the line runs to."""
+    """Return the points of a curve between two times, and the adjacent point on each side."""
     inside = (time >= min(first, last)) & (time <= max(first, last))
     if inside.all():
         return time, values
@@ -109,19 +110,19 @@ def in_view(time: FloatArray, values: FloatArray, first: float, last: float) -> 
     mask[1:] |= inside[:-1]
     mask[:-1] |= inside[1:]
     if not inside.any():
-        # the view lies between two points, or beyond all
+        # view between two points, or outside all
         index = int(np.searchsorted(time, first))
         mask[max(index - 1, 0) : index + 1] = True
     return time[mask], values[mask]
 
 
 def decimate(time: FloatArray, values: FloatArray, max_points: int = MAX_POINTS) -> tuple[FloatArray, FloatArray]:
-    """Return a curve of at most about so many points that keeps each bin's minimum and maximum, in their order of time.
+    """Decimate a curve to about `max_points` points, keeping minimum and maximum of each bin.
 
     Parameters
     ----------
     time, values : (n,) arrays
-        In the order of time. Where `values` is not a number the curve is broken, and stays so.
+        Sorted by time. Gaps (NaN in `values`) are kept.
     max_points : int
     """
     index = bin_extremes(time, values, max_points)
@@ -129,15 +130,15 @@ def decimate(time: FloatArray, values: FloatArray, max_points: int = MAX_POINTS)
 
 
 def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POINTS) -> IntArray:
-    """Return which points of a curve stand for all of them: the lowest and the highest of each of its bins, about so many in all.
+    """Return the indices of minimum and maximum of each bin of a curve, about `max_points` in all.
 
-    Bins are of equal width in time. Of equal number they would leave a quiet minute few points where a second of ever smaller hops has
-    ten thousand.
+    Bins have equal width in time, not equal counts: a second of decaying impacts can have ten thousand rows, which would leave few
+    points for the rest.
 
     Parameters
     ----------
     time, values : (n,) arrays
-        In the order of time.
+        Sorted by time.
     max_points : int
 
     Examples
@@ -145,6 +146,7 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
     >>> bin_extremes(np.arange(8.0), np.array([0.0, 1.0, 5.0, 2.0, -3.0, 0.0, 0.0, 1.0]), max_points=4).tolist()
     [0, 2, 4, 7]
     """
+    # two points per bin: minimum and maximum
     n = values.size
     if n <= max_points:
         return np.arange(n)
@@ -154,6 +156,7 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
     )
     starts = np.flatnonzero(np.diff(bin_number, prepend=-1))
     bin_index = np.repeat(np.arange(starts.size), np.diff(starts, append=n))
+    # NaN must win neither extreme; the first NaN of each gap is kept to break the line
     broken = np.isnan(values)
     lowest = _first_extremes(np.minimum.reduceat, np.where(broken, np.inf, values), starts, bin_index)
     highest = _first_extremes(np.maximum.reduceat, np.where(broken, -np.inf, values), starts, bin_index)
@@ -162,6 +165,7 @@ def bin_extremes(time: FloatArray, values: FloatArray, max_points: int = MAX_POI
 
 
 def _first_extremes(extreme: Callable[..., FloatArray], values: FloatArray, starts: IntArray, bin_index: IntArray) -> IntArray:
-    """Return where in each bin its extreme value stands first."""
+    """Return the index of the first extreme value in each bin."""
+    # `hits` is sorted by bin, so that the first index of each unique bin is its first extreme
     hits = np.flatnonzero(values == extreme(values, starts)[bin_index])
     return hits[np.unique(bin_index[hits], return_index=True)[1]]

@@ -1,4 +1,4 @@
-"""The field test: rates surveyed after an earthquake, beside those of each model of a stone."""
+"""Figure of the field test: surveyed overturning rates of gravestones and those of the models."""
 
 from __future__ import annotations
 
@@ -11,22 +11,24 @@ from seisblock.validation.furukawa_surveys import SURVEYS
 
 STYLES = {
     "eq-9": ("o", style.ACCENT, N_("eq. (9)")),
-    "worn": ("s", style.SECOND, N_("edges worn by 0.1 B")),
+    "worn": ("s", style.SECOND, N_("edge wear 0.1 B")),
     "sharp": ("^", "0.2", N_("sharp edges")),
-    "half-sine": ("v", "0.55", N_("sharp edges, half a sine")),
-    "worn-more": ("D", "#9bb3c4", N_("edges worn by 0.15 B")),
+    "half-sine": ("v", "0.55", N_("sharp edges, half-sine pulse")),
+    "worn-more": ("D", "#9bb3c4", N_("edge wear 0.15 B")),
 }
-"""Marker, colour and name of each model."""
+"""Marker, colour and label of each model."""
 
 SPREAD = 0.11
-"""Distance of the markers of one station."""
+"""Horizontal spacing of the markers of one station."""
 
 
 def figure() -> Figure:
-    """Return the figure: for each station of [Furukawa2009]_ table 6 the surveyed rate as a bar, and each model's as a marker."""
-    fig, (axis,) = style.new_figure(1, width=6.4, height=3.5, title=gettext("Tottori 2000: stones that fell, surveyed and computed"))
+    """Return the figure: surveyed rate (bar) and rate of each model (marker) at the stations of [Furukawa2009]_ table 6."""
+    fig, (axis,) = style.new_figure(
+        1, width=6.4, height=3.5, title=gettext("Tottori 2000: overturning rates of gravestones, survey and models")
+    )
     places = range(len(SURVEYS))
-    axis.bar(places, SURVEYED_RATES, width=0.86, color="0.88", edgecolor="0.6", linewidth=0.6, label=gettext("surveyed"))
+    axis.bar(places, SURVEYED_RATES, width=0.86, color="0.88", edgecolor="0.6", linewidth=0.6, label=gettext("survey"))
     for index, model in enumerate(MODELS):
         marker, colour, name = STYLES[model.key]
         x = [place + SPREAD * (index - (len(MODELS) - 1) / 2) for place in places]
@@ -35,6 +37,6 @@ def figure() -> Figure:
     axis.set_xticks(list(places), [survey.name for survey in SURVEYS])
     axis.set_ylim(-0.03, 1.42)
     axis.set_yticks([0.0, 0.25, 0.5, 0.75, 1.0])
-    style.label_axes(axis, "", gettext("rate (1)"))
+    style.label_axes(axis, "", gettext("overturning rate (1)"))
     axis.legend(fontsize=7, frameon=False, loc="upper left", ncols=2)
     return fig

@@ -1,4 +1,4 @@
-"""A fit in pictures: what is known of each parameter, whether probabilities are what they say, and which records were foretold wrongly."""
+"""Figure of a fit: posterior of each parameter, calibration, and outcomes over PGA and PGV/PGA."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ from seisblock.studies.fit.fit import BlockFit
 from seisblock.studies.fit.priors import Prior
 
 BINS = 40
-"""Of what is known of a parameter, over what its blocks span."""
+"""Bins of the histogram of a parameter."""
 
 PANELS_WIDE, PANELS_NARROW = 5, 2
-"""Parameters beside each other, and where the figure is narrow."""
+"""Panels of parameters per row, normal and narrow."""
 
 _TITLE = {
-    FELL: N_("{table}: fell in {happened} of {outcomes} outcomes, {records} records"),
+    FELL: N_("{table}: overturned in {happened} of {outcomes} outcomes, {records} records"),
     MOVED: N_("{table}: moved in {happened} of {outcomes} outcomes, {records} records"),
 }
-_SHARE = {FELL: N_("share that fell"), MOVED: N_("share that moved")}
-_EVENT = {FELL: N_("fell"), MOVED: N_("moved")}
-_NO_EVENT = {FELL: N_("stood"), MOVED: N_("did not move")}
+_SHARE = {FELL: N_("fraction overturned (1)"), MOVED: N_("fraction moved (1)")}
+_EVENT = {FELL: N_("overturned"), MOVED: N_("moved")}
+_NO_EVENT = {FELL: N_("did not overturn"), MOVED: N_("did not move")}
 
 
 def fit_figure(fit: BlockFit, name: str, *, gal: bool = True) -> Figure:
-    """Return the figure: a panel for each parameter, the calibration of records held out, and the records by PGA and PGV over PGA.
+    """Return the figure: a panel per parameter, cross-validated calibration, and outcomes over PGA and PGV/PGA.
 
     Parameters
     ----------
     fit : BlockFit
     name : str
-        Of the table.
+        Name of the table of outcomes.
     gal : bool
         Unit of accelerations, else m/s^2.
     """
@@ -51,7 +51,7 @@ def fit_figure(fit: BlockFit, name: str, *, gal: bool = True) -> Figure:
 
 
 def _build_figure(fit: BlockFit, name: str, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, its panels below each other where it is narrow."""
+    """Return the figure, panels stacked if `narrow`."""
     experiment = fit.experiment
     counts = {"happened": int(experiment.happened.sum()), "outcomes": len(experiment.outcomes), "records": experiment.records}
     title = gettext(_TITLE[experiment.kind], table=name, **counts)
@@ -75,15 +75,15 @@ def _build_figure(fit: BlockFit, name: str, *, gal: bool, narrow: bool = False) 
 
 
 def _draw_marginal(panel: Axes, fit: BlockFit, axis: Prior, *, first: bool) -> None:
-    """Draw what is known of one parameter, and what was thought before."""
+    """Draw posterior and prior of one parameter."""
     style.style_axes(panel)
     marginal, values = fit[axis.name], fit.draws[axis.name]
     spread = float(values.max() - values.min()) or 1.0
     low, high = max(axis.low, float(values.min()) - 0.15 * spread), min(axis.high, float(values.max()) + 0.15 * spread)
     edges = np.linspace(low, high, BINS + 1)
-    panel.hist(values, bins=edges.tolist(), density=True, color="0.75", label=gettext("after"))
+    panel.hist(values, bins=edges.tolist(), density=True, color="0.75", label=gettext("posterior"))
     prior = 1.0 / (edges * math.log(axis.high / axis.low)) if axis.logarithmic else np.full(edges.size, 1.0 / (axis.high - axis.low))
-    panel.plot(edges, prior, color=SECOND, linewidth=1.0, linestyle=(0, (4, 2)), label=gettext("before"))
+    panel.plot(edges, prior, color=SECOND, linewidth=1.0, linestyle=(0, (4, 2)), label=gettext("prior"))
     panel.axvline(marginal.median, color=ACCENT, linewidth=1.3, label=gettext("median"))
     panel.axvspan(*marginal.interval, color=ACCENT, alpha=0.12, linewidth=0, label=format_percent(fit.level, "g"))
     panel.set_xlim(low, high)
@@ -95,8 +95,8 @@ def _draw_marginal(panel: Axes, fit: BlockFit, axis: Prior, *, first: bool) -> N
 
 
 def _draw_calibration(panel: Axes, fit: BlockFit) -> None:
-    """Draw what happened where each probability was foretold."""
-    set_panel_title(panel, gettext("calibration, records held out"))
+    """Draw the observed fraction against the predicted probability, cross-validated."""
+    set_panel_title(panel, gettext("calibration (cross-validated by record)"))
     panel.plot([0.0, 1.0], [0.0, 1.0], color=INPUT, linewidth=0.9, linestyle=(0, (4, 2)))
     steps = fit.held_out.calibration if fit.held_out is not None else ()
     for step in steps:
@@ -105,11 +105,11 @@ def _draw_calibration(panel: Axes, fit: BlockFit) -> None:
         panel.annotate(str(step.outcomes), (step.mean_probability, step.share), xytext=(5, -9), textcoords="offset points", fontsize=7)
     panel.set_xlim(-0.03, 1.06)
     panel.set_ylim(-0.08, 1.05)
-    label_axes(panel, x=gettext("probability foretold"), y=gettext(_SHARE[fit.experiment.kind]))
+    label_axes(panel, x=gettext("predicted probability (1)"), y=gettext(_SHARE[fit.experiment.kind]))
 
 
 def _draw_outcomes(panel: Axes, fit: BlockFit, *, gal: bool) -> None:
-    """Draw the outcomes by the strength and the slowness of the shaking; those that were foretold wrongly are ringed."""
+    """Draw the outcomes over PGA and PGV/PGA; mispredicted ones are circled."""
     unit, name = acceleration_unit(gal=gal)
     kind, occurred = fit.experiment.kind, fit.experiment.happened > 0.5
     strong = fit.pga_m_s2 > 0.0
@@ -122,10 +122,10 @@ def _draw_outcomes(panel: Axes, fit: BlockFit, *, gal: bool) -> None:
     if fit.probability_held_out is not None:
         mispredicted = (np.abs(fit.probability_held_out - occurred) >= 0.5) & strong
         look = {"s": 70, "facecolors": "none", "edgecolors": "0.1", "linewidths": 0.9}
-        panel.scatter(slow[mispredicted], fit.pga_m_s2[mispredicted] / unit, label=gettext("foretold wrongly"), **look)
+        panel.scatter(slow[mispredicted], fit.pga_m_s2[mispredicted] / unit, label=gettext("mispredicted"), **look)
     panel.set_yscale("log")
     panel.set_xscale("log")
     for ruler in (panel.xaxis, panel.yaxis):
         round_ticks(ruler)
-    label_axes(panel, x=gettext("PGV over PGA (s)"), y=gettext("PGA ({unit})", unit=name))
+    label_axes(panel, x=gettext("PGV/PGA (s)"), y=gettext("PGA ({unit})", unit=name))
     add_legend(panel, ncols=3)

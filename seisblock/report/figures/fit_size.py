@@ -1,4 +1,4 @@
-"""A figure of the size asked for: letters shrink, labels and titles break, keys give way; what still does not fit is refused."""
+"""Fitting of a figure to a given size: smaller text, wrapped labels, moved legends."""
 
 from __future__ import annotations
 
@@ -32,41 +32,41 @@ from seisblock.report.figures.style import (
 from seisblock.report.text.wrap import display_width, wrap_text
 
 MAX_OVERLAP = 0.05
-"""Share of a text's box that may lie in another's: boxes are a little larger than letters."""
+"""Tolerated overlap of two text boxes over the area of the smaller; boxes are slightly larger than their glyphs."""
 
 MIN_PANEL = 0.16
-"""Inches, 4 mm: a panel that is flatter or narrower shows nothing."""
+"""Smallest side of a panel, inch (4 mm)."""
 
 MAX_LINES = 3
-"""Of a label or a title."""
+"""Lines of a label or a title, at most."""
 
 MAX_HIDDEN = 0.25
-"""Share of a panel that a key inside it may take."""
+"""Largest fraction of a panel covered by a legend inside it."""
 
 
 def fit_figure_size(
     figure: Figure, *, size: tuple[float, float] | FigureSize | None = None, dpi: int = DPI, title: str | None = None
 ) -> Figure:
-    """Return a figure in the size, at the resolution and under the title asked for.
+    """Return a figure with given size, resolution and title.
 
     Parameters
     ----------
     figure : Figure
-    size : (float, float) or Size, m, optional
-        Width and height; what is refused is told in the unit of a :class:`~seisblock.core.units.FigureSize`, else in cm.
+    size : (float, float) or FigureSize, m, optional
+        Width and height; errors are in the unit of a :class:`~seisblock.core.units.FigureSize`, else in cm.
     dpi : int, 1/inch
     title : str, optional
-        Instead of the figure's own; empty for none.
+        Replaces the title of the figure; empty for none.
 
     Returns
     -------
     Figure
-        The one given, or the form it has with its columns below each other, where only that one fits.
+        `figure`, or its narrow layout with stacked columns if only that fits.
 
     Raises
     ------
     OutputError
-        If that makes more pixels than a picture can hold, or its texts do not fit: with the least height, or size, in which they do.
+        If the picture has too many pixels, or the text does not fit; the message gives the minimum height or size.
     """
     figure.set_dpi(dpi)
     if title is not None and isinstance(figure, StyledFigure):
@@ -83,10 +83,10 @@ def fit_figure_size(
 
 
 def _check_pixels(wide: float, high: float) -> None:
-    """Refuse a picture of too many pixels."""
+    """Raise OutputError if a side exceeds :data:`MAX_PIXELS`."""
     if max(wide, high) > MAX_PIXELS:
         raise OutputError(
-            "a figure of {wide:.0f} x {high:.0f} pixels is larger than {most}: make it smaller, or give it fewer dots per inch",
+            "figure of {wide:.0f} x {high:.0f} pixels exceeds the limit of {most} pixels per side: reduce the size or `dpi`",
             wide=wide,
             high=high,
             most=MAX_PIXELS,
@@ -94,7 +94,7 @@ def _check_pixels(wide: float, high: float) -> None:
 
 
 def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> StyledFigure:
-    """Return a figure in a size, or refuse it with the least height in which its texts fit, or the least size where no height will do."""
+    """Return a figure fitted to a size; raise OutputError with the minimum height, or the minimum size if no height fits."""
     layout = Layout.of(fig)
     wide, high = target_size.width / INCH, target_size.height / INCH
     if layout.fits(wide, high):
@@ -102,20 +102,21 @@ def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> Style
     min_length = min_size(lambda tall: layout.fits(wide, tall), high, layout.height, target_size.unit)
     if min_length is not None:
         raise OutputError(
-            "the texts of this figure do not fit into {width} x {height}: at this width it must be {least} high at least",
+            "figure text does not fit in {width} x {height}: minimum height at this width {least}",
             width=format_inches(wide, target_size.unit),
             height=format_inches(high, target_size.unit),
             least=format_inches(min_length, target_size.unit),
         )
     if fig.narrow_layout is not None:
         return _fit(fig.build_narrow(fig.narrow_layout, title), target_size, title)
+    # no height fits: search the minimum width at the original aspect ratio
     share = layout.height / layout.width
     min_length = min_size(
         lambda broad: layout.fits(broad, round_up(max(high, share * broad), target_size.unit)), wide, layout.width, target_size.unit
     )
     min_width = round_up(MAX_SCALE * max(layout.width, wide), target_size.unit) if min_length is None else min_length
     raise OutputError(
-        "the texts of this figure do not fit into {width} x {height}, nor at any height of this width: give it {enough} x {tall}",
+        "figure text does not fit in {width} x {height} nor at any height of this width: use {enough} x {tall}",
         width=format_inches(wide, target_size.unit),
         height=format_inches(high, target_size.unit),
         enough=format_inches(min_width, target_size.unit),
@@ -125,20 +126,20 @@ def _fit(fig: StyledFigure, target_size: FigureSize, title: str | None) -> Style
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """A figure as it was made, from which every size is tried anew.
+    """Original layout of a figure, the starting point for every trial size.
 
     Parameters
     ----------
-    fig : Sheet
+    fig : StyledFigure
     width, height : float, inch
     texts : list of (Text, str, float)
-        Each text but the numbers along axes, what it says, and the size of its letters, points.
+        Text artists other than tick labels, with content and font size, points.
     rulers : list of (Axis, float)
-        The axes and the size of their numbers.
+        Axes and font size of their tick labels.
     keys : dict
-        How each key was made.
+        Handles and options of each legend.
     places : list of (Axes, Bbox)
-        Where each panel is before panels are laid out, shares of the figure: a layout begins at these, whatever was tried before.
+        Panels and their positions before layout, fractions of the figure; every layout starts from these.
     """
 
     fig: StyledFigure
@@ -151,7 +152,7 @@ class Layout:
 
     @classmethod
     def of(cls, fig: StyledFigure) -> Layout:
-        """Return how a figure is."""
+        """Return the current layout of a figure."""
         rulers = fig.findobj(Axis)
         numbers = {id(label) for ruler in rulers for label in (*ruler.get_ticklabels(), *ruler.get_ticklabels(minor=True))}
         texts = [text for text in fig.findobj(Text) if id(text) not in numbers]
@@ -166,8 +167,9 @@ class Layout:
         )
 
     def fits(self, width: float, height: float) -> bool:
-        """Give the figure a size, inch, and return whether its texts fit, none on another."""
+        """Set the figure to a size, inch, and return True if all text fits without overlap."""
         fig = self.fig
+        # restore the original state before every trial, which depends on nothing tried before
         share = max(min(width / self.width, height / self.height, 1.0), MIN_FONT_SCALE)
         fig.set_size_inches(width, height)
         fig.narrowed = fig.narrowed or width < self.width
@@ -179,33 +181,33 @@ class Layout:
         for axis, place in self.places:
             axis.set_position(place)
             axis.set_in_layout(True)
-        with warnings.catch_warnings(record=True) as remarks:
-            # that panels have no room left is what is looked for here
+        with warnings.catch_warnings(record=True) as caught:
+            # matplotlib warns when panels collapse; detected here
             warnings.simplefilter("always", UserWarning)
             _redraw_legends(fig, self.keys, share, {})
             with use_fonts(fig, fig.locale):
                 fig.get_layout_engine().execute(fig)  # type: ignore[union-attr]
-            if _layout_failed(remarks):
+            if _layout_failed(caught):
                 return False
             changes = _legend_changes(fig)
             if changes:
                 _redraw_legends(fig, self.keys, share, changes)
             _wrap_labels(fig)
-            # what drawing would lift, and then lay everything out once more
+            # as in drawing: move legends above titles, then lay out again
             fig.lift_legends()
             fig.draw_without_rendering()
-            return not _layout_failed(remarks) and min(_panel_sides(fig)) >= MIN_PANEL and not has_overlaps(fig)
+            return not _layout_failed(caught) and min(_panel_sides(fig)) >= MIN_PANEL and not has_overlaps(fig)
 
 
-def _layout_failed(remarks: list[warnings.WarningMessage]) -> bool:
-    """Return whether matplotlib found no room for panels, and left them as they were."""
-    return any("collapsed to zero" in str(remark.message) for remark in remarks)
+def _layout_failed(caught: list[warnings.WarningMessage]) -> bool:
+    """Return True if matplotlib's layout collapsed."""
+    return any("collapsed to zero" in str(warning.message) for warning in caught)
 
 
 def _redraw_legends(
     fig: StyledFigure, keys: dict[Any, tuple[list[Any], dict[str, Any]]], share: float, changes: dict[Any, dict[str, Any]]
 ) -> None:
-    """Draw every key anew in smaller letters, some of them otherwise."""
+    """Redraw every legend at a smaller font size, with changed options for some."""
     for axis, (handles, options) in keys.items():
         smaller = {**options, "fontsize": share * options["fontsize"], **changes.get(axis, {})}
         if axis is None:
@@ -215,7 +217,7 @@ def _redraw_legends(
 
 
 def _legend_changes(fig: StyledFigure) -> dict[Any, dict[str, Any]]:
-    """Return how keys are to be drawn that are wider than their panel, in fewer columns, or hide much of it, above it."""
+    """Return changed options of legends: fewer columns if too wide, above the panel if they cover much of it."""
     changes: dict[Any, dict[str, Any]] = {}
     for axis, (_, options) in fig.keys.items():
         key, panel = (fig.legends[0], fig.bbox) if axis is None else (axis.get_legend(), axis.get_window_extent())
@@ -223,6 +225,7 @@ def _legend_changes(fig: StyledFigure) -> dict[Any, dict[str, Any]]:
         box, legend_columns = key.get_window_extent(), min(options["ncols"], len(key.get_texts()))
         if box.width > panel.width and legend_columns > 1:
             changes[axis] = {"ncols": max(int(legend_columns * panel.width / box.width), 1)}
+        # a legend inside its panel moves above it if it covers too much
         inside = axis is not None and options["bbox_to_anchor"] is None
         if inside and (box.width * box.height > MAX_HIDDEN * panel.width * panel.height or fig.legend_covers_curve(key)):
             changes[axis] = {**changes.get(axis, {}), "loc": "lower right", "bbox_to_anchor": (1.0, LEGEND_Y), "borderaxespad": 0.0}
@@ -230,7 +233,7 @@ def _legend_changes(fig: StyledFigure) -> dict[Any, dict[str, Any]]:
 
 
 def _panel_sides(fig: StyledFigure) -> Iterator[float]:
-    """Yield the sides of the panels, inch."""
+    """Yield the shorter side of each panel, inch."""
     for axis in fig.axes:
         box = axis.get_window_extent()
         if axis.get_label() != "<colorbar>":
@@ -238,7 +241,7 @@ def _panel_sides(fig: StyledFigure) -> Iterator[float]:
 
 
 def _wrap_labels(fig: StyledFigure) -> None:
-    """Break the labels and titles that are longer than their panels; a name inside a panel that it does not fit into is left out."""
+    """Wrap labels and titles longer than their panels; hide annotations that do not fit in their panel."""
     renderer = fig.canvas.get_renderer()  # type: ignore[attr-defined]
     with use_fonts(fig, fig.locale):
         for axis in fig.axes:
@@ -255,18 +258,18 @@ def _wrap_labels(fig: StyledFigure) -> None:
 
 
 def _wrap_text(text: Text, available: float, extent: float) -> None:
-    """Break a text that is longer than its room, between words."""
+    """Wrap a text longer than the available length."""
     content = text.get_text()
     if not content or extent <= available:
         return
-    longest = max(map(display_width, content.split("\n")))  # it is that which is so long
+    longest = max(map(display_width, content.split("\n")))  # `extent` is that of the longest line
     lines = wrap_text(content.replace("\n", " "), max(int(longest * available / extent), 1))
     if len(lines) <= MAX_LINES:
         text.set_text("\n".join(lines))
 
 
 def has_overlaps(figure: Figure) -> bool:
-    """Return whether a text of a figure leaves the canvas, or lies on another."""
+    """Return True if a text leaves the canvas or overlaps another."""
     renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
     boxes = np.array([text.get_window_extent(renderer).extents for text in _visible_texts(figure)])
     edge = 0.01 * figure.dpi
@@ -274,6 +277,7 @@ def has_overlaps(figure: Figure) -> bool:
         return True
     low = np.maximum(boxes[:, None, :2], boxes[None, :, :2])
     high = np.minimum(boxes[:, None, 2:], boxes[None, :, 2:])
+    # overlap of every pair over the smaller area, so that a short label inside a long one counts fully
     area = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
     shared = np.prod(np.maximum(high - low, 0.0), axis=2) / np.minimum(area[:, None], area[None, :])
     np.fill_diagonal(shared, 0.0)
@@ -281,7 +285,7 @@ def has_overlaps(figure: Figure) -> bool:
 
 
 def _visible_texts(figure: Figure) -> list[Text]:
-    """Return the texts that a reader sees."""
+    """Return the visible text artists, without tick labels outside the view."""
     off_scale: set[int] = set()
     for ruler in figure.findobj(Axis):
         first, last = sorted(ruler.get_view_interval())

@@ -1,4 +1,4 @@
-"""Which font holds Japanese, and which letters a figure can therefore be written in."""
+"""Font selection for figures with Japanese text."""
 
 from __future__ import annotations
 
@@ -47,53 +47,51 @@ FAMILIES = (
     "IPAexMincho",
     "IPAMincho",
 )
-"""Families that hold Japanese, the most readable on a figure first."""
+"""Font families with Japanese glyphs, in order of preference."""
 
 REGULAR = 400
 LATIN = "DejaVu Sans"
-"""The family that comes with matplotlib; it holds what mathematics a label needs."""
+"""Font family distributed with matplotlib, with the mathematical symbols of the labels."""
 
 FONT_PACKAGE = "matplotlib_fontja"
-"""A package of the index that brings IPAexGothic, and needs no system's leave; only its file is used."""
+"""Python package with IPAexGothic; only its font file is used."""
 
-NO_FONT = N_(
-    "no font with Japanese letters was found: the figure is in English; install one, say fonts-noto-cjk, or pip install matplotlib-fontja"
-)
-"""What to say when there is none."""
+NO_FONT = N_("no Japanese font found, figure in English: install e.g. fonts-noto-cjk, or run pip install matplotlib-fontja")
+"""Warning without Japanese font, in Japanese locale."""
 
 MISSING_GLYPHS = N_(
-    "no font with Japanese letters was found: names in Japanese are boxes in the figure; install one, say fonts-noto-cjk, or pip install "
+    "no Japanese font found, Japanese names appear as boxes in the figure: install e.g. fonts-noto-cjk, or run pip install "
     "matplotlib-fontja"
 )
-"""What to say when a figure in English has names that no font holds."""
+"""Warning without Japanese font, for a figure in English with Japanese names."""
 
 
 @dataclass(frozen=True)
 class Typeface:
-    """A family that holds Japanese, and the weights in which it is there: asking for another one makes matplotlib complain."""
+    """A font family and its installed weights; matplotlib warns about any other weight."""
 
     family: str
     weights: tuple[int, ...]
 
     def nearest(self, weight: Any) -> int:
-        """Return the weight that is there and comes nearest to one asked for."""
+        """Return the installed weight nearest to a requested one."""
         return min(self.weights, key=lambda value: abs(value - _weight_number(weight)))
 
 
 def _weight_number(weight: Any) -> int:
-    """Return a weight as a number: matplotlib knows them by name, too."""
+    """Return a weight as a number; matplotlib also accepts names."""
     return int(weight_dict.get(weight, weight))
 
 
 @cache
 def japanese_font() -> Typeface | None:
-    """Return an installed family that holds Japanese, one of regular weight before one that is only bold; None when there is none.
+    """Return an installed Japanese font family, preferably with regular weight, or None.
 
-    A font of the system comes before one that came with a package.
+    System fonts take precedence over those of :data:`FONT_PACKAGE`.
     """
     typeface = _find_typeface(fontManager)
     if typeface is None:
-        # matplotlib keeps a list of the fonts it once saw; one installed since is found by looking again
+        # matplotlib caches its font list; a new manager finds fonts installed since
         manager = FontManager()
         for path in _packaged_fonts():
             manager.addfont(path)
@@ -104,13 +102,13 @@ def japanese_font() -> Typeface | None:
 
 
 def _packaged_fonts() -> list[Path]:
-    """Return the files of the fonts that a package brings; it is not imported, for that would change how everything is drawn."""
+    """Return the font files of :data:`FONT_PACKAGE` without importing the package, which would change the default font."""
     package = importlib.util.find_spec(FONT_PACKAGE)
     return sorted(Path(package.origin).parent.glob("fonts/*.ttf")) if package and package.origin else []
 
 
 def _find_typeface(manager: FontManager) -> Typeface | None:
-    """Return the first of the families that a list of fonts holds."""
+    """Return the preferred family among the fonts of a manager, or None."""
     weights: dict[str, set[int]] = {}
     for entry in manager.ttflist:
         if entry.name in FAMILIES and entry.style == "normal":
@@ -120,22 +118,22 @@ def _find_typeface(manager: FontManager) -> Typeface | None:
 
 
 def drawable_locale() -> str:
-    """Return the language of figures: the one spoken, or English where no font holds its letters."""
+    """Return the locale of figures: the current one, or English without a Japanese font."""
     return "en" if get_locale() != "en" and japanese_font() is None else get_locale()
 
 
 def can_render(text: str) -> bool:
-    """Return whether there is a font that holds the letters of a text."""
+    """Return True if a font has the glyphs of a text."""
     return not is_wide(text) or japanese_font() is not None
 
 
 def has_missing_glyphs(figure: Figure) -> bool:
-    """Return whether a figure has letters that no font holds."""
+    """Return True if a figure has text without glyphs."""
     return not all(can_render(text.get_text()) for text in figure.findobj(Text) if isinstance(text, Text))
 
 
 def build_localized(build: Callable[[], Figure]) -> Figure:
-    """Return a figure, built in the language in which it can be drawn.
+    """Return a figure built in :func:`drawable_locale`.
 
     Parameters
     ----------
@@ -148,16 +146,16 @@ def build_localized(build: Callable[[], Figure]) -> Figure:
 
 @contextmanager
 def use_fonts(figure: Figure, locale: str) -> Iterator[None]:
-    """Give every text of a figure a font that holds it, and take names for what they are: a dollar sign begins no formula.
+    """Set the font of every text of a figure, and disable mathtext in names (dollar signs).
 
-    Inside the block matplotlib keeps to itself which weights a family lacks, the nearest has been chosen, and which letters.
+    Inside the block matplotlib's warnings on missing weights and glyphs are suppressed.
 
     Parameters
     ----------
     figure : Figure
         Changed in place.
     locale : "en" or "ja"
-        In Japanese all letters are of one family; in English a Japanese name gets its own.
+        In Japanese all text has the Japanese family; in English only Japanese names.
     """
     parts = figure.findobj()
     numbers = _tick_labels(axis for axis in parts if isinstance(axis, Axis))
@@ -169,19 +167,19 @@ def use_fonts(figure: Figure, locale: str) -> Iterator[None]:
             if typeface is not None:
                 text.set_fontfamily([typeface.family, LATIN])
                 text.set_fontweight(typeface.nearest(text.get_fontweight()))
-    remarks = logging.getLogger("matplotlib.font_manager")
-    level = remarks.level
-    remarks.setLevel(logging.ERROR)
+    logger = logging.getLogger("matplotlib.font_manager")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="Glyph .* missing from font")
             yield
     finally:
-        remarks.setLevel(level)
+        logger.setLevel(level)
 
 
 def _tick_labels(axes: Iterable[Axis]) -> set[int]:
-    """Return which texts are the numbers along an axis: matplotlib writes powers of ten as formulas; names along an axis are none."""
-    marks = [axis for axis in axes if not isinstance(axis.get_major_formatter(), (StrCategoryFormatter, FixedFormatter))]
-    ticks = [tick for axis in marks for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())]
-    return {id(label) for tick in ticks for label in (tick.label1, tick.label2)} | {id(axis.get_offset_text()) for axis in marks}
+    """Return the ids of numeric tick labels, whose powers of ten are mathtext; categorical labels are excluded."""
+    numeric = [axis for axis in axes if not isinstance(axis.get_major_formatter(), (StrCategoryFormatter, FixedFormatter))]
+    ticks = [tick for axis in numeric for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())]
+    return {id(label) for tick in ticks for label in (tick.label1, tick.label2)} | {id(axis.get_offset_text()) for axis in numeric}

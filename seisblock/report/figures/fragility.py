@@ -1,4 +1,4 @@
-"""Fragilities in pictures: the counts at the levels, the curve through them, its interval, and a curve to compare with."""
+"""Figure of fragility curves: observed fractions, lognormal fit, confidence band, reference curve."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 
 LINE_STYLES = ((ACCENT, "-", "o"), (SECOND, (0, (5, 1.5)), "s"), ("0.15", (0, (1.5, 1.2)), "^"), ("0.5", "-.", "D"))
-"""Colour, line and mark of the limits, in their order; different in grey."""
+"""Colour, dashes and marker of the limit states in order, distinct in greyscale."""
 
 CURVE_POINTS = 241
 MIN_GROUP_SIZE = 8
-"""Motions as they are, of which nothing can be drawn but yes and no, are counted in groups of as many at least."""
+"""Smallest group of unscaled motions (cloud analysis) for an observed fraction."""
 
 
 def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None = None, columns: int | None = None) -> StyledFigure:
-    """Return the figure: a panel for each body, with the share of the runs at each level, the curve, and the band of its interval.
+    """Return the figure: per body the observed fractions at the levels, the curves and their confidence bands.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
     gal : bool
         Unit of the intensities: gal, kine and cm, else SI.
     compare : Lognormal or None
-        A curve to draw beside.
+        Reference curve.
     columns : int or None
-        Panels side by side; as many as suit their number when left out, one where the figure is as narrow as a column of text.
+        Panels per row; by default depends on their number, 1 in the narrow layout.
     """
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     columns = columns or (1 if len(bodies) < 3 else 2 if len(bodies) < 7 else 3)
@@ -56,9 +56,9 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
             _draw_curve(axis, study, index_of_curve, LINE_STYLES[position % len(LINE_STYLES)], size, gal=gal)
         if compare is not None:
             x = np.geomspace(*axis.get_xlim(), CURVE_POINTS)
-            axis.plot(x, compare.probability(x * size), color=INPUT, linewidth=1.0, linestyle=(0, (4, 2)), label=gettext("compared with"))
+            axis.plot(x, compare.probability(x * size), color=INPUT, linewidth=1.0, linestyle=(0, (4, 2)), label=gettext("reference curve"))
         set_panel_title(axis, gettext(bodies[index]))
-        label_axes(axis, x=name if index + columns >= len(bodies) else "", y=gettext("probability") if index % columns == 0 else "")
+        label_axes(axis, x=name if index + columns >= len(bodies) else "", y=gettext("probability (1)") if index % columns == 0 else "")
         axis.set_ylim(-0.02, 1.02)
         round_ticks(axis.xaxis)
         add_legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1)
@@ -68,7 +68,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
 
 
 def _draw_curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, Any, str], size: float, *, gal: bool) -> None:
-    """Draw one curve with its counts and its band."""
+    """Draw one curve with its observed fractions and confidence band."""
     curve, band = study.curves[index], study.bands[index]
     colour, dashes, mark = look
     axis.set_xscale("log")
@@ -82,16 +82,18 @@ def _draw_curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, 
     if band is not None:
         x, lower, upper = (np.array(column) for column in zip(*band, strict=True))
         text = (
-            gettext("{level} interval", level=format_percent(study.confidence, "g")) if axis.get_legend_handles_labels()[0] == [] else None
+            gettext("{level} confidence interval", level=format_percent(study.confidence, "g"))
+            if axis.get_legend_handles_labels()[0] == []
+            else None
         )
         axis.fill_between(x / size, lower, upper, color=colour, alpha=0.16, linewidth=0, label=text)
     x = np.geomspace(low, high, CURVE_POINTS)
-    text = gettext("{limit}: {median:.3g}, beta {beta:.2f}", limit=name, median=curve.curve.median / size, beta=curve.curve.beta)
+    text = gettext("{limit}: {median:.3g}, β {beta:.2f}", limit=name, median=curve.curve.median / size, beta=curve.curve.beta)
     axis.plot(x, curve.curve.probability(x * size), color=colour, linestyle=dashes, linewidth=1.4, label=text)
 
 
 def _exceedance_shares(curve: Fragility) -> tuple[list[float], list[float]]:
-    """Return the shares at the levels; of motions as they are, those of groups of similar intensity."""
+    """Return intensities and observed fractions at the levels, or of groups of similar intensity in a cloud analysis."""
     if curve.method != CLOUD:
         return [point.im for point in curve.levels], [point.exceeding / point.runs for point in curve.levels]
     groups = np.array_split(np.arange(len(curve.levels)), max(len(curve.levels) // MIN_GROUP_SIZE, 1))

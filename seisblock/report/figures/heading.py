@@ -1,4 +1,4 @@
-"""The one line above a figure: which record this is, when, which directions, and what was done to it."""
+"""Titles of figures: record, time, earthquake, directions, processing."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from seisblock.report.figures.fonts import can_render
 from seisblock.report.figures.style import SEPARATOR
 
 LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
-"""A number of more digits than a title has room for."""
+"""A number with more than three decimals, shortened in titles."""
 
 
 def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
-    """Return the line: station, local time, components or azimuths, and what was done to the samples, if anything was.
+    """Return the title of a record: station, local time, components or azimuths, processing.
 
     Parameters
     ----------
@@ -27,12 +27,12 @@ def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
 
 
 def motions_heading(motions: Sequence[Motion]) -> str:
-    """Return the line of some motions."""
+    """Return the title of motions."""
     return records_heading([motion.record for motion in motions], [motion.name for motion in motions])
 
 
 def records_heading(records: Sequence[Record | None], directions: Sequence[str] = ()) -> str:
-    """Return the line of what is drawn of some records; of several the names and the directions alone, for each has its own time."""
+    """Return the title of records; several records have only names and directions."""
     unique = _unique_records(records)
     directions_text = join_list(map(direction_name, dict.fromkeys(name for name in directions if name)))
     if len(unique) == 1:
@@ -50,30 +50,30 @@ def records_heading(records: Sequence[Record | None], directions: Sequence[str] 
 
 
 def panel_label(record: Record | None, name: str, records: Sequence[Record | None]) -> str:
-    """Return what one of several panels is called: its direction, and its record too where the panels are of several."""
+    """Return the label of a panel: direction, preceded by the record if there are several."""
     direction_text = direction_name(name)
     return f"{record_label(record)} {direction_text}" if record is not None and len(_unique_records(records)) > 1 else direction_text
 
 
 def panel_labels(motions: Sequence[Motion]) -> list[str]:
-    """Return what the panels of some motions are called."""
+    """Return the labels of the panels of motions."""
     return [panel_label(motion.record, motion.name, [other_motion.record for other_motion in motions]) for motion in motions]
 
 
 def record_label(record: Record) -> str:
-    """Return code and name of the station as far as they can be written, else the file's name."""
+    """Return code and name of the station if the font has the glyphs, else the file name."""
     site = get_site(record)
     return next((name for name in (site.label, site.code, record.source) if name and can_render(name)), gettext("record"))
 
 
 def _single_record_label(record: Record) -> str:
-    """Return what the only record of a figure is called: of a file its name without the folder."""
+    """Return the label of a single record; a file name without folder."""
     name = record_label(record)
     return source_name(record) if name == record.source else name
 
 
 def _earthquake_label(record: Record) -> str:
-    """Return magnitude and distance of the earthquake, as far as they are known."""
+    """Return magnitude and epicentral distance as far as known."""
     earthquake, distance = get_earthquake(record), epicentral_distance_km(record)
     magnitude = None if earthquake is None else earthquake.magnitude
     if magnitude is None:
@@ -84,13 +84,13 @@ def _earthquake_label(record: Record) -> str:
 
 
 def _unique_records(records: Sequence[Record | None]) -> list[Record]:
-    """Return the records among these, each once."""
+    """Return the distinct records."""
     present = (record for record in records if record is not None)
     return list({(record.station, record.source, record.start, record.history): record for record in present}.values())
 
 
 def direction_name(name: str) -> str:
-    """Return a component's code, or an azimuth as such."""
+    """Return the code of a component, or an azimuth with degree sign."""
     try:
         float(name)
     except ValueError:
@@ -99,9 +99,9 @@ def direction_name(name: str) -> str:
 
 
 def _short_history(history: Iterable[str]) -> Iterable[str]:
-    """Yield what was done without its particulars, which stand in brackets or behind a colon."""
-    for did in history:
-        text = gettext(did)
+    """Yield the processing steps without details in parentheses or after a colon."""
+    for step in history:
+        text = gettext(step)
         for opening in (" (", "（", ": ", "："):
             text = text.split(opening)[0]
         yield LONG_NUMBER.sub(lambda number: f"{float(number[0]):.4g}", text)

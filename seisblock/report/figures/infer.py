@@ -1,4 +1,4 @@
-"""Inferred shaking in pictures: the trade-off of PGA and frequency, likelihoods, displacement against the factor on a record."""
+"""Figures of inferred ground motion: PGA-frequency trade-off, likelihoods, displacement over scale factor."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
     from seisblock.studies.survey.scale_search import ScaleFactors
 
 LEVELS = (0.5, 0.9)
-"""Shares of the likelihood's mass at each frequency that the bands hold."""
+"""Probability content of the bands at each frequency."""
 
 PGA_RANGE = (0.5, 40.0)
 """Range of PGA drawn, m/s^2."""
 
 TICKS = (1.0, 2.0, 5.0, 10.0, 20.0)
-"""Values of PGA that are named, m/s^2."""
+"""Labelled values of PGA, m/s^2."""
 
 FEW_TICKS = (1.0, 3.0, 10.0, 30.0)
-"""Those along an axis, where numbers stand side by side."""
+"""Labelled values of PGA on a horizontal axis, m/s^2."""
 
 FREQUENCIES = tuple(np.geomspace(0.3, 4.0, 31).tolist())
 """Frequencies of the contour, Hz."""
@@ -43,18 +43,18 @@ FREQUENCIES = tuple(np.geomspace(0.3, 4.0, 31).tolist())
 def estimate_figure(
     name: str, survey: Survey, assumptions: Assumptions, estimates: Sequence[ShakingEstimate], *, gal: bool = True
 ) -> Figure:
-    """Return the figure: the trade-off of PGA and frequency with its bands, and the likelihood over PGA at some frequencies.
+    """Return the figure: bands of PGA over frequency, and the likelihood over PGA at given frequencies.
 
     Parameters
     ----------
     name : str
     survey, assumptions : Survey, Assumptions
     estimates : sequence of ShakingEstimate
-        Those with a frequency are drawn as points with their intervals.
+        Estimates with a frequency are drawn as points with intervals.
     gal : bool
         Unit of accelerations, else m/s^2.
     """
-    title = gettext("{name}: {fallen} of {all} stones fell", name=name, fallen=survey.fell, all=survey.stone_count)
+    title = gettext("{name}: {fallen} of {all} stones overturned", name=name, fallen=survey.fell, all=survey.stone_count)
     figure, (left, right) = new_figure(1, columns=2, width=9.6, height=4.2, title=title)
     unit, _ = acceleration_unit(gal=gal)
     _draw_contour(left, survey, assumptions, gal=gal)
@@ -70,7 +70,7 @@ def estimate_figure(
 
 
 def _draw_contour(axis: Axes, survey: Survey, assumptions: Assumptions, *, gal: bool) -> None:
-    """Draw the bands of PGA against frequency."""
+    """Draw the bands of PGA over frequency."""
     unit, name = acceleration_unit(gal=gal)
     limits = [pga / unit for pga in PGA_RANGE]
     for level, shade in zip(sorted(LEVELS, reverse=True), ("0.9", "0.72"), strict=True):
@@ -92,7 +92,7 @@ def _draw_contour(axis: Axes, survey: Survey, assumptions: Assumptions, *, gal: 
 
 
 def _draw_band(axis: Axes, low: FloatArray, high: FloatArray, limits: Sequence[float], shade: str, name: str) -> None:
-    """Draw a band, or the side of a bound on which the shaking lies."""
+    """Draw a band, or the feasible side of a bound."""
     if np.isnan(low).all():
         low, name = np.full(len(FREQUENCIES), limits[0]), gettext("{level}, upper bound", level=name)
     elif np.isnan(high).all():
@@ -101,7 +101,7 @@ def _draw_band(axis: Axes, low: FloatArray, high: FloatArray, limits: Sequence[f
 
 
 def _draw_likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, estimates: Sequence[ShakingEstimate], *, gal: bool) -> None:
-    """Draw the likelihood over PGA at the frequencies chosen, or at three."""
+    """Draw the likelihood over PGA at the frequencies of the estimates, else at 1, 2 and 3 Hz."""
     unit, name = acceleration_unit(gal=gal)
     frequencies = [item.frequency_hz for item in estimates if item.frequency_hz is not None] or [1.0, 2.0, 3.0]
     for index, f in enumerate(frequencies):
@@ -115,12 +115,12 @@ def _draw_likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, esti
     axis.set_xlim(*(item / unit for item in PGA_RANGE))
     axis.set_xticks([item / unit for item in FEW_TICKS], [f"{item / unit:g}" for item in FEW_TICKS])
     axis.minorticks_off()
-    label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("likelihood (over its largest)"))
+    label_axes(axis, x=gettext("PGA ({unit})", unit=name), y=gettext("normalised likelihood (1)"))
     add_legend(axis, ncols=6)
 
 
 def factor_figure(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool = True) -> Figure:
-    """Return the figure: displacement against the factor, the observed one and the factors that give it, a panel per component."""
+    """Return the figure: displacement over scale factor with the observed value and the solutions, a panel per component."""
     records = [record for record, _ in results]
     title = records_heading(records, [result.component for _, result in results])
     figure, axes = new_figure(len(results), height=1.4 + 1.9 * len(results), title=title)
@@ -129,13 +129,13 @@ def factor_figure(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool =
         scales, values = result.curve
         axis.plot(scales, np.array(values) / disp_unit.size, color=SECOND, linewidth=1.0)
         draw_thresholds(axis, [result.observed_m / disp_unit.size], gettext("observed"))
-        for marker, leaps, text in (("o", False, gettext("solution")), ("x", True, gettext("leaps across"))):
+        for marker, leaps, text in (("o", False, gettext("solution")), ("x", True, gettext("discontinuity"))):
             points = [f.scale for f in result.scale_factors if f.leaps == leaps]
             if points:
                 axis.plot(points, [result.observed_m / disp_unit.size] * len(points), marker, color=ACCENT, markersize=5, label=text)
-        axis.axvline(1.0, color=INPUT, linewidth=0.8, linestyle=(0, (1, 2)), label=gettext("as recorded"))
+        axis.axvline(1.0, color=INPUT, linewidth=0.8, linestyle=(0, (1, 2)), label=gettext("unscaled record"))
         set_panel_title(axis, panel_label(record, result.component, records))
-        label_axes(axis, y=gettext("displacement ({unit})", unit=disp_unit.name))
+        label_axes(axis, y=gettext("x ({unit})", unit=disp_unit.name))
         add_legend(axis)
-    label_axes(axes[-1], x=gettext("factor on the record"))
+    label_axes(axes[-1], x=gettext("scale factor (1)"))
     return figure

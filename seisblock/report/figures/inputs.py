@@ -1,4 +1,4 @@
-"""What goes in and what comes of it without a body: records and motions against time, spectra."""
+"""Figures of records, motions and spectra without a body."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 
 def record_figure(record: Record) -> Figure:
-    """Return the accelerations of a record on one scale, a panel per component, gal."""
+    """Return the figure of a record: acceleration, gal, a panel per component on a common scale."""
     parts = {part.code: part.acceleration for part in record.components}
     return _histories(heading(record), record.time, parts)
 
 
 def motion_figure(motion: Motion) -> Figure:
-    """Return the rows of a motion that move, gal."""
+    """Return the figure of the nonzero rows of a motion, gal."""
     names = (motion.name or "+x", direction_label(*transverse_component(motion)), "UD")
     rows = {name: row for name, row in zip(names, motion.acceleration, strict=True) if row.any()}
     time: FloatArray = motion.start_s + motion.dt * np.arange(motion.acceleration.shape[1], dtype=np.float64)
@@ -34,7 +34,7 @@ def motion_figure(motion: Motion) -> Figure:
 
 
 def response_spectrum_figure(spectrum: ResponseSpectrum) -> Figure:
-    """Return the absolute acceleration response against the period, gal."""
+    """Return the figure of the absolute acceleration response spectrum, gal."""
     unit, name = acceleration_unit(gal=True)
     fig, (axis,) = style.new_figure(1, height=3.6)
     axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=style.ACCENT, linewidth=1.0)
@@ -46,12 +46,11 @@ def response_spectrum_figure(spectrum: ResponseSpectrum) -> Figure:
 
 
 def rocking_spectrum_figure(spectrum: RockingSpectrum) -> Figure:
-    """Return the map of size against slenderness; the motion behind it is no longer known."""
+    """Return the map of size over slenderness; the spectrum does not hold its motion, hence no title."""
     return spectrum_figure([(Motion.from_arrays(np.zeros(2), 1.0, name=""), spectrum)], "rocking", STANDARD_GRAVITY)
 
 
 def _histories(title: str, time: FloatArray, rows: dict[str, FloatArray]) -> Figure:
-    """Return one panel per row."""
     unit, name = acceleration_unit(gal=True)
     limit = 1.15 * max(float(np.abs(row).max()) for row in rows.values()) / unit or 1.0
     fig, axes = style.new_figure(len(rows), title=title)

@@ -1,4 +1,4 @@
-"""What a jump looks like between the samples of its response: a body in the air follows its parabola, a leaning one its arc, no chord."""
+"""Interpolation of a jump between samples: parabola in flight, circular arc in rocking."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from seisblock.models.jump.chain import FLIGHT, ROCKING
 from seisblock.models.jump.solve import JumpOutcome
 
 POINTS_PER_PHASE = {FLIGHT: 64, ROCKING: 24}
-"""Of a phase at the least: with so many no chord is seen, of a flight not where it is enlarged either."""
+"""Smallest number of points per phase for a smooth curve, in the close-up as well."""
 
 
 def interpolate_phases(
     response: Response[JumpOutcome], phases: Collection[str] = (ROCKING, FLIGHT)
 ) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Return the time, s, and the rotation, displacement and height of a jump, (n,): its own points and, in phases of some names, more.
+    """Return time, s, and rotation, displacement and height, (n,), of a jump with points inserted in given phases.
 
-    What has landed slips, sticks and slips again between two samples: there its own points stand alone.
+    After landing no points are inserted, since stick-slip between two samples is unknown.
 
     Notes
     -----
-    In the air nothing but gravity and the ground's motion acts: y'' = -g, x'' = -z'', which is straight between samples, and the
-    rotation is even ([Sugimoto2017]_ section 3.8). Between two points a known acceleration leaves one curve. A rocking block's
-    follows from its tilt ([Sugimoto2017]_ eq. (3a)), and its centroid goes round the corner on which it stands.
+    In flight y'' = -g and x'' = -z'', linear between samples, and the rotation is uniform ([Sugimoto2017]_ section 3.8). Two points and
+    the acceleration between them define the curve. In rocking the acceleration follows from the tilt ([Sugimoto2017]_ eq. (3a)), and
+    the centroid moves on an arc about the corner in contact.
     """
     time = response.time
     curves = {name: response[name] for name in ("rotation", "displacement", "height")}
@@ -52,14 +52,14 @@ def interpolate_phases(
 
 
 def _phase_gaps(time: FloatArray, phase: Phase) -> tuple[IntArray, FloatArray]:
-    """Return before which gaps of a phase points stand, (m,), and at which shares of each gap more are wanted, (k,): none in a long one."""
+    """Return the steps of a phase, (m,), and the fractions of a step at which points are inserted, (k,), none in a long phase."""
     inside = np.flatnonzero((time[:-1] >= phase.start_s) & (time[1:] <= phase.end_s) & (np.diff(time) > 0.0))
     count = -(-POINTS_PER_PHASE[phase.name] // max(inside.size, 1))
     return inside, np.arange(1, count) / count
 
 
 def _flight_points(response: Response[JumpOutcome], gaps: IntArray, share: FloatArray) -> dict[str, FloatArray]:
-    """Return a flight's curves between its points, (m, k) each."""
+    """Return the inserted points of a flight, (m, k) per channel."""
     gravity = float(response.options["gravity_m_s2"])
     fall, ground = np.full(response.time.size, -gravity), -response["ground_acceleration"]
     even = np.zeros(response.time.size)
@@ -68,9 +68,9 @@ def _flight_points(response: Response[JumpOutcome], gaps: IntArray, share: Float
 
 
 def _rocking_points(response: Response[JumpOutcome], gaps: IntArray, share: FloatArray) -> dict[str, FloatArray]:
-    """Return a rocking's curves between its points, (m, k) each."""
+    """Return the inserted points of rocking, (m, k) per channel."""
     block, gravity, rotation = response.body, float(response.options["gravity_m_s2"]), response["rotation"]
-    # z'' > 0 tips it to -x, see the solver: the tilt is positive in the frame in which the chain goes forward
+    # z'' > 0 tilts the block to -x: the tilt is positive in the forward frame of the solver
     sign = -1.0 if rotation[gaps].sum() > 0.0 else 1.0
     tilt, push = -sign * rotation, sign * response["ground_acceleration"]
     lean = block.slenderness - tilt
@@ -85,8 +85,9 @@ def _rocking_points(response: Response[JumpOutcome], gaps: IntArray, share: Floa
 
 
 def _interpolate(time: FloatArray, values: FloatArray, pull: FloatArray, gaps: IntArray, share: FloatArray) -> FloatArray:
-    """Return a curve at shares of some gaps between its points, (m, k), whose second derivative is straight in each."""
+    """Return a curve at fractions of steps, (m, k), with a second derivative linear in each step."""
+    # integral of x'' = start + change s over the step, minus the chord
     step, start, rise = (array[gaps, None] for array in (np.diff(time), pull, np.diff(values)))
     change = np.diff(pull)[gaps, None]
-    bow: FloatArray = -(step**2) * share * (1.0 - share) * (start / 2.0 + change * (1.0 + share) / 6.0)
-    return values[gaps, None] + share * rise + bow
+    deviation: FloatArray = -(step**2) * share * (1.0 - share) * (start / 2.0 + change * (1.0 + share) / 6.0)
+    return values[gaps, None] + share * rise + deviation

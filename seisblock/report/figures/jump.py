@@ -1,4 +1,4 @@
-"""A jump in pictures: acceleration with the threshold, tilt, rise, displacement."""
+"""Figure of a jump: acceleration with rocking threshold, tilt, rise, displacement."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 
 def figure(responses: JumpResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per component the record with its thresholds (fig. 12); where it rocks tilt, rise, displacement (fig. 14)."""
+    """Return the figure: per component record with thresholds (fig. 12), and tilt, rise, displacement with motion (fig. 14)."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
     return fig
 
 
 def _build_figure(responses: JumpResponses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, its columns beside or below each other."""
+    """Return the figure, columns side by side, or stacked if `narrow`."""
     motions = [response.motion for response in responses]
     rows = [4 if response.outcome.chains else 1 for response in responses]
     wide, high = (8.0, 1.0 + 1.8 * sum(rows)) if narrow else (4.0 + 4.0 * len(responses), 1.0 + 1.8 * max(rows))
@@ -45,7 +45,7 @@ def _build_figure(responses: JumpResponses, *, gal: bool, narrow: bool = False) 
 
 
 def motion_interval(response: Response[JumpOutcome]) -> Interval:
-    """Return the stretch of time that holds all chains of motion, with a margin, or the strong part of the record when there is none."""
+    """Return the interval of all rocking-jump sequences with a margin, or the strong motion without any."""
     if not response.outcome.chains:
         return strong_motion_interval(response.motion)
     first = response.outcome.chains[0].rocking_start_s
@@ -55,17 +55,17 @@ def motion_interval(response: Response[JumpOutcome]) -> Interval:
 
 
 def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[JumpOutcome], disp_unit: Unit, *, gal: bool) -> None:
-    """Draw one component's four panels: the first alone where nothing rocks."""
+    """Draw the four panels of one component, only the first without rocking."""
     motion, outcome = response.motion, response.outcome
     unit, name = acceleration_unit(gal=gal)
     draw_curve(panels[0], motion.time, motion.horizontal / unit, color=style.INPUT)
     level = outcome.rocking_threshold_m_s2 / unit
     peak = float(np.abs(motion.horizontal).max()) / unit
-    (threshold_visible,) = style.fit_ylim(panels[0], peak, [(-level, level, gettext("rocks beyond"))], name)
+    (threshold_visible,) = style.fit_ylim(panels[0], peak, [(-level, level, gettext("rocking threshold"))], name)
     if threshold_visible:
-        style.draw_thresholds(panels[0], [level, -level], gettext("rocks beyond"))
+        style.draw_thresholds(panels[0], [level, -level], gettext("rocking threshold"))
     time, curves = interpolate_phases(response)
-    # in the air the rotation is even: points on a straight line would only be thinned out again
+    # uniform rotation in flight needs no extra points
     leaning, tilt = interpolate_phases(response, [ROCKING])
     rise = curves["height"] - response.body.centroid_height
     rows = (leaning, np.degrees(tilt["rotation"])), (time, rise / disp_unit.size), (time, curves["displacement"] / disp_unit.size)

@@ -1,4 +1,4 @@
-"""Names beside places on a map: on the side where there is room, the first of them in any case."""
+"""Greedy placement of labels beside points on a map."""
 
 from __future__ import annotations
 
@@ -7,23 +7,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 Box = tuple[float, float, float, float]
-"""West, south, east and north end, shares of the map."""
+"""West, south, east and north limit, fractions of the map."""
 
 SIDES = ((1, 1), (-1, 1), (1, -1), (-1, -1))
-"""Where a name may stand: east or west of its place, above or below it; the first that is free."""
+"""Candidate sides of a label (east, north), in order of preference."""
 
 LETTER, LINE, LABEL_OFFSET = 0.034, 0.07, 0.03
-"""Width of a letter (of two for one of a Japanese name), height of a line and distance from the place, shares of a small map, 35 mm
-wide: on a larger one there is more room."""
-
+"""Width of a Latin character (half a Japanese one), line height, and offset from the point, fractions of a 35 mm map."""
 
 DOT = 0.012
-"""How far a point reaches, a share of the map."""
+"""Half width of a point, fraction of the map."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """A place with its name, shares of the map."""
+    """A named point, fractions of the map."""
 
     name: str
     east: float
@@ -31,16 +29,16 @@ class Place:
 
 
 def place_labels(places: Sequence[Place], occupied: Sequence[Box], dots: Sequence[Place] = ()) -> Iterator[tuple[Place, tuple[int, int]]]:
-    """Yield the places whose names have room, and on which side; the first place also without room, where least is hidden.
+    """Yield the points whose labels fit, with the side; the first point always, on the side with least overlap.
 
     Parameters
     ----------
     places : sequence of Place
-        Those that matter most first.
+        In order of priority.
     occupied : sequence of Box
-        Where no name may stand.
+        Areas without labels.
     dots : sequence of Place
-        What a name rather leaves in sight.
+        Points that labels should not cover if avoidable.
 
     Examples
     --------
@@ -53,6 +51,7 @@ def place_labels(places: Sequence[Place], occupied: Sequence[Box], dots: Sequenc
         boxes = {side: label_box(place, side) for side in SIDES}
         hidden = {side: sum(overlap_area(box, obstacle) for obstacle in boxes_taken) + _area_off_map(box) for side, box in boxes.items()}
         covered = {side: sum(overlap_area(box, dot) for dot in dot_boxes) for side, box in boxes.items()}
+        # labels and forbidden areas take precedence over points; ties keep the order of SIDES
         best = min(SIDES, key=lambda side: (hidden[side], covered[side]))
         if hidden[best] > 0.0 and place is not places[0]:
             continue
@@ -61,7 +60,7 @@ def place_labels(places: Sequence[Place], occupied: Sequence[Box], dots: Sequenc
 
 
 def label_box(place: Place, side: tuple[int, int]) -> Box:
-    """Return where a name stands on one side of its place."""
+    """Return the box of a label on one side of its point."""
     wide = LETTER * sum(2 if unicodedata.east_asian_width(letter) in "WF" else 1 for letter in place.name)
     west = place.east + LABEL_OFFSET if side[0] > 0 else place.east - LABEL_OFFSET - wide
     south = place.north if side[1] > 0 else place.north - LINE
@@ -69,11 +68,11 @@ def label_box(place: Place, side: tuple[int, int]) -> Box:
 
 
 def overlap_area(a: Box, b: Box) -> float:
-    """Return the area that two boxes share, 0 where they touch or are apart."""
+    """Return the overlap area of two boxes."""
     across, along = min(a[2], b[2]) - max(a[0], b[0]), min(a[3], b[3]) - max(a[1], b[1])
     return max(across, 0.0) * max(along, 0.0)
 
 
 def _area_off_map(box: Box) -> float:
-    """Return the area of a box that is off the map."""
+    """Return the area of a box outside the map."""
     return (box[2] - box[0]) * (box[3] - box[1]) - overlap_area(box, (0.0, 0.0, 1.0, 1.0))

@@ -1,4 +1,4 @@
-"""How logarithmic axes are numbered."""
+"""Tick labels of logarithmic axes."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 MAX_TICKS = 7
-"""Names along an axis."""
+"""Tick labels per axis, at most."""
 
 
 def round_ticks(axis: Axis) -> None:
-    """Name round numbers along a logarithmic axis, as far as it reaches: as many digits of each decade as there is room for."""
+    """Label round numbers on a logarithmic axis: digits 1 to 9, else 1, 2, 5, else powers of ten, as many as fit."""
     low, high = sorted(axis.get_view_interval())
     decades = [10.0**d for d in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)]
     kinds = [[digit * d for d in decades for digit in digits if low <= digit * d <= high] for digits in (range(1, 10), (1, 2, 5), (1,))]
     ticks = next((kind for kind in kinds if len(kind) <= MAX_TICKS), kinds[-1])
-    if len(ticks) < 2:  # within a digit
+    if len(ticks) < 2:  # range within one digit
         ticks = [tick for tick in MaxNLocator(5).tick_values(low, high) if low <= tick <= high]
     axis.set_ticks(ticks, labels=[f"{tick:g}" for tick in ticks])
     axis.set_minor_locator(NullLocator())

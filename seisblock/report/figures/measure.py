@@ -1,4 +1,4 @@
-"""The record as engineers know it: acceleration, velocity, Fourier and response spectra of its components."""
+"""Figure of a record: acceleration, velocity, Fourier and response spectra of its components."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from seisblock.report.figures.time_histories import history_columns, strong_inte
 from seisblock.report.units_display import acceleration_unit, velocity_unit
 
 LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
-"""Colour and dashes of the components' spectra: told apart in grey too."""
+"""Colour and dashes of the components in the spectra, distinct in greyscale."""
 
 COMPACT_LEGEND = {"handlelength": 1.5, "columnspacing": 1.1}
-"""A key of half a figure's width leaves room for the title beside it at any resolution."""
+"""Options of a legend that fits beside the title of a half-width panel."""
 
 
 def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) -> Figure:
-    """Draw acceleration and velocity of each component, time above the threshold in colour, and their spectra.
+    """Return the figure of a record: acceleration (above the threshold in colour), velocity, and spectra.
 
     Parameters
     ----------
     record, answer : Record, RecordMeasures
-        The record and what :func:`seisblock.measures.measure` found in it.
+        The record and its result of :func:`seisblock.measures.measure`.
     gal : bool
         Accelerations in gal and velocities in kine, else SI.
     """
@@ -57,7 +57,7 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
 
 
 def _title(record: Record, answer: RecordMeasures) -> str:
-    """Return what record it is, and its intensity, in one line."""
+    """Return the title: record and JMA intensity."""
     intensity = (
         ""
         if answer.jma_intensity is None
@@ -67,7 +67,7 @@ def _title(record: Record, answer: RecordMeasures) -> str:
 
 
 def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
-    """Draw the accelerations on one scale, what exceeds the threshold filled."""
+    """Draw the accelerations on a common scale, exceedances of the threshold filled."""
     unit, name = acceleration_unit(gal=gal)
     limit = 1.15 * max(m.pga_m_s2 for m in answer.components) / unit or 1.0
     for axis, part, m in zip(axes, parts, answer.components, strict=True):
@@ -77,7 +77,7 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
         if level < limit:
             draw_thresholds(axis, [sign * level for sign in signs])
         draw_curve(axis, record.time, values, color=INPUT, linewidth=0.6)
-        # thinned by extrema, the filled part keeps every peak above the threshold
+        # decimation by extrema keeps every peak of the filled area
         time, thinned = decimate(*in_view(record.time, values, *axis.get_xlim()))
         for sign in signs:
             at, clipped = insert_crossings(time, thinned, sign * level)
@@ -86,7 +86,7 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
         axis.plot([m.time_of_pga_s], [peak], "o", ms=4, mfc="white", mec="black", zorder=4)
         axis.set_ylim(-limit, limit)
         text = gettext(
-            "{name}   PGA {pga};  {time:.3g} s beyond {level}",
+            "{name}   PGA {pga};  {time:.3g} s above {level}",
             name=part.code,
             pga=f"{m.pga_m_s2 / unit:.4g} {name}",
             time=m.duration.total_s,
@@ -97,7 +97,7 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
 
 
 def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
-    """Draw the velocities of the baseline of the PGV, on one scale."""
+    """Draw the velocities, with the baseline correction of PGV, on a common scale."""
     unit, name = velocity_unit(gal=gal)
     limit = 1.15 * max(m.pgv_m_s for m in answer.components) / unit or 1.0
     for axis, part, m in zip(axes, parts, answer.components, strict=True):
@@ -139,7 +139,7 @@ def _styles(count: int) -> list[tuple[str, object]]:
 
 
 def _logarithmic(axis: Axes) -> None:
-    """Use logarithmic axes where there is something positive to show; three decades of amplitude at most."""
+    """Set logarithmic axes if any value is positive, with at most three decades of amplitude."""
     highest = max((float(np.max(line.get_ydata(), initial=0.0)) for line in axis.get_lines()), default=0.0)
     axis.set_xscale("log")
     if highest > 0:
@@ -155,5 +155,5 @@ def _min_positive(axis: Axes) -> float:
 
 
 def _annotate_panel(axis: Axes, text: str) -> None:
-    """Write over a panel, out of the way of its curve."""
+    """Write a label above a panel."""
     axis.set_title(text, fontsize=7.5, loc="left", pad=2.0)

@@ -1,4 +1,4 @@
-"""The least size that will do, found in few tries and told in the unit of the user."""
+"""Search for the minimum size of a figure, in the unit of the user."""
 
 from __future__ import annotations
 
@@ -9,33 +9,33 @@ from seisblock.core.units import LENGTH_UNITS
 from seisblock.report.figures.style import INCH
 
 MAX_SCALE = 3.0
-"""A size that would do is looked for up to so many times that of the figure by itself, then not."""
+"""Upper limit of the search over the default size."""
 
 RELATIVE_TOLERANCE = 0.04
-"""How near the least size is told, of the size."""
+"""Relative tolerance of the minimum size."""
 
 
 def min_size(fits: Callable[[float], bool], too_small: float, default_size: float, unit: str) -> float | None:
-    """Return the least size above one that is too small, inch, by halving: one that can be told; None where the largest does not do.
+    """Return the minimum size that fits, inch, by bisection on displayable sizes; None if the largest does not fit.
 
-    A try lays the whole figure out, up to a second: the usual size, which mostly does, comes before the largest.
+    A trial lays out the figure (up to 1 s), hence the default size, which mostly fits, is tried before the largest.
 
     Parameters
     ----------
     fits : callable
-        Tries a size, inch.
+        Returns True if a size, inch, fits.
     too_small : float, inch
-        What has been tried.
+        A size that does not fit.
     default_size : float, inch
-        That of the figure by itself.
+        Default size of the figure.
     unit : str
-        In which it is told.
+        Display unit.
 
     Examples
     --------
-    >>> tried = []
-    >>> least = min_size(lambda size: tried.append(size) or size > 5.0, 2.0, 8.0, "mm")
-    >>> format_inches(least, "mm"), len(tried)
+    >>> trials = []
+    >>> size = min_size(lambda size: trials.append(size) or size > 5.0, 2.0, 8.0, "mm")
+    >>> format_inches(size, "mm"), len(trials)
     ('128 mm', 7)
     """
     for size in (round_up(default_size, unit), round_up(MAX_SCALE * max(default_size, too_small), unit)):
@@ -46,8 +46,10 @@ def min_size(fits: Callable[[float], bool], too_small: float, default_size: floa
         too_small = size
     else:
         return None
+    # bisection in the logarithm: the tolerance is relative
     while size / too_small > 1.0 + RELATIVE_TOLERANCE:
         middle = round_up(math.sqrt(too_small * size), unit)
+        # rounding up may return the upper end
         if middle >= size:
             break
         if fits(middle):
@@ -58,7 +60,7 @@ def min_size(fits: Callable[[float], bool], too_small: float, default_size: floa
 
 
 def unit_step(unit: str) -> float:
-    """Return the digit to which a size is told in a unit, inch.
+    """Return the resolution of displayed sizes in a unit, inch.
 
     Parameters
     ----------
@@ -73,7 +75,7 @@ def unit_step(unit: str) -> float:
 
 
 def round_up(inches: float, unit: str) -> float:
-    """Return the next larger length that can be told in a unit, inch.
+    """Round a length up to the displayed resolution, inch.
 
     Parameters
     ----------
@@ -89,7 +91,7 @@ def round_up(inches: float, unit: str) -> float:
 
 
 def format_inches(inches: float, unit: str) -> str:
-    """Return a length in the unit of the user.
+    """Return a length, inch, as text in a unit.
 
     Parameters
     ----------

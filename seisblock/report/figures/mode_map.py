@@ -1,4 +1,4 @@
-"""Maps of what happens: a colour for each mode over friction and slenderness, or size, with the limits of initiation drawn in."""
+"""Figure of mode maps: governing mode over friction and slenderness or size, with initiation limits."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ COLOURS = {
     OVERTURNED: "#6b1f23",
     NO_ANSWER: "#ffffff",
 }
-"""Lighter to darker from rest to overturning, so that they differ in grey and to every eye."""
+"""Colours from light (rest) to dark (overturning), distinct in greyscale and for colour-blind readers."""
 
 NAMES = {
-    REST: N_("stands still"), SLIDE: N_("slides"), ROCK: N_("rocks"), SLIDE_ROCK: N_("slides while it rocks"),
-    FLIGHT: N_("leaves the ground"), OVERTURNED: N_("falls"), NO_ANSWER: N_("no answer"),
+    REST: N_("rest"), SLIDE: N_("sliding"), ROCK: N_("rocking"), SLIDE_ROCK: N_("slide-rocking"),
+    FLIGHT: N_("flight"), OVERTURNED: N_("overturning"), NO_ANSWER: N_("no result"),
 }  # fmt: skip
-"""As a region of the map is called."""
+"""Labels of the modes."""
 
 LABEL_LIMIT = 0.88
-"""Share of an axis up to which a limit leaves room for its name beyond it."""
+"""Fraction of an axis up to which a limit line is labelled."""
 
 MIN_LABEL_ROOM = 0.07
-"""Share of the map's width and height that a region must have around a point to bear its name there."""
+"""Smallest distance of a label from the border of its region, fraction of width and height of the map."""
 
 HALO = [withStroke(linewidth=2.5, foreground="white")]
 LIMIT: dict[str, Any] = {"color": "black", "linewidth": 1.3}
@@ -50,7 +50,7 @@ JUMP: dict[str, Any] = {"color": "black", "linewidth": 1.1, "linestyle": (0, (4,
 
 
 def figure(maps: Maps) -> Figure:
-    """Return the figure: per component a map, coloured by the mode that governs, with the closed-form limits of initiation."""
+    """Return the figure: per component a map of the governing mode, with closed-form initiation limits."""
     motions = [motion for motion, _ in maps]
     fig, axes = style.new_figure(1, columns=len(maps), width=1.2 + 4.6 * len(maps), height=5.2, sharey=True, title=motions_heading(motions))
     modes = sorted({int(index) for _, mode_map in maps for index in np.unique(mode_map.governing)})
@@ -73,14 +73,14 @@ def figure(maps: Maps) -> Figure:
         )
         push = gettext("A = {ratio:.2f} at {time:.1f} s", ratio=mode_map.loading, time=mode_map.loading_time_s)
         axis.set_title(f"{name}, {shape}; {push}", fontsize=9, loc="left", parse_math=False)
-        style.label_axes(axis, gettext("friction μ"), ("2R (m)" if sizes else "b/h") if axis is axes[0] else "")
+        style.label_axes(axis, gettext("friction coefficient μ (1)"), ("2R (m)" if sizes else "b/h") if axis is axes[0] else "")
     handles: list[Any] = [
         Patch(facecolor=COLOURS[MODES_BY_SEVERITY[i]], edgecolor="0.6", linewidth=0.5, label=gettext(NAMES[MODES_BY_SEVERITY[i]]))
         for i in modes
     ]
     for line_kwargs, text in (
-        (LIMIT, gettext("where motion begins; A: largest push over weight")),
-        (JUMP, gettext("a corner holds to the right of this if A comes as a jump")),
+        (LIMIT, gettext("initiation of motion; A: peak horizontal force / weight")),
+        (JUMP, gettext("no slip at the corner to the right, for A as a step")),
     ):
         handles += axes[0].plot([], [], label=text, **line_kwargs)
     style.add_figure_legend(fig, handles, loc="outside lower center", ncols=min(2 * len(maps), 4))
@@ -88,7 +88,7 @@ def figure(maps: Maps) -> Figure:
 
 
 def _draw_shape_limits(axis: Axes, mode_map: ModeMap) -> None:
-    """Draw the limits over friction and b/h: four regions that meet where both are A."""
+    """Draw the initiation limits over friction and b/h: four regions that meet at (A, A)."""
     push = min(mode_map.loading, 2.0 * max(axis.get_xlim()[1], axis.get_ylim()[1]))
     axis.plot([0.0, push], [0.0, push], **LIMIT)
     axis.plot([push, push], [push, 1e3], **LIMIT)
@@ -108,26 +108,26 @@ def _draw_shape_limits(axis: Axes, mode_map: ModeMap) -> None:
 
 
 def _draw_size_limits(axis: Axes, mode_map: ModeMap) -> None:
-    """Draw the limits over friction and size: the same for all sizes of a shape."""
+    """Draw the initiation limits over friction and size, which do not depend on size."""
     ratio = float(mode_map.b_over_h[0])
-    begins = min(ratio, mode_map.loading)
-    axis.axvline(begins, **LIMIT)
+    initiation = min(ratio, mode_map.loading)
+    axis.axvline(initiation, **LIMIT)
     right, top = axis.get_xlim()[1], axis.get_ylim()[1]
-    if begins < right:
-        _annotate_limit(axis, begins, 0.9 * top, "μ = b/h" if ratio < mode_map.loading else "μ = A", ha="right", va="top", rotation=90)
+    if initiation < right:
+        _annotate_limit(axis, initiation, 0.9 * top, "μ = b/h" if ratio < mode_map.loading else "μ = A", ha="right", va="top", rotation=90)
     friction = float(mode_map.friction_to_rock[0])
     if not math.isnan(friction):
         axis.axvline(friction, **JUMP)
 
 
 def _annotate_limit(axis: Axes, x: float, y: float, text: str, **style: Any) -> None:
-    """Write along a limit, readable on every colour."""
+    """Label a limit line, with a halo."""
     away = (-3, 0) if "rotation" in style else (0, 3)
     axis.annotate(text, (x, y), away, textcoords="offset points", fontsize=8, path_effects=HALO, annotation_clip=True, **style)
 
 
 def _label_regions(axis: Axes, mode_map: ModeMap, x: FloatArray, y: FloatArray) -> None:
-    """Write the name of each mode into the middle of its widest region, where there is room."""
+    """Label each mode in the middle of its widest region if the label fits."""
     from scipy.ndimage import distance_transform_edt
 
     rows, columns = mode_map.governing.shape

@@ -1,4 +1,4 @@
-"""What a free-standing object does, in pictures: ground motion with its thresholds, displacement, lean and lift, modes shaded."""
+"""Figure of the full response: ground motion with thresholds, displacement, tilt and uplift, modes shaded."""
 
 from __future__ import annotations
 
@@ -22,32 +22,32 @@ from seisblock.report.units_display import Unit, acceleration_unit, length_unit
 
 COLOURS = {SLIDE: "#eef2f9", ROCK: "#ecc3a6", SLIDE_ROCK: "#8f77b0", FLIGHT: "#84ae91"}
 MIN_VISIBLE_SHARE = 1 / 2000
-"""Phases shorter than this share of what is shown are not drawn: dying hops come by the thousand."""
+"""Shortest drawn phase over the interval shown; decaying impacts produce thousands of shorter ones."""
 
 MIN_LIFT = 1e-4
-"""Lift that is drawn, m: hops below a tenth of a millimetre are not to be seen."""
+"""Smallest drawn uplift, m."""
 
 Responses = Sequence[Response[RespondOutcome]]
 
 
-GROUND, DISPLACEMENT, LEAN, LIFT = range(4)
-"""What a panel shows, from above downwards."""
+GROUND, DISPLACEMENT, TILT, LIFT = range(4)
+"""Kinds of panels from top to bottom."""
 
 
 def figure(responses: Responses, *, gal: bool = True) -> Figure:
-    """Return the figure: per component a column with ground acceleration and, where it moves, leans, flies, what of this it did."""
+    """Return the figure: per component a column of ground acceleration and, if any, displacement, tilt and uplift."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
     return fig
 
 
 def _build_figure(responses: Responses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, its columns beside or below each other."""
+    """Return the figure, columns side by side, or stacked if `narrow`."""
     panel_groups = [panel_kinds(response) for response in responses]
     rows = [len(kinds) for kinds in panel_groups]
     motions, stretches = [response.motion for response in responses], [motion_interval(response) for response in responses]
-    wide, high = (7.4, 1.2 + 1.75 * sum(rows)) if narrow else (2.0 + 5.4 * len(responses), 1.2 + 1.75 * max(rows))
-    fig = style.titled_figure(motions_heading(motions), width=wide, height=high)
+    width, height = (7.4, 1.2 + 1.75 * sum(rows)) if narrow else (2.0 + 5.4 * len(responses), 1.2 + 1.75 * max(rows))
+    fig = style.titled_figure(motions_heading(motions), width=width, height=height)
     disp_unit = length_unit((item.outcome.max_displacement_m for item in responses), gal=gal)
     columns, names = history_columns(fig, motions, stretches, rows, narrow=narrow), panel_labels(motions)
     for panels, name, response, kinds, (first, last) in zip(columns, names, responses, panel_groups, stretches, strict=True):
@@ -59,30 +59,29 @@ def _build_figure(responses: Responses, *, gal: bool, narrow: bool = False) -> s
 
 
 def panel_kinds(response: Response[RespondOutcome]) -> list[int]:
-    """Return the panels of a response: what did not happen has none."""
+    """Return the kinds of panels of a response, without those of absent motion."""
     outcome = response.outcome
-    moves = outcome.max_displacement_m > 0.0 or outcome.slip_path_m > 0.0
-    flies = float(response["lift"].max()) >= MIN_LIFT
-    flags = ((GROUND, True), (DISPLACEMENT, moves), (LEAN, outcome.max_rotation_rad > 0.0), (LIFT, flies))
-    return [kind for kind, does in flags if does]
+    has_displacement = outcome.max_displacement_m > 0.0 or outcome.slip_path_m > 0.0
+    has_uplift = float(response["lift"].max()) >= MIN_LIFT
+    flags = ((GROUND, True), (DISPLACEMENT, has_displacement), (TILT, outcome.max_rotation_rad > 0.0), (LIFT, has_uplift))
+    return [kind for kind, is_present in flags if is_present]
 
 
 def _draw_panel(kind: int, panel: Axes, panel_name: str, response: Response[RespondOutcome], disp_unit: Unit, *, gal: bool) -> None:
-    """Draw one panel."""
     if kind == GROUND:
         _draw_ground(panel, panel_name, response, gal=gal)
     elif kind == DISPLACEMENT:
         _draw_curve(panel, response, response["displacement"] / disp_unit.size, gettext("x ({unit})", unit=disp_unit.name), style.SECOND)
-    elif kind == LEAN:
-        _draw_lean(panel, response)
+    elif kind == TILT:
+        _draw_tilt(panel, response)
     else:
         _draw_curve(
-            panel, response, np.maximum(response["lift"], 0.0) / disp_unit.size, gettext("lift ({unit})", unit=disp_unit.name), "#2e7d4f"
+            panel, response, np.maximum(response["lift"], 0.0) / disp_unit.size, gettext("uplift ({unit})", unit=disp_unit.name), "#2e7d4f"
         )
 
 
 def motion_interval(response: Response[RespondOutcome]) -> Interval:
-    """Return the stretch of time worth drawing: from before it first moves until it rests, the record's strong part where it never does."""
+    """Return the interval of motion with a margin, or the strong motion of the record without motion."""
     moving = [phase for phase in response.phases if phase.name in COLOURS]
     if not moving:
         return strong_motion_interval(response.motion)
@@ -92,12 +91,12 @@ def motion_interval(response: Response[RespondOutcome]) -> Interval:
 
 
 def visible_phases(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
-    """Return the phases that are long enough to be seen."""
+    """Return the phases long enough to be visible."""
     return [phase for phase in phases if phase.duration_s >= MIN_VISIBLE_SHARE * (last - first)]
 
 
 def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome], *, gal: bool) -> None:
-    """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
+    """Draw the ground acceleration with the rocking and sliding thresholds at rest."""
     unit, name = acceleration_unit(gal=gal)
     block, options = response.body, response.options
     right, left = block.arms
@@ -105,9 +104,9 @@ def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome]
     draw_curve(axis, response.time, response["ground_acceleration"] / unit, color=style.INPUT)
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
     friction, dashes = effective_friction(options), ((0, (6, 2)), (0, (1.5, 1.5)))
-    levels = [(-right / block.centre * gravity, left / block.centre * gravity, gettext("rocks: b/h"))]
+    levels = [(-right / block.centre * gravity, left / block.centre * gravity, gettext("rocking threshold"))]
     if math.isfinite(friction):
-        levels.append((-friction * gravity, friction * gravity, gettext("slides: μ")))
+        levels.append((-friction * gravity, friction * gravity, gettext("sliding threshold")))
     visible = style.fit_ylim(axis, peak, levels, name)
     for (low, high, text), dash, is_visible in zip(levels, dashes[: len(levels)], visible, strict=True):
         for level in (low, high) if is_visible else ():
@@ -118,13 +117,13 @@ def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome]
 
 
 def _draw_curve(axis: Axes, response: Response[RespondOutcome], values: np.ndarray, text: str, colour: str) -> None:
-    """Draw one curve of the response."""
+    """Draw one channel of the response."""
     draw_curve(axis, response.time, values, color=colour, linewidth=1.1)
     style.label_axes(axis, y=text)
 
 
-def _draw_lean(axis: Axes, response: Response[RespondOutcome]) -> None:
-    """Draw the lean over alpha, up to a little beyond what matters."""
+def _draw_tilt(axis: Axes, response: Response[RespondOutcome]) -> None:
+    """Draw the tilt over alpha, up to 1.5."""
     alpha = min(response.body.slendernesses)
     _draw_curve(axis, response, response["rotation"] / alpha, gettext("θ/α"), style.ACCENT)
     peak = float(np.abs(response["rotation"]).max()) / alpha

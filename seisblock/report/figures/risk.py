@@ -1,4 +1,4 @@
-"""The risk at a site in pictures: the hazard with its branches, the fragilities, and which shaking the frequency comes from."""
+"""Figure of the risk at a site: hazard with branches, fragility curves, disaggregation by intensity."""
 
 from __future__ import annotations
 
@@ -31,26 +31,26 @@ DASHES: tuple[Any, ...] = (
     (0, (4, 1, 1, 1, 1, 1)),
     (0, (6, 1, 3, 1)),
 )
-"""Of the fragilities, in their order: nine differ in grey, thirty-six in colour and line together."""
+"""Dashes of the fragility curves: 9 distinct in greyscale, 36 with colours."""
 
 MAX_LEGEND_COLUMNS = 64
-"""Columns of letters that names over their panel take, lines and all; what takes more stands below the figure, a row each."""
+"""Width in characters of a legend above the panel, at most; a longer one is placed below the figure, one row per entry."""
 
 LINE_SAMPLE_COLUMNS = 8
-"""Columns that the line before a name takes."""
+"""Width in characters of the line sample of an entry."""
 
 LEGEND_ROW_HEIGHT = 0.17
-"""Height of a row of names, inch."""
+"""Height of a row of the legend, inch."""
 
 POINTS = 241
 
 
 def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal: bool = True) -> Figure:
-    """Return the figure: hazard, fragility, and the frequency per ratio of intensity, above each other.
+    """Return the figure: hazard, fragility, and annual frequency per decade of intensity.
 
     Parameters
     ----------
-    risks : sequence of (GivenFragility, Risk)
+    risks : sequence of (FragilityCurve, Risk)
     hazard : Hazard
     gal : bool
         Unit of the intensities: gal, kine and cm, else SI.
@@ -59,8 +59,8 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
     size, unit = measure.display_unit(gal=gal)
     names = [risk_label(fragility, gal=gal) or gettext("fragility") for fragility, _ in risks]
     outside = sum(display_width(name) + LINE_SAMPLE_COLUMNS for name in names) > MAX_LEGEND_COLUMNS
-    name_text = names[0] if len(risks) == 1 else gettext("{count} fragilities", count=len(risks))
-    title = gettext("Risk: {what}, hazard in {measure}", what=name_text, measure=measure.label)
+    name_text = names[0] if len(risks) == 1 else gettext("{count} fragility curves", count=len(risks))
+    title = gettext("Risk: {what}; hazard in {measure}", what=name_text, measure=measure.label)
     fig, (hazard_axes, middle, density_axes) = new_figure(
         3, width=6.4, height=7.4 + (LEGEND_ROW_HEIGHT * len(risks) if outside else 0.0), title=title
     )
@@ -71,9 +71,9 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
         middle.plot(x / size, fragility.curve.probability(x), color=colour, linestyle=dashes, linewidth=1.4, label=names[index])
         _draw_density(density_axes, risk, size, look=(colour, dashes), fill=not outside)
     density_axes.set_xscale("log")
-    label_axes(hazard_axes, y=gettext("exceeded (1/year)"))
-    label_axes(middle, y=gettext("probability"))
-    label_axes(density_axes, x=f"{measure.label} ({unit})" if unit else measure.label, y=gettext("rate per decade (1/year)"))
+    label_axes(hazard_axes, y=gettext("annual frequency (1/year)"))
+    label_axes(middle, y=gettext("probability (1)"))
+    label_axes(density_axes, x=f"{measure.label} ({unit})" if unit else measure.label, y=gettext("frequency per decade (1/year)"))
     middle.set_ylim(-0.02, 1.02)
     density_axes.set_ylim(bottom=0.0)
     round_ticks(density_axes.xaxis)
@@ -86,19 +86,19 @@ def figure(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, *, gal:
 
 
 def _line_style(index: int) -> tuple[str, Any]:
-    """Return colour and line of a fragility."""
+    """Return colour and dashes of a fragility curve."""
     return COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
 
 
 def _intensity_range(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard) -> np.ndarray:
-    """Return the intensities to draw: the levels of the hazard, and where the fragilities rise."""
+    """Return the intensities drawn: range of the hazard levels and of the 1 to 99 % quantiles of the fragility curves."""
     ends = [end for branch in hazard.branches for end in (np.min(branch.levels), np.max(branch.levels))]
     ends += [fragility.curve.quantile(share) for fragility, _ in risks for share in (0.01, 0.99)]
     return np.geomspace(min(ends), max(ends), POINTS)
 
 
 def _draw_hazard(axis: Axes, hazard: Hazard, x: np.ndarray, size: float) -> None:
-    """Draw the curves: points where the table has them."""
+    """Draw the hazard curves, with points at the levels of the table."""
     axis.set_yscale("log")
     has_branches = len(hazard.branches) > 1
     for index, branch in enumerate(hazard.branches if has_branches else ()):
@@ -110,7 +110,7 @@ def _draw_hazard(axis: Axes, hazard: Hazard, x: np.ndarray, size: float) -> None
 
 
 def _draw_density(axis: Axes, risk: Risk, size: float, *, look: tuple[Any, Any], fill: bool) -> None:
-    """Draw where the frequency comes from: what shaking between two levels contributes, per decade."""
+    """Draw the disaggregation: contribution to the annual frequency per decade of intensity."""
     inner = risk.disaggregation[1:-1]
     edges = np.array([inner[0].im_from, *(share.im_to for share in inner)], dtype=np.float64)
     density = np.array([share.annual_rate for share in inner]) / np.diff(np.log10(edges))

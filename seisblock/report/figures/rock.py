@@ -1,4 +1,4 @@
-"""Rocking in pictures: ground motion, lean over alpha with impacts, and the phase plane."""
+"""Figure of rocking: ground motion, tilt over alpha with impacts, phase plane."""
 
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from seisblock.report.figures.time_histories import Interval, history_columns, s
 from seisblock.report.text.rock import RockResponses, flip_text
 from seisblock.report.units_display import acceleration_unit
 
-MIN_LEAN = 1e-4
-"""Lean over alpha that is drawn: what is less, a hair's breadth in a block of a metre, is no motion that one sees."""
+MIN_TILT = 1e-4
+"""Smallest drawn peak tilt over alpha."""
 
 MAX_CHORD = 0.02
-"""Of the phase plane, a share of its half widths."""
+"""Longest chord in the phase plane over its half widths."""
 
 MAX_STEP = 0.002
-"""From sample to sample, a share of the time shown: in a longer one a chord would be seen."""
+"""Longest time step drawn as a chord, over the interval shown."""
 
 COLOURS = {"rocks to +x": "#f6dfcf", "rocks to -x": "#a6b6dc", "beyond +alpha": "#c27c58", "beyond -alpha": "#5262a4"}
 
 
 def figure(responses: RockResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
+    """Return the figure: per component acceleration with threshold band, tilt over alpha with impacts and phases, phase plane."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
     return fig
 
 
 def _build_figure(responses: RockResponses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, phase planes beside the histories or below them."""
+    """Return the figure, phase planes beside the time histories, or below if `narrow`."""
     tall = 6.4 if narrow else 3.6
     heights = [tall if is_visible(response) else 2.0 for response in responses]
     motions = [response.motion for response in responses]
@@ -50,22 +50,22 @@ def _build_figure(responses: RockResponses, *, gal: bool, narrow: bool = False) 
             draw_ground(ground_axes, response, name, gal=gal)
             continue
         left, right = row.subfigures(2, 1, height_ratios=(1.3, 1.0)) if narrow else row.subfigures(1, 2, width_ratios=(2.6, 1.0))
-        ((ground_axes, lean_axes),) = history_columns(left, [response.motion], [motion_interval(response)], 2)
+        ((ground_axes, tilt_axes),) = history_columns(left, [response.motion], [motion_interval(response)], 2)
         plane = right.add_subplot()
         style.style_axes(plane)
         draw_ground(ground_axes, response, name, gal=gal)
-        draw_lean(lean_axes, response)
+        draw_tilt(tilt_axes, response)
         _draw_plane(plane, response)
     return fig
 
 
 def is_visible(response: Response[RockOutcome]) -> bool:
-    """Return whether a block leans enough to be seen."""
-    return response.outcome.rocking_start_s is not None and response.outcome.max_rotation_ratio >= MIN_LEAN
+    """Return True if the peak tilt is large enough to be visible."""
+    return response.outcome.rocking_start_s is not None and response.outcome.max_rotation_ratio >= MIN_TILT
 
 
 def motion_interval(response: Response[RockOutcome]) -> Interval:
-    """Return the stretch of time worth drawing: all rocking, with a margin, or the strong part of the record when there is none."""
+    """Return the interval of rocking with a margin, or the strong motion without rocking."""
     start = response.outcome.rocking_start_s
     if start is None:
         return strong_motion_interval(response.motion)
@@ -75,7 +75,7 @@ def motion_interval(response: Response[RockOutcome]) -> Interval:
 
 
 def draw_ground(axis: Any, response: Response[RockOutcome], panel_name: str, *, gal: bool) -> None:
-    """Draw the ground acceleration over the band within which the block rests."""
+    """Draw the ground acceleration over the band of rest."""
     unit, name = acceleration_unit(gal=gal)
     outcome, options = response.outcome, response.options
     weight = 1.0 + response["vertical_acceleration"] / options["gravity_m_s2"]
@@ -84,9 +84,9 @@ def draw_ground(axis: Any, response: Response[RockOutcome], panel_name: str, *, 
         for arm, alpha in zip(response.body.arms, response.body.slendernesses, strict=True)
     )
     g = options["gravity_m_s2"] / unit
-    band = gettext("rests within ± {g} tan α", g="(g + a_v)" if options["vertical"] else "g")
+    band = gettext("rest: |a| < {g} tan α", g="(g + a_v)" if options["vertical"] else "g")
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
-    (band_visible,) = style.fit_ylim(axis, peak, [(-g * right, g * left, gettext("rocks beyond"))], name)
+    (band_visible,) = style.fit_ylim(axis, peak, [(-g * right, g * left, gettext("rocking threshold"))], name)
     if band_visible:
         axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
         if not options["vertical"]:
@@ -98,15 +98,15 @@ def draw_ground(axis: Any, response: Response[RockOutcome], panel_name: str, *, 
         "{name}  {body}: {what}; α {alpha:.3f} rad, e {restitution:.3f}",
         name=panel_name,
         body=gettext(response.body.name),
-        what=gettext("overturns") if outcome.overturned else gettext("rocks") if outcome.rocks else gettext("stands still"),
+        what=gettext("overturned") if outcome.overturned else gettext("rocking") if outcome.rocks else gettext("rest"),
         alpha=outcome.slenderness_rad,
         restitution=outcome.restitution,
     )
     style.set_panel_title(axis, title + flip_text(outcome))
 
 
-def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
-    """Draw the lean over alpha with its phases and impacts."""
+def draw_tilt(axis: Any, response: Response[RockOutcome]) -> None:
+    """Draw the tilt over alpha with phases and impacts."""
     alpha, (first, last) = response.outcome.slenderness_rad, axis.get_xlim()
     ratio = response["rotation"] / alpha
     style.shade_phases(axis, _visible_phases(response, first, last), COLOURS, names=True, direction=response.motion.name)
@@ -127,37 +127,36 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     if response.outcome.overturned:
         passing_time = response.outcome.alpha_passed_s
         if passing_time is not None and passing_time <= response.time[-1]:
-            axis.axvline(passing_time, color=style.ACCENT, linewidth=0.8, linestyle=":", label=gettext("α passed for good"))
+            axis.axvline(passing_time, color=style.ACCENT, linewidth=0.8, linestyle=":", label=gettext("last passage of α"))
     style.label_axes(axis, y=gettext("θ/α"))
     style.add_legend(axis)
 
 
 def _visible_phases(response: Response[RockOutcome], first: float, last: float) -> list[Any]:
-    """Return the phases long enough to be seen in what is shown, so that dying hops do not become thousands of bands."""
+    """Return the phases long enough to be visible; decaying impacts would produce thousands of bands."""
     return [phase for phase in response.phases if phase.duration_s > (last - first) / 2000]
 
 
 def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
-    """Draw the phase plane: angular velocity over p against lean over alpha, with the separatrices of free rocking."""
+    """Draw the phase plane: angular velocity over p alpha against tilt over alpha, with the separatrices of free rocking."""
     outcome = response.outcome
     alpha, p = outcome.slenderness_rad, outcome.frequency_parameter_rad_s
     lean, rate = response["rotation"] / alpha, response["angular_velocity"] / (p * alpha)
-    lean_limit = min(float(np.abs(lean).max()) * 1.1, 1.8)
-    rate_limit = float(np.abs(rate[np.abs(lean) <= lean_limit]).max()) * 1.1
+    tilt_limit = min(float(np.abs(lean).max()) * 1.1, 1.8)
+    rate_limit = float(np.abs(rate[np.abs(lean) <= tilt_limit]).max()) * 1.1
     u = np.linspace(0.0, 2.0, 201)
     edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
-    if np.any((u <= lean_limit) & (edge <= rate_limit)):
-        # some of the edge is in sight
+    if np.any((u <= tilt_limit) & (edge <= rate_limit)):
         for sign in (1, -1):
             inward = np.where(u < 1, edge, -edge)
-            label = gettext("edge of falling, unshaken") if sign > 0 else None
+            label = gettext("separatrix of free rocking") if sign > 0 else None
             axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
-    # from sample to sample as the state goes, where a chord would be seen
-    visible = (np.abs(lean) <= lean_limit) & (np.abs(rate) <= rate_limit)
-    coarse = np.hypot(np.diff(lean) / lean_limit, np.diff(rate) / rate_limit) > MAX_CHORD
+    # refine coarse steps in view, where a chord would be visible
+    visible = (np.abs(lean) <= tilt_limit) & (np.abs(rate) <= rate_limit)
+    coarse = np.hypot(np.diff(lean) / tilt_limit, np.diff(rate) / rate_limit) > MAX_CHORD
     _, lean, slope = refine(response.time, lean, p * rate, coarse & (visible[1:] | visible[:-1]))
     axis.plot(lean, slope / p, color=style.ACCENT, linewidth=0.7)
-    axis.set_xlim(-lean_limit, lean_limit)
+    axis.set_xlim(-tilt_limit, tilt_limit)
     axis.set_ylim(-rate_limit, rate_limit)
     axis.xaxis.set_major_locator(MaxNLocator(4))
     style.label_axes(axis, gettext("θ/α"), gettext("θ'/(p α)"))

@@ -1,4 +1,4 @@
-"""The three panels of [Fujino1978]_ figs. 8, 11 and 12."""
+"""Figure of sliding: acceleration, velocities and displacement ([Fujino1978]_ figs. 8, 11 and 12)."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from seisblock.report.text.slide import SlideResponses, describe_base
 from seisblock.report.units_display import Unit, acceleration_unit, length_unit, velocity_unit
 
 COLOURS = {SLIDING_PHASES[0]: "#f6dfcf", SLIDING_PHASES[1]: "#a6b6dc", "flight": "#6f9f7e"}
-"""Apart in grey, too: as light as curves over them want, and no lighter."""
+"""Colours of the phases, light enough for curves on top, distinct in greyscale."""
 
 
 def figure(responses: SlideResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: a column per direction; acceleration with the friction band and, where it slides, velocities and displacement."""
+    """Return the figure: per direction acceleration with sliding thresholds and, with sliding, velocities and displacement."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
     return fig
 
 
 def _build_figure(responses: SlideResponses, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, its columns beside or below each other."""
+    """Return the figure, columns side by side, or stacked if `narrow`."""
     motions = [response.motion for response in responses]
     rows = [3 if response.outcome.slips else 1 for response in responses]
     wide, high = (8.5, 1.0 + 2.0 * sum(rows)) if narrow else (4.5 + 4.0 * len(responses), 1.0 + 2.0 * max(rows))
@@ -43,7 +43,7 @@ def _build_figure(responses: SlideResponses, *, gal: bool, narrow: bool = False)
 
 
 def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[SlideOutcome], disp_unit: Unit, *, gal: bool) -> None:
-    """Draw one direction's panels: the first alone where nothing slides."""
+    """Draw the panels of one direction, only the first without sliding."""
     unit, name = acceleration_unit(gal=gal)
     speed = velocity_unit(gal=gal)
     time, phases = response.time, response.phases
@@ -51,10 +51,10 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Slid
     lower, upper = response["lower_limit"], response["upper_limit"]
     draw_curve(top, time, response["ground_acceleration"] / unit, color=style.INPUT)
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
-    levels = [(float(np.median(lower)) / unit, float(np.median(upper)) / unit, gettext("limits of static friction"))]
+    levels = [(float(np.median(lower)) / unit, float(np.median(upper)) / unit, gettext("sliding threshold"))]
     (limits_visible,) = style.fit_ylim(top, peak, levels, name)
     for index, limit in enumerate((lower, upper) if limits_visible else ()):
-        text = None if index else gettext("limits of static friction")
+        text = None if index else gettext("sliding threshold")
         draw_curve(top, time, limit / unit, color=style.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=text)
     if lower_panels:
         middle, bottom = lower_panels
@@ -67,7 +67,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Slid
         bottom.axhline(0.0, color=style.INPUT, linewidth=0.6)
     labels = (
         gettext("z'' ({unit})", unit=name),
-        gettext("velocity ({unit})", unit=speed.name),
+        gettext("v ({unit})", unit=speed.name),
         gettext("x − z ({unit})", unit=disp_unit.name),
     )
     for panel, text in zip(panels, labels, strict=False):
@@ -77,7 +77,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Slid
 
 
 def motion_interval(response: Response[SlideOutcome]) -> Interval:
-    """Return the stretch of time that holds all sliding, with a margin, or the strong part of the record when nothing slides."""
+    """Return the interval of sliding with a margin, or the strong motion without sliding."""
     sliding = [phase for phase in response.phases if phase.name in COLOURS]
     if not sliding:
         return strong_motion_interval(response.motion)

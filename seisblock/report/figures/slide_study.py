@@ -1,4 +1,4 @@
-"""Figures 7, 9, 10, 15 and 16 of [Fujino1978]_ from a parameter study of sliding."""
+"""Figures of a parameter study of sliding ([Fujino1978]_ figs. 7, 9, 10, 15 and 16)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from seisblock.report.figures.heading import panel_label, records_heading
 from seisblock.report.text.slide_study import MIN_PLANE_SIZE, SYMBOLS, Arrangement, Points, group_by_direction, plotted_value
 from seisblock.report.units_display import Unit, length_unit
 
-SLIP_LABEL = N_("largest slip ({unit})")
+SLIP_LABEL = N_("max. sliding displacement ({unit})")
 MIN_SHADE, MAX_SHADE = 1e-4, 10.0
-"""Slip, m, below which the plane stays white, and beyond which it is black: it slides on as long as the record lasts."""
+"""Slip, m, at the white and black ends of the grey scale."""
 
 ROUND_DIGITS = 9
-"""Decimals to which a ratio of two frictions is the one that was asked for."""
+"""Decimals to which friction ratios are considered equal."""
 
 
 def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length: float | None, gravity: float, gal: bool = True) -> Figure:
-    """Return the figure of the study: slip (or beta) against the parameter with most values, one curve per value of the others.
+    """Return the figure of the study: slip (or beta) over the parameter with most values, a curve per value of the others.
 
-    A study of both slope and friction is drawn as the plane of [Fujino1978]_ fig. 16, with the criteria (14) and (15).
+    A study of slope and friction is drawn as a map like [Fujino1978]_ fig. 16, with the criteria (14) and (15).
     """
     panels = [
         (record, title, part)
@@ -57,12 +57,12 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
 
 
 def _is_plane(points: Points) -> bool:
-    """Return whether points are many enough in slope and in friction for a plane."""
+    """Return True if slope and friction have enough values for a map."""
     return all(len({getattr(point, name) for point in points}) >= MIN_PLANE_SIZE for name in ("mu", "slope_deg"))
 
 
 def _split_planes(title: str, points: Points) -> list[tuple[str, Points]]:
-    """Return the points of one direction; those of a plane apart by what else varies, for one shade holds one slip."""
+    """Split the points of a map by the remaining varied parameters, since a cell holds a single slip."""
     if not _is_plane(points):
         return [(title, points)]
     settings = list(dict.fromkeys((round(point.kappa, ROUND_DIGITS), point.vertical) for point in points))
@@ -76,7 +76,7 @@ def _split_planes(title: str, points: Points) -> list[tuple[str, Points]]:
 
 
 def _draw_curves(axis: Any, points: Points, slope_length: float | None, disp_unit: Unit) -> None:
-    """Draw curves as in [Fujino1978]_ fig. 7 (slip), figs. 9 and 10 (beta), fig. 15 (slip on a slope)."""
+    """Draw curves like [Fujino1978]_ fig. 7 (slip), figs. 9 and 10 (beta), fig. 15 (slip on a slope)."""
     arrangement = Arrangement.of(points)
     ratio = any(point.beta is not None for point in points)
     names = list(dict.fromkeys(arrangement.name(point) for point in points))
@@ -105,12 +105,12 @@ def _draw_curves(axis: Any, points: Points, slope_length: float | None, disp_uni
 
 
 def _shade_colour(share: float) -> Any:
-    """Return a colour between the accents that also differs in grey."""
+    """Return a colour that is distinct in greyscale."""
     return colormaps["plasma"](0.85 * share)
 
 
 def _draw_plane(axis: Any, points: Points, disp_unit: Unit) -> None:
-    """Shade the plane of slope and friction by the largest slip."""
+    """Draw the map of maximum slip over slope and friction."""
     slopes = sorted({point.slope_deg for point in points})
     frictions = sorted({point.mu for point in points})
     slip = np.full((len(frictions), len(slopes)), np.nan)
@@ -127,7 +127,7 @@ def _draw_plane(axis: Any, points: Points, disp_unit: Unit) -> None:
 
 
 def _draw_criteria(axis: Any, points: Points, record: Record, gravity: float) -> None:
-    """Draw what friction holds at rest, what stops a slide, eq. (14), and what starts one in this record, eq. (15), down or up."""
+    """Draw the friction for static equilibrium, to stop sliding, eq. (14), and to prevent sliding in this record, eq. (15)."""
     angles = np.array([point.slope_deg for point in points])
     frictions = [point.mu for point in points]
     dense = np.linspace(angles.min(), angles.max(), 100)
@@ -137,7 +137,7 @@ def _draw_criteria(axis: Any, points: Points, record: Record, gravity: float) ->
         color=style.INPUT,
         linewidth=0.9,
         linestyle=(0, (1.2, 1.2)),
-        label=gettext("holds at rest: tan θ"),
+        label=gettext("static equilibrium: tan θ"),
     )
     for kappa in sorted({round(point.kappa, ROUND_DIGITS) for point in points if point.kappa > 0.0}):
         stops = [min_friction_to_stop(abs(angle), kappa) for angle in dense]
@@ -146,7 +146,7 @@ def _draw_criteria(axis: Any, points: Points, record: Record, gravity: float) ->
     for scale in dict.fromkeys(point.vertical for point in points):
         horizontal, vertical = motion.horizontal / gravity, scale * motion.vertical / gravity
         starts = [max(min_friction_to_hold(sign * angle, sign * horizontal, vertical).max() for sign in (1, -1)) for angle in dense]
-        text = gettext("(15): this record") + (f", γ {scale:g}" if scale else "")
+        text = gettext("(15), this record") + (f", γ {scale:g}" if scale else "")
         axis.plot(dense, starts, color=style.SECOND, linewidth=1.1, linestyle=(0, (5, 1.5)), label=text)
     axis.set_ylim(min(frictions), max(frictions))
     style.label_axes(axis, x=gettext(SYMBOLS["slope_deg"]), y=SYMBOLS["mu"])

@@ -1,4 +1,4 @@
-"""A sliding spectrum in pictures: largest slip against friction."""
+"""Figure of a sliding spectrum: maximum sliding displacement over friction."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.report.units_display import length_unit
 
 
 def figure(curves: Curves) -> Figure:
-    """Return the figure: largest slip against friction, a curve per component."""
+    """Return the figure: maximum sliding displacement over friction, a curve per component."""
     motions = [motion for motion, _ in curves]
     fig, (axis,) = style.new_figure(1, height=4.0, title=motions_heading(motions))
     disp_unit = length_unit((point.max_slip_m for _, points in curves for point in points), gal=True)
@@ -24,6 +24,6 @@ def figure(curves: Curves) -> Figure:
         axis.plot([p.mu for p in points], slips, color=line_style[0], linestyle=line_style[1], linewidth=1.2, label=name or "x")
     axis.set_yscale("log")
     round_ticks(axis.yaxis)
-    style.label_axes(axis, gettext("friction μ"), gettext("largest slip ({unit})", unit=disp_unit.name))
+    style.label_axes(axis, gettext("friction coefficient μ (1)"), gettext("max. sliding displacement ({unit})", unit=disp_unit.name))
     style.add_legend(axis)
     return fig

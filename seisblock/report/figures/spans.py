@@ -1,4 +1,4 @@
-"""Many bars as one artist: hundreds of stretches of time cost a figure what one does."""
+"""Many vertical bands as a single artist, for fast drawing."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ CORNERS = 4
 
 
 def span_patch(stretches: Sequence[tuple[float, float]], low: float = 0.0, high: float = 1.0, **style: Any) -> PathPatch:
-    """Return upright bars side by side as one patch.
+    """Return vertical bands as one patch.
 
     Parameters
     ----------
     stretches : sequence of (float, float)
-        Where each begins and ends.
+        Start and end of each band.
     low, high : float
-        The ends of all of them; an axis' full height where the style's transform says so.
+        Lower and upper end of all bands; axes fractions with a suitable ``transform``.
     **style
-        Of the patch.
+        Properties of the patch.
 
     Examples
     --------

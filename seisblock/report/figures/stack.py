@@ -1,4 +1,4 @@
-"""A pile in pictures: tilt and slip of each stone."""
+"""Figure of a pile of stones: ground acceleration, tilt and slip of each stone."""
 
 from __future__ import annotations
 
@@ -24,24 +24,23 @@ from seisblock.report.units_display import Unit, acceleration_unit, length_unit
 
 SHADES = ("#c0392b", "#1f5a8c", "#7d7d7d", "#b8860b", "#4f7f4f", "#7a4f8c", "#111111")
 DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (8, 2, 2, 2)))
-"""Colours and dashes of the stones from above downwards, by :func:`line_style`; the dashes tell them apart in grey."""
+"""Colours and dashes of the stones from top to bottom, see :func:`line_style`; dashes are distinct in greyscale."""
 
 WRAP_COLUMNS = 84
-"""Longest line of what fell, columns: as wide as a panel of two beside each other."""
+"""Line width of the list of overturned stones, characters: that of one of two panels."""
 
 FALL_DURATION_S = 0.2
-"""How long before its fall a stone no longer slides but turns away, s."""
+"""Duration before overturning in which slip is not defined (the stone rotates away), s."""
 
 AFTER_FALL_S = 2.0
-"""How long after its fall a film follows a stone, s: a drum that lies may roll until the record ends."""
+"""Time shown after overturning of a stone, s; a lying cylinder may roll until the end of the record."""
 
 
 def figure(responses: StackResponses, *, gal: bool = True) -> Figure:
-    """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
+    """Return the figure: per run ground acceleration, tilts and slips of the stones over time."""
     motions = [response.motion for response in responses]
-    stretches = [
-        motion_interval(response, margin=1.0, after_fall=0.0) for response in responses
-    ]  # no curve goes on when its stone has fallen
+    # curves end at overturning of their stone
+    stretches = [motion_interval(response, margin=1.0, after_fall=0.0) for response in responses]
     fig = style.titled_figure(motions_heading(motions), width=3.5 + 4.5 * len(responses), height=6.6)
     disp_unit = length_unit((max_standing(response, "slip") for response in responses), gal=gal)
     for panels, name, response in zip(history_columns(fig, motions, stretches, 3), panel_labels(motions), responses, strict=True):
@@ -50,10 +49,14 @@ def figure(responses: StackResponses, *, gal: bool = True) -> Figure:
 
 
 def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[StackOutcome], disp_unit: Unit, *, gal: bool) -> None:
-    """Draw one run's three panels."""
+    """Draw the three panels of one run."""
     motion = response.motion
     unit, unit_name = acceleration_unit(gal=gal)
-    rows = ((gettext("up"), 2, style.SECOND), (gettext("across"), 1, "0.7"), (gettext("along {name}", name=motion.name or "x"), 0, "0.2"))
+    rows = (
+        (gettext("vertical"), 2, style.SECOND),
+        (gettext("transverse"), 1, "0.7"),
+        (gettext("along {name}", name=motion.name or "x"), 0, "0.2"),
+    )
     for name, row, colour in rows:
         values = motion.acceleration[row]
         acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])
@@ -69,11 +72,11 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Stac
         panel.set_ylim(-0.05 * top, 1.1 * top)
         for event in response.events:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
-    if response.events:  # above the panel, where it hides neither a curve nor when a stone falls
-        fate = "\n".join(wrap_text(describe_falls(response), WRAP_COLUMNS))
-        panels[1].set_title(fate, fontsize=7, loc="left", linespacing=1.4, parse_math=False)
+    if response.events:  # above the panel, so that no curve or event line is hidden
+        falls_text = "\n".join(wrap_text(describe_falls(response), WRAP_COLUMNS))
+        panels[1].set_title(falls_text, fontsize=7, loc="left", linespacing=1.4, parse_math=False)
     style.add_legend(panels[0])
-    style.add_legend(panels[2])  # between the two whose curves it names
+    style.add_legend(panels[2])  # between the two panels of the stones
     style.set_panel_title(panels[0], f"+x = {panel_name}: {gettext(response.body.name)}")
     labels = gettext("a ({unit})", unit=unit_name), gettext("tilt θ (deg)"), gettext("slip s ({unit})", unit=disp_unit.name)
     for panel, text in zip(panels, labels, strict=True):
@@ -81,29 +84,29 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Stac
 
 
 def line_style(index: int) -> tuple[str, Any]:
-    """Return colour and dashes of a stone, counted from above: seven of the one and six of the other, so that no two of 42 share both."""
+    """Return colour and dashes of a stone, counted from the top; 7 colours and 6 dash patterns give 42 combinations."""
     return SHADES[index % len(SHADES)], DASHES[index % len(DASHES)]
 
 
 def stone_tilt(response: Response[StackOutcome], name: str) -> FloatArray:
-    """Return the tilt of a stone against time, (n,), rad; nothing from its fall on."""
+    """Return the tilt of a stone, (n,), rad; NaN after its overturning."""
     return _until_fall(response, name, "tilt", 0.0)
 
 
 def stone_slip(response: Response[StackOutcome], name: str) -> FloatArray:
-    """Return the slip of a stone against time, (n,), m; nothing from where it turns away to fall."""
+    """Return the slip of a stone, (n,), m; NaN from :data:`FALL_DURATION_S` before its overturning."""
     return _until_fall(response, name, "slip", FALL_DURATION_S)
 
 
 def _until_fall(response: Response[StackOutcome], name: str, quantity: str, lead_time: float) -> FloatArray:
-    """Return a quantity of a stone against time, (n,), and nothing from so long before its fall on, s."""
+    """Return a channel of a stone, (n,); NaN from `lead_time`, s, before its overturning."""
     fall_time = next(stone.fell_at_s for stone in response.outcome.stones if stone.name == name)
     values = response[f"{name}_{quantity}"]
     return values if fall_time is None else np.where(response.time <= fall_time - lead_time, values, np.nan)
 
 
 def max_standing(response: Response[StackOutcome], quantity: str) -> float:
-    """Return the largest tilt or slip of the stones that stand, and of the others until they fell."""
+    """Return the largest tilt or slip of the stones before their overturning."""
     top = 1e-3
     for stone in response.outcome.stones:
         before_fall = response.time <= (
@@ -114,12 +117,13 @@ def max_standing(response: Response[StackOutcome], quantity: str) -> float:
 
 
 def motion_interval(response: Response[StackOutcome], *, margin: float, after_fall: float = AFTER_FALL_S) -> tuple[float, float]:
-    """Return when the stones move noticeably, each until so long `after_fall` its fall, with a margin, s; if none does, the strong part."""
+    """Return the interval of noticeable motion, s, or the strong motion without any; stones count until `after_fall` after overturning."""
     time, moving = response.time, np.zeros(response.time.size, dtype=bool)
     for stone in response.outcome.stones:
         before_end = time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s + after_fall)
         for quantity, threshold in (("tilt", NOTICEABLE_TILT), ("slip", NOTICEABLE_SLIP)):
             values = response[f"{stone.name}_{quantity}"]
+            # in motion (gradient per row) and already noticeably away from the initial value
             moving |= (np.abs(np.gradient(values)) > 0.1 * threshold) & (np.abs(values - values[0]) > threshold) & before_end
     if not moving.any():
         return strong_motion_interval(response.motion)

@@ -1,4 +1,4 @@
-"""The criterion study of gravestones in pictures: [Furukawa2009]_ figs. 4 to 6 drawn again."""
+"""Figure of the gravestone criterion study ([Furukawa2009]_ figs. 4 to 6)."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 def figure(
     study: CriterionStudy, rigid: dict[float, float], scaled_records: ScaledRecords, *, reinforced: bool, gal: bool = True
 ) -> Figure:
-    """Return figs. 4 (13), 5, 6 and 10 of [Furukawa2009]_ drawn from this study, beside the published fit and the rigid block."""
+    """Return figs. 4 (13), 5, 6 and 10 of [Furukawa2009]_ from this study, with the published fit and the rigid block."""
     import numpy as np
 
     fit, equation = furukawa_fit(reinforced)
     unit, unit_name = acceleration_unit(gal=gal)
     title = (
-        N_("Which gravestones fall, dowelled: thresholds of the pile")
+        N_("Overturning thresholds of dowelled gravestones (pile model)")
         if reinforced
-        else N_("Which gravestones fall: thresholds of the pile")
+        else N_("Overturning thresholds of gravestones (pile model)")
     )
     fig, (left, right) = style.new_figure(1, columns=2, width=9.5, height=4.6, title=gettext(title))
     fine = np.linspace(1.0, 13.5, 200)
@@ -42,7 +42,7 @@ def figure(
             text = f"{name}, {thresholds[0].frequency_hz:.1f} Hz"
             left.plot(*zip(*part, strict=True), "-", color=(style.ACCENT, style.SECOND)[index % 2], linewidth=1.2, label=text)
     left.set_ylim(0.0, 6.8)
-    left.set_title(gettext("most squat stone that falls, and eq. (7)"), fontsize=9, loc="left")
+    left.set_title(gettext("smallest H/B overturned, and eq. (7)"), fontsize=9, loc="left")
     style.label_axes(left, gettext("PGA ({unit})", unit=unit_name), gettext("H/B"))
     curve = np.linspace(0.3, 3.2, 200)
     right.plot(
@@ -70,10 +70,10 @@ def figure(
         "x",
         color="0.1",
         markersize=5,
-        label=gettext("rigid block on the outermost points"),
+        label=gettext("rigid block on the outermost contact points"),
     )
     right.set_ylim(bottom=0.0)
-    right.set_title(gettext("level"), fontsize=9, loc="left")
+    right.set_title(gettext("overturning level"), fontsize=9, loc="left")
     style.label_axes(right, gettext("f (Hz)"), f"a(f) ({unit_name})")
     for axis, columns in ((left, 2), (right, 1)):
         location = "upper right" if axis is left else "upper left"

@@ -1,4 +1,4 @@
-"""An earthquake's stations on a map: a colour for what happened at each, the epicentre, the coast where its lines are installed."""
+"""Map of the stations of an earthquake: result at each station, epicentre, coastline if installed."""
 
 from __future__ import annotations
 
@@ -27,68 +27,68 @@ from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison
 
 SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#c0392b", "#3d0c11"])
-"""Light where nothing happens, dark where everything falls: in grey, too."""
+"""Colour map from no overturning (light) to overturning (dark), monotonic in greyscale."""
 
 COAST = "#5b7f95"
 
 MAX_NAMES = 5
-"""Stations that bear their names, the worst, and surveyed places."""
+"""Labelled stations, in order of severity, and labelled surveyed places, at most."""
 
 EDGE, RIM = ("0.25", 0.5), ("black", 1.5)
-"""Colour and width of the rim of a station's point, and of one at which the body falls as it was given."""
+"""Colour and width of the rim of a station, and of one with overturning of the nominal body."""
 
 HALO = [withStroke(linewidth=2.0, foreground="white")]
 KM_PER_DEGREE = EARTH_RADIUS_KM * math.pi / 180.0
 MARGIN = 0.08
-"""Room around the outermost points, a share of the extent."""
+"""Margin around the outermost points over the extent."""
 
 NORTH = 0.95
-"""How far east north's arrow stands, a share of the map."""
+"""Horizontal position of the north arrow, fraction of the map."""
 
 SCALE_AT = ((0.03, 0.02, 0.32, 0.15), (0.68, 0.02, 0.97, 0.15), (0.03, 0.85, 0.32, 0.98))
-"""Where the scale may be, the first of these that hides fewest places: west, south, east and north end, shares of the map."""
+"""Candidate boxes of the scale bar (west, south, east, north), fractions of the map; the emptiest is used."""
 
 NORTH_AT = (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
-"""Where north is."""
+"""Box of the north arrow, fractions of the map."""
 
 STAR = (0.17, 0.16, 0.03)
-"""How far the epicentre with its name reaches to either side, down and up, shares of the map."""
+"""Extent of the epicentre symbol with label to the sides, down and up, fractions of the map."""
 
 HALF_TURN = 180.0
-"""Degrees east or west at which longitudes change their name."""
+"""Longitude of the date line, degrees."""
 
 MIN_EXTENT_KM = 10.0
-"""Extent of a map of one station."""
+"""Smallest extent of a map, km."""
 
 MAX_DISTANCE_KM = 1000.0
-"""What lies further from the middle of the stations is off the map: they would be one dot on it."""
+"""Largest distance of epicentre and surveyed places from the centre of the stations to be included, km."""
 
 
 def figure(stations: Stations, model: StationModel | None, *, gal: bool = True, surveys: Sequence[SurveyComparison] = ()) -> Figure:
-    """Return the figure: a point for each station whose place is known.
+    """Return the map: a point for each station with coordinates.
 
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
-        What the colours tell of; the shaking itself without one.
+    model : StationModel or None
+        Model of the colours; PGA if None.
     gal : bool
-        Whether the shaking is in gal.
-    surveys : sequence of SurveyAnswer
-        Squares in the colour of the share that fell, or of the PGA that the stones tell of.
+        PGA in gal if true, else m/s².
+    surveys : sequence of SurveyComparison
+        Surveyed cemeteries: squares coloured by overturning rate, or by the PGA inferred from the stones.
 
     Raises
     ------
     ParameterError
-        If of no station it is known where it is.
+        If no station has coordinates.
     """
     if not stations.mapped:
-        raise ParameterError("of no station it is known where it is: there is nothing to map")
+        raise ParameterError("cannot draw the map: no station has coordinates")
     fig = style.titled_figure(map_title(stations, model), width=7.2, height=6.4)
     axis = fig.add_subplot(1, 1, 1)
     values, label, max_value = colour_values(stations, model, gal=gal)
     places = np.array([map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped])
-    order = np.arange(len(places))[::-1]  # the worst on top
+    order = np.arange(len(places))[::-1]  # most severe on top
     rims = [RIM if answer.effect.overturns_nominally else EDGE for answer in stations.mapped[::-1]]
     points = axis.scatter(
         places[order, 0],
@@ -98,7 +98,7 @@ def figure(stations: Stations, model: StationModel | None, *, gal: bool = True, 
         norm=Normalize(0.0, max_value),
         s=34,
         edgecolors=[colour for colour, _ in rims],
-        linewidths=[wide for _, wide in rims],
+        linewidths=[width for _, width in rims],
         zorder=3,
     )
     if surveys:
@@ -116,7 +116,7 @@ def figure(stations: Stations, model: StationModel | None, *, gal: bool = True, 
 
 
 def map_position(stations: Stations, longitude: float | None, latitude: float | None) -> tuple[float, float]:
-    """Return degrees east and north on the map, east counted on beyond 180 where its stations lie on both sides of the date line.
+    """Return degrees east and north on the map; longitudes are unwrapped across the date line.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def map_position(stations: Stations, longitude: float | None, latitude: float | 
 
 
 def epicentre_position(stations: Stations) -> tuple[float, float] | None:
-    """Return where the epicentre lies on the map, degrees east and north, None where it is not known.
+    """Return the map position of the epicentre, degrees east and north, None if unknown.
 
     Parameters
     ----------
@@ -141,12 +141,12 @@ def epicentre_position(stations: Stations) -> tuple[float, float] | None:
 
 
 def map_extent_points(survey_map: Stations, surveys: Sequence[SurveyComparison] = ()) -> FloatArray:
-    """Return the places that a map shows from the first: its stations; epicentre and surveyed places that are not too far away.
+    """Return the points that define the extent of the map: stations, and epicentre and surveyed places nearby.
 
     Parameters
     ----------
     survey_map : Stations
-    surveys : sequence of SurveyAnswer
+    surveys : sequence of SurveyComparison
 
     Returns
     -------
@@ -164,26 +164,26 @@ def map_extent_points(survey_map: Stations, surveys: Sequence[SurveyComparison] 
 
 
 def colour_values(stations: Stations, model: StationModel | None, *, gal: bool) -> tuple[FloatArray, str, float]:
-    """Return what the colours tell: a value for each station on the map, its name with its unit, and the end of the scale."""
+    """Return value of each station on the map, label with unit, and upper end of the colour scale."""
     if model is None:
         unit = acceleration_unit(gal=gal)
         values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in stations.mapped])
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(model, StationBody):
-        name = gettext("share that falls") if model.runs else gettext(EVENT_WORDS[model.solver])
+        name = gettext("overturning probability (1)") if model.runs else gettext(EVENT_WORDS[model.solver])
         if any(answer.effect.overturns_nominally for answer in stations.mapped):
-            name = gettext("share that falls; thick rim: falls as given")
+            name = gettext("overturning probability (1); thick rim: nominal body overturned")
         return np.array([_overturned_share(answer) for answer in stations.mapped]), name, 1.0
-    return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("share that falls"), 1.0
+    return np.array([answer.effect.rate or 0.0 for answer in stations.mapped]), gettext("overturning rate (1)"), 1.0
 
 
 def survey_value(answer: SurveyComparison, model: StationModel | None, *, gal: bool) -> float:
-    """Return the value of a surveyed place on the scale of the stations: the share that fell, or the PGA by the stones.
+    """Return the value of a surveyed place on the scale of the stations: overturning rate, or PGA inferred from the stones.
 
     Parameters
     ----------
-    answer : SurveyAnswer
-    model : StandingBody, StandingStones or None
+    answer : SurveyComparison
+    model : StationModel or None
     gal : bool
     """
     if model is not None:
@@ -193,7 +193,7 @@ def survey_value(answer: SurveyComparison, model: StationModel | None, *, gal: b
 
 
 def share_colour(share: float) -> str:
-    """Return the colour of a share of the scale, as a page writes it.
+    """Return the colour of a fraction of the scale as a hex string.
 
     Parameters
     ----------
@@ -208,20 +208,20 @@ def share_colour(share: float) -> str:
 
 
 def _overturned_share(answer: StationReport) -> float:
-    """Return the share of versions that fall at a station, or whether what is asked about happened."""
+    """Return the overturning probability at a station, or 0 or 1 without samples."""
     effect = answer.effect
     return float(effect.happened or False) if effect.probability is None else effect.probability
 
 
 def map_title(stations: Stations, model: StationModel | None, *, between: str = style.SEPARATOR) -> str:
-    """Return the line above: magnitude, name and time of the earthquake, and what stands there.
+    """Return the title: magnitude, name and time of the earthquake, and the body.
 
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
+    model : StationModel or None
     between : str
-        What stands between its parts.
+        Separator of the parts.
     """
     earthquake = stations.earthquake
     parts = []
@@ -233,7 +233,7 @@ def map_title(stations: Stations, model: StationModel | None, *, between: str = 
 
 
 def _draw_epicentre(axis: Axes, stations: Stations) -> None:
-    """Draw the epicentre as a star, named."""
+    """Draw the epicentre as a labelled star."""
     at = epicentre_position(stations)
     if at is None:
         return
@@ -252,9 +252,10 @@ def _draw_epicentre(axis: Axes, stations: Stations) -> None:
 
 
 def _set_extent(axis: Axes, places: FloatArray) -> Box:
-    """Give the map its extent, its proportions at that latitude, a scale bar and north; return where the scale bar is."""
+    """Set extent and aspect of the map, draw scale bar and north arrow; return the box of the scale bar."""
     (west, south), (east, north) = places.min(axis=0), places.max(axis=0)
     middle = 0.5 * (south + north)
+    # equirectangular projection true to scale at the middle latitude
     narrowing = max(math.cos(math.radians(middle)), 0.01)
     km = np.array([(east - west) * narrowing, north - south]) * KM_PER_DEGREE
     half_width = 0.5 * max(float(km.max()) * (1.0 + 2.0 * MARGIN), MIN_EXTENT_KM) / KM_PER_DEGREE
@@ -278,7 +279,7 @@ def _set_extent(axis: Axes, places: FloatArray) -> Box:
 
 
 def _scale_bar(axis: Axes, across_km: float, at: Box) -> None:
-    """Draw a bar of a round number of kilometres, about a quarter of the map."""
+    """Draw a scale bar of round length, at most a quarter of the map."""
     quarter = across_km / 4.0
     step = 10.0 ** math.floor(math.log10(quarter))
     length = next(factor * step for factor in (5.0, 2.0, 1.0) if factor * step <= quarter * 1.001)
@@ -290,7 +291,7 @@ def _scale_bar(axis: Axes, across_km: float, at: Box) -> None:
 
 
 def _draw_names(axis: Axes, stations: Stations, surveys: Sequence[SurveyComparison], scale: Box) -> None:
-    """Write the name of the worst station, then those of surveyed places and of the next stations, as far as there is room."""
+    """Label the most severe station, then surveyed places and the next stations as far as labels fit."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
 
     def to_place(name: str, at: tuple[float, float]) -> Place:

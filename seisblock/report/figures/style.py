@@ -1,4 +1,4 @@
-"""One style for every figure: grey for the input, one accent for the response, shaded bands for phases."""
+"""Common style of the figures: grey input, accent colour for the response, shaded phases."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from seisblock.core.i18n import escape_control, get_locale, gettext, use_locale
 from seisblock.core.results import Phase
-from seisblock.report.directions import phase_label as called
+from seisblock.report.directions import phase_label
 from seisblock.report.figures.fonts import use_fonts
 from seisblock.report.figures.spans import span_patch
 from seisblock.report.io.atomic import atomic_write, check_figure
@@ -28,41 +28,41 @@ ACCENT = "#c0392b"
 SECOND = "#1f5a8c"
 THRESHOLD = "0.15"
 BANDS = ("#f4d9c6", "#cfe3d4", "#d5dcef", "#efe3b8", "#e3d3e8")
-"""Colours of phases; light enough that curves stay readable, different in grey."""
+"""Colours of phases, light enough for curves on top, distinct in greyscale."""
 
 DPI = 200
-"""Dots per inch, unless told otherwise: what a journal asks of a picture with lines."""
+"""Default resolution, 1/inch."""
 
 MIN_TITLE_SIZE = 6.5
-"""Points; a longer title is cut."""
+"""Smallest font size of a title, points; a longer title is truncated."""
 
 MIN_FONT_SCALE = 0.72
-"""Of their usual size: 5 points, which a journal still prints, for those that are 7."""
+"""Smallest font scale: 7 points become 5, the usual minimum of journals."""
 
 INCH = 0.0254
-"""m."""
+"""One inch, m."""
 
 SEPARATOR = "   "
-"""What stands between the parts of a title."""
+"""Separator of the parts of a title."""
 
 MAX_PIXELS = 20_000
-"""Longest side of a picture."""
+"""Longest side of a picture, pixels."""
 
 TICK_LABEL_SIZE = 8
-"""Size of the letters of an axis, points."""
+"""Font size of tick labels, points."""
 
 LEGEND_Y = 1.0
-"""Height at which a legend stands over its panel, of the panel's."""
+"""Vertical position of a legend above its panel, axes fraction."""
 
 MAX_LEVEL_RATIO = 2.0
-"""The nearest threshold is in the picture, though nothing reaches it, up to so many times the ground's peak."""
+"""The nearest threshold is on scale up to this ratio to the peak of the curve."""
 
 MARGIN = 1.15
-"""Height of a panel over the largest that it shows."""
+"""Limit of an axis over the largest value shown."""
 
 
 class StyledFigure(Figure):
-    """A figure in one language, whose letters are settled, and whose title is made to fit, whenever it is drawn, whoever draws it."""
+    """Figure with the locale, fonts and title fitting of the package, applied at every drawing."""
 
     def __init__(self, width: float, height: float, *, dpi: float = DPI) -> None:
         super().__init__(figsize=(width, height), dpi=dpi, layout="constrained")
@@ -75,13 +75,13 @@ class StyledFigure(Figure):
         self.keys: dict[Axes | None, tuple[list[Any], dict[str, Any]]] = {}
 
     def set_title(self, text: str) -> None:
-        """Put a line above all panels; it is text, never mathematics."""
+        """Set the title above all panels, without mathtext."""
         if self.heading is not None:
             self.heading.set_text("")
         self.heading = self.suptitle(escape_control(text), fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
 
     def build_narrow(self, build: Callable[[], StyledFigure], title: str | None) -> StyledFigure:
-        """Return this figure as it is built for a narrow page, in its language, at its resolution, under a title if one is given."""
+        """Return the narrow layout of this figure with its locale and resolution, and optionally another title."""
         with use_locale(self.locale):
             fig = build()
         fig.set_dpi(self.dpi)
@@ -90,7 +90,7 @@ class StyledFigure(Figure):
         return fig
 
     def draw(self, renderer: Any) -> None:
-        """Draw, in fonts that hold the letters."""
+        """Draw with fonts that have the glyphs."""
         with use_fonts(self, self.locale):
             self._fit_title(renderer)
             self.laid_out = self.narrowed and self._apply_layout()
@@ -100,23 +100,23 @@ class StyledFigure(Figure):
                 self.laid_out = False
 
     def get_layout_engine(self) -> LayoutEngine | None:
-        """Return what gives the panels their places; nothing while they have just been given them, which is half of a drawing's time."""
+        """Return the layout engine; None directly after a layout, which saves half of the drawing time."""
         return None if self.laid_out else super().get_layout_engine()
 
     def legend_covers_curve(self, key: Legend) -> bool:
-        """Return whether the key of a panel lies on one of its curves."""
+        """Return True if the legend of a panel covers one of its curves."""
         box, lines = key.get_window_extent(), key.axes.lines if key.axes is not None else ()
         return any(line.get_path().transformed(line.get_transform()).intersects_bbox(box, filled=False) for line in lines)
 
     def _apply_layout(self) -> bool:
-        """Give the panels their places, and return whether these hold: no legend had to be lifted."""
+        """Execute the layout; return True if no legend had to be moved afterwards."""
         engine = self.get_layout_engine()
         if engine is not None:
             engine.execute(self)
         return not self.lift_legends()
 
     def lift_legends(self) -> bool:
-        """Put each legend that lies on its panel's title above it, and return whether there was one."""
+        """Move legends that overlap the title of their panel above the title; return True if any was moved."""
         renderer = self.canvas.get_renderer()  # type: ignore[attr-defined]
         lifted = False
         for axes in self.axes:
@@ -134,23 +134,23 @@ class StyledFigure(Figure):
         return lifted
 
     def _fit_title(self, renderer: Any) -> None:
-        """Make the title as much smaller as it must be, and cut its end off where that is too small to read."""
+        """Reduce the font size of the title to fit; below the minimum break it in two lines and truncate."""
         title = self.heading
         if title is None:
             return
-        room = 0.98 * self.bbox.width
-        wide = title.get_window_extent(renderer).width
-        if wide > room:
+        available = 0.98 * self.bbox.width
+        extent = title.get_window_extent(renderer).width
+        if extent > available:
             size = float(title.get_fontsize())
-            title.set_fontsize(max(size * room / wide, MIN_TITLE_SIZE))
-            if title.get_window_extent(renderer).width > room:
+            title.set_fontsize(max(size * available / extent, MIN_TITLE_SIZE))
+            if title.get_window_extent(renderer).width > available:
                 title.set_text(split_in_two(title.get_text(), SEPARATOR))
-            while title.get_window_extent(renderer).width > room and len(title.get_text()) > 2:
+            while title.get_window_extent(renderer).width > available and len(title.get_text()) > 2:
                 title.set_text(title.get_text()[:-2] + "…")
 
 
 def split_in_two(text: str, separator: str = " ") -> str:
-    """Return a text in two lines, broken between two of its parts as near to the middle as there are.
+    """Break a text in two lines at the separator nearest to the middle.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def split_in_two(text: str, separator: str = " ") -> str:
 
 
 def titled_figure(text: str, *, width: float, height: float) -> StyledFigure:
-    """Return an empty figure under its title."""
+    """Return an empty figure with a title."""
     fig = StyledFigure(width, height)
     fig.set_title(text)
     return fig
@@ -172,7 +172,7 @@ def titled_figure(text: str, *, width: float, height: float) -> StyledFigure:
 def new_figure(
     rows: int, *, width: float = 8.0, height: float | None = None, title: str = "", columns: int = 1, **layout: Any
 ) -> tuple[StyledFigure, list[Axes]]:
-    """Return a figure with stacked panels that share the time axis unless told otherwise."""
+    """Return a figure and its panels; a single column shares the x axis by default."""
     figure = titled_figure(title, width=width, height=height or 1.2 + 1.75 * rows)
     share = layout.pop("sharex", columns == 1)
     axes = figure.subplots(rows, columns, sharex=share, squeeze=False, **layout)
@@ -183,7 +183,7 @@ def new_figure(
 
 
 def style_axes(axis: Axes) -> None:
-    """Give a panel the common style: a faint grid behind the data, two spines, small figures."""
+    """Style a panel: faint grid behind the data, two spines, small tick labels."""
     axis.grid(True, color="0.9", linewidth=0.6)
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
@@ -191,7 +191,7 @@ def style_axes(axis: Axes) -> None:
 
 
 def label_axes(axis: Axes, x: str = "", y: str = "") -> None:
-    """Label axes as symbol (unit)."""
+    """Label the axes, in the form "symbol (unit)"."""
     if x:
         axis.set_xlabel(x, fontsize=9)
     if y:
@@ -199,39 +199,39 @@ def label_axes(axis: Axes, x: str = "", y: str = "") -> None:
 
 
 def set_panel_title(axis: Axes, text: str) -> None:
-    """Write over a panel, on the left; what a file says there is text, never mathematics."""
+    """Set the title of a panel, left-aligned, without mathtext (text from files may have dollar signs)."""
     axis.set_title(text, fontsize=9, loc="left", parse_math=False)
 
 
 def shade_phases(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False, direction: str = "") -> None:
-    """Shade the phases that have a colour, and name each kind once when asked to, in the direction of the motion."""
+    """Shade the phases that have a colour, with one legend entry per kind if `names`."""
     stretches: dict[str, list[tuple[float, float]]] = {}
     for phase in phases:
         if phase.name in colours:
             stretches.setdefault(phase.name, []).append((phase.start_s, phase.end_s))
     for name, spans in stretches.items():
-        text = called(name, direction) if names else None
+        text = phase_label(name, direction) if names else None
         axis.add_patch(span_patch(spans, transform=axis.get_xaxis_transform(), color=colours[name], linewidth=0, alpha=0.8, label=text))
 
 
 def draw_thresholds(axis: Axes, levels: Sequence[float], text: str = "") -> None:
-    """Draw horizontal thresholds."""
+    """Draw horizontal lines at threshold levels, the first with a legend entry."""
     for index, level in enumerate(levels):
         axis.axhline(level, color=THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=text if text and index == 0 else None)
 
 
 def fit_ylim(axis: Axes, peak: float, levels: Sequence[tuple[float, float, str]], unit: str) -> list[bool]:
-    """Fit a panel to what shakes, from -`limit` to `limit`, and return which levels are within reach; of the others its key tells in words.
+    """Set symmetric y limits for a curve and return which levels are on scale; the legend lists the others as off scale.
 
     Parameters
     ----------
     axis : Axes
     peak : float
-        Largest value of what is drawn.
+        Largest absolute value of the curve.
     levels : sequence of (float, float, str)
-        A level on each side of zero, and what happens beyond it.
+        Level on each side of zero, and its name.
     unit : str
-        Of peak and levels.
+        Unit of peak and levels.
     """
     nearest = min((min(abs(low), abs(high)) for low, high, _ in levels), default=0.0)
     limit = MARGIN * (max(peak, nearest) if nearest <= MAX_LEVEL_RATIO * peak else peak)
@@ -240,20 +240,20 @@ def fit_ylim(axis: Axes, peak: float, levels: Sequence[tuple[float, float, str]]
     visible = [min(abs(low), abs(high)) < limit for low, high, _ in levels]
     off_scale = [_off_scale_text(*level, unit) for level, is_visible in zip(levels, visible, strict=True) if not is_visible]
     if off_scale:
-        axis.plot([], [], " ", label=gettext("out of sight: {levels}", levels=off_scale))
+        axis.plot([], [], " ", label=gettext("off scale: {levels}", levels=off_scale))
     return visible
 
 
 def _off_scale_text(low: float, high: float, name: str, unit: str) -> str:
-    """Return what happens beyond two levels, and where they are."""
+    """Return name and values of a pair of levels."""
     alike = abs(abs(low) - abs(high)) < 0.005 * abs(high)
-    lower, upper = (float(f"{level:.3g}") for level in (low, high))  # three digits, and no power of ten
-    level_text = f"±{abs(upper):g} {unit}" if alike else gettext("{low} and {high}", low=f"{lower:g}", high=f"{upper:+g} {unit}")
+    lower, upper = (float(f"{level:.3g}") for level in (low, high))  # three digits, without exponent
+    level_text = f"{abs(upper):g} {unit}" if alike else gettext("{low} and {high}", low=f"{lower:g}", high=f"{upper:+g} {unit}")
     return f"{name} {level_text}"
 
 
 def add_legend(axis: Axes, **placement: Any) -> None:
-    """Add a small key above the panel, where it hides nothing, when there is something to name; its lines are of even length."""
+    """Add a legend above the panel if any curve has a label, with balanced rows."""
     handles = axis.get_legend_handles_labels()[0]
     if handles:
         options = {"loc": "lower right", "bbox_to_anchor": (1.0, LEGEND_Y), "borderaxespad": 0.0, "ncols": 5, "fontsize": 7, **placement}
@@ -264,7 +264,7 @@ def add_legend(axis: Axes, **placement: Any) -> None:
 
 
 def add_figure_legend(figure: Figure, handles: list[Any], **placement: Any) -> None:
-    """Add a key of all panels outside of them."""
+    """Add a legend of the figure outside the panels."""
     options = {"fontsize": 7.5, **placement}
     for old_legend in figure.legends[:]:
         old_legend.remove()
@@ -273,28 +273,28 @@ def add_figure_legend(figure: Figure, handles: list[Any], **placement: Any) -> N
 
 
 def _store_legend(figure: Figure | None, axis: Axes | None, handles: list[Any], options: dict[str, Any]) -> None:
-    """Have a figure know how a key was made, so that it can be made in another size."""
+    """Store handles and options of a legend for redrawing at another size."""
     if isinstance(figure, StyledFigure):
         figure.keys[axis] = handles, options
 
 
 def save(figure: Figure, path: Path | str) -> None:
-    """Write a figure, whole or not at all; the suffix decides the format.
+    """Write a figure atomically in the format of the suffix.
 
     Raises
     ------
     OutputError
-        If the suffix is none of .png, .svg, .pdf, or the file cannot be written.
+        If the suffix is not .png, .svg or .pdf, or the file cannot be written.
     """
     target = Path(path)
     check_figure(target)
-    buffer = io.BytesIO()  # a disk that is full meets matplotlib's .pdf in the middle of its compression
+    buffer = io.BytesIO()  # matplotlib's PDF writer does not handle a full disk cleanly
     figure.savefig(buffer, format=target.suffix[1:].lower(), dpi=figure.dpi)
     with atomic_write(target) as temporary:
         temporary.write_bytes(buffer.getbuffer())
 
 
 def save_png(figure: Figure, stream: IO[bytes]) -> None:
-    """Write a figure as .png to an open stream."""
+    """Write a figure as PNG to an open stream."""
     figure.savefig(stream, format="png", dpi=figure.dpi)
     stream.flush()

@@ -1,4 +1,4 @@
-"""A figure inside a page, as a drawing: sharp on paper and at any size, small enough for a phone."""
+"""Embedding of figures in HTML pages as SVG, or as PNG if the SVG is large."""
 
 from __future__ import annotations
 
@@ -17,38 +17,38 @@ from matplotlib.lines import Line2D
 from seisblock.report.figures.curves import decimate
 
 MAX_POINTS = 1600
-"""What a page shows of a curve: two a dot on a screen of its widest."""
+"""Points of an embedded curve, at most: two per pixel of the widest screen."""
 
 MAX_SVG_BYTES = 600_000
-"""A drawing of more bytes, which is one of thousands of marks, is put in as a picture."""
+"""Size above which a figure is embedded as PNG."""
 
 PICTURE_DPI = 170
 
 OVER_KEY = 17.0
-"""Height of a panel's title that stands over a key of one row and hides no letter's tail behind it, points."""
+"""Offset of the title of a panel above a legend of one row, points."""
 
 CLIP = re.compile(r"\bp[0-9a-f]{10}\b")
-"""The name of a clipping path, which matplotlib makes of an address in memory."""
+"""Id of a clip path; matplotlib derives it from a memory address, which is not reproducible."""
 
 PATH = re.compile(r' d="[^"]*"')
 LONG_NUMBER = re.compile(r"(\d\.\d\d)\d+")
-"""A coordinate with more decimals than hundredths of a point."""
+"""A coordinate with more than two decimals, points."""
 
 
 class Picture(NamedTuple):
-    """A figure as a page holds it: where it is taken from, which is the page itself, and what stands below it and is read aloud."""
+    """An embedded figure: data URI, and caption (also the alternative text)."""
 
     source: str
     caption: str
 
 
 def embed_figure(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
-    """Return a figure as a page holds it: the same figure is the same page, byte by byte.
+    """Return a figure as data URI, reproducible byte by byte.
 
     Parameters
     ----------
     figure : Figure
-        Narrowed to `width`, so that its letters stay readable where the page is small.
+        Narrowed to `width`, so that text stays readable on small screens.
     caption : str
         Plain text.
     width : float, inch
@@ -69,25 +69,26 @@ def embed_figure(figure: Figure, caption: str, *, width: float = 6.0) -> Picture
 
 
 def _to_svg(figure: Figure) -> bytes:
-    """Return a figure as .svg, its coordinates to hundredths of a point."""
+    """Return a figure as SVG with coordinates to 0.01 points."""
     buffer = io.StringIO()
     with rc_context({"svg.hashsalt": "seisblock"}):
-        # the canvas itself: savefig would draw everything twice, the first time for nothing
+        # print_svg draws once; savefig would draw twice
         FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
+    # number the clip paths in order of appearance, so that the output is reproducible
     clips: dict[str, str] = {}
     svg = CLIP.sub(lambda name: clips.setdefault(name[0], f"clip{len(clips)}"), buffer.getvalue())
     return PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), svg).encode()
 
 
 def _thin_line(line: Line2D) -> None:
-    """Thin a curve against something that grows to what a page shows of it."""
+    """Decimate a curve with monotonic x to :data:`MAX_POINTS`."""
     x, y = (np.asarray(values, dtype=float) for values in (line.get_xdata(), line.get_ydata()))
     if x.size > MAX_POINTS and np.all(np.diff(x) >= 0.0):
         line.set_data(*decimate(x, y, MAX_POINTS))
 
 
 def _lift_title(axis: Axes) -> None:
-    """Lift a panel's title over its legend, which a narrow figure would draw on it."""
+    """Raise the title of a panel above its legend, which would overlap in a narrow figure."""
     title = axis.get_title(loc="left")
     if title and axis.get_legend() is not None:
         axis.set_title(title, loc="left", fontsize=8, pad=OVER_KEY)

@@ -1,4 +1,4 @@
-"""Columns of time histories on one clock: opened on the stretch that matters, with the whole record as a strip above it."""
+"""Columns of time histories on a common time axis, limited to an interval, with an overview of the full record above."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from seisblock.report.figures.curves import draw_curve
 from seisblock.report.figures.heading import panel_labels
 
 Interval = tuple[float, float]
-"""First and last time shown, s from the record's first sample."""
+"""First and last time, s from the first sample of the record."""
 
 PARTIAL_SHARE = 0.7
-"""A stretch of at least this share of the record needs no strip that shows the rest."""
+"""Intervals of at least this fraction of the record have no overview strip."""
 
 OVERVIEW_HEIGHT = 0.3
-"""Height of the strip, of a panel's."""
+"""Height of the overview strip over that of a panel."""
 
 ARIAS_RANGE = (0.05, 0.95)
-"""A record opens on the time between these shares of its Arias intensity, with a margin."""
+"""Limits of the strong motion in fractions of the Arias intensity."""
 
 
 def history_columns(
@@ -39,21 +39,21 @@ def history_columns(
     heights: Sequence[float] = (),
     narrow: bool = False,
 ) -> list[list[Axes]]:
-    """Return the panels of each motion from above downwards, all of a column on one clock that runs over its stretch.
+    """Return the panels of each motion from top to bottom, sharing the time axis of its interval.
 
     Parameters
     ----------
     figure : Figure or SubFigure
     motions : sequence of Motion
-        One per column; their horizontal acceleration is what the strip shows.
+        One per column; the overview strip shows the horizontal acceleration.
     stretches : sequence of (float, float)
-        What each column shows, s.
+        Interval of each column, s.
     rows : int, or one per column
-        Panels of a column; a shorter one leaves the places below it empty.
+        Panels of a column.
     heights : sequence of float
-        Of the rows, relative; alike when left out.
+        Relative heights of the rows; equal by default.
     narrow : bool
-        Columns stand below each other, for a figure that is no wider than one.
+        Stack the columns.
     """
     names = panel_labels(motions)
     partial = [is_partial(motion.time, stretch) for motion, stretch in zip(motions, stretches, strict=True)]
@@ -80,7 +80,7 @@ def history_columns(
 def _side_by_side(
     figure: Figure | SubFigure, counts: Sequence[int], strips: bool, tall: Sequence[float], low: float
 ) -> list[list[SubplotSpec]]:
-    """Return where the strip and the panels of columns beside each other stand."""
+    """Return the grid cells of strip and panels for columns side by side."""
     lead = [low] if strips else []
     grid = figure.add_gridspec(len(lead) + len(tall), len(counts), height_ratios=[*lead, *tall])
     return [[grid[0, index], *(grid[len(lead) + row, index] for row in range(count))] for index, count in enumerate(counts)]
@@ -89,7 +89,7 @@ def _side_by_side(
 def _stacked_layout(
     figure: Figure | SubFigure, counts: Sequence[int], partial: Sequence[bool], tall: Sequence[float], low: float
 ) -> list[list[SubplotSpec]]:
-    """Return where the strip and the panels of columns below each other stand."""
+    """Return the grid cells of strip and panels for stacked columns."""
     ratios = [[*([low] if part else []), *tall[:count]] for count, part in zip(counts, partial, strict=True)]
     grid = figure.add_gridspec(sum(map(len, ratios)), 1, height_ratios=[ratio for row_ratios in ratios for ratio in row_ratios])
     firsts = np.cumsum([0, *map(len, ratios)])
@@ -100,18 +100,18 @@ def _stacked_layout(
 
 
 def is_partial(time: FloatArray, stretch: Interval) -> bool:
-    """Return whether a stretch leaves so much of a record out, (n,) s, that a strip shows the whole of it."""
+    """Return True if an interval omits enough of a record, time (n,), s, for an overview strip."""
     first, last = float(time[0]), float(time[-1])
     return min(stretch[1], last) - max(stretch[0], first) < PARTIAL_SHARE * (last - first)
 
 
 def strong_motion_interval(motion: Motion) -> Interval:
-    """Return the strong part of a record: 5 to 95 % of its Arias intensity, with a margin, or all of it where that is most of it."""
+    """Return the strong motion of a record: 5 to 95 % of the Arias intensity, with a margin."""
     return strong_interval(motion.time, motion.horizontal)
 
 
 def strong_interval(time: FloatArray, *accelerations: FloatArray) -> Interval:
-    """Return the time in which the strong part of some accelerations lies, (n,), with a margin; all of it where they are zero.
+    """Return the interval of the strong motion of accelerations with a margin, or the full record if they are zero.
 
     Parameters
     ----------
@@ -127,13 +127,14 @@ def strong_interval(time: FloatArray, *accelerations: FloatArray) -> Interval:
             last.append(float(time[min(end, time.size - 1)]))
     if not first:
         return float(time[0]), float(time[-1])
+    # union of the intervals of all components
     start, stop = min(first), max(last)
     margin = 0.15 * (stop - start) + 1.0
     return max(start - margin, float(time[0])), min(stop + margin, float(time[-1]))
 
 
 def draw_overview(axis: Axes, motion: Motion, stretch: Interval, name: str) -> None:
-    """Draw the whole of a motion, a record or what was cut out of one, with what the panels below show of it marked.
+    """Draw the overview strip: the full motion, with the interval of the panels below shaded.
 
     Parameters
     ----------
@@ -141,7 +142,7 @@ def draw_overview(axis: Axes, motion: Motion, stretch: Interval, name: str) -> N
     motion : Motion
     stretch : (float, float)
     name : str
-        Of the component.
+        Name of the component.
     """
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(labelsize=6.5, length=2, pad=1, left=False, labelleft=False)
@@ -149,5 +150,5 @@ def draw_overview(axis: Axes, motion: Motion, stretch: Interval, name: str) -> N
     draw_curve(axis, motion.time, motion.horizontal, color=style.INPUT, linewidth=0.5)
     axis.set_xlim(motion.time[0], motion.time[-1])
     cut = motion.record is not None and is_cropped(motion.record)
-    text = N_("{name}, all that was cut out; below, what is shaded") if cut else N_("{name}, the whole record; below, what is shaded")
+    text = N_("{name}, cropped record; shaded: shown below") if cut else N_("{name}, full record; shaded: shown below")
     axis.set_title(gettext(text, name=name or gettext("record")), fontsize=7, loc="left", pad=2, parse_math=False)

@@ -1,4 +1,4 @@
-"""Uplift under a record in pictures: motion, corners and plan."""
+"""Figure of uplift under a record: ground motion, corner displacements, plan."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ Uplifts = Sequence[Response["UpliftOutcome"]]
 
 COLOURS = (style.ACCENT, style.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
 LIFTED_COLOUR = style.BANDS[0]
-IN_AIR = N_("in the air")
+IN_AIR = N_("uplift")
 SUBSCRIPTS = "₁₂₃₄"
 
 
 def record_figure(responses: Uplifts, *, gal: bool = True) -> Figure:
-    """Return ground motion, four corner displacements with uplift shaded, and a plan of which corner lifted when."""
+    """Return the figure: ground motion, four corner displacements with uplift shaded, plan with the times of uplift."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)
     return fig
 
 
 def _build_figure(responses: Uplifts, *, gal: bool, narrow: bool = False) -> style.StyledFigure:
-    """Return the figure, its columns beside or below each other, each over its plan."""
+    """Return the figure, columns side by side, or stacked if `narrow`, each above its plan."""
     motions = [response.motion for response in responses]
     columns, rows = (1, len(responses)) if narrow else (len(responses), 1)
     fig = style.titled_figure(motions_heading(motions), width=3.0 + 5.0 * columns, height=11.6 * rows)
@@ -55,7 +55,7 @@ def _build_figure(responses: Uplifts, *, gal: bool, narrow: bool = False) -> sty
 def _draw_columns(
     history_figure: SubFigure, plan_figure: SubFigure, responses: Uplifts, names: Sequence[str], disp_unit: Unit, *, gal: bool
 ) -> None:
-    """Draw columns beside each other: histories above, plans below."""
+    """Draw columns side by side: time histories above, plans below."""
     spans = [motion_interval(response) for response in responses]
     plans = plan_figure.subplots(1, len(responses), squeeze=False)[0]
     histories = history_columns(history_figure, [response.motion for response in responses], spans, 5, heights=(1.3, 1, 1, 1, 1))
@@ -70,7 +70,7 @@ def _draw_columns(
 
 
 def motion_interval(response: Response[UpliftOutcome]) -> Interval:
-    """Return the stretch of time worth drawing: the uplifts, with a margin, the record's strong part where none is."""
+    """Return the interval of uplift with a margin, or the strong motion without uplift."""
     if not response.events:
         return strong_motion_interval(response.motion)
     start, end = float(response.motion.time[0]), float(response.motion.time[-1])
@@ -83,7 +83,7 @@ def _draw_motion(panel: Axes, panel_name: str, response: Response[UpliftOutcome]
     """Draw the three components of the ground motion."""
     unit, unit_name = acceleration_unit(gal=gal)
     motion = response.motion
-    names = gettext("along {name}", name=motion.name or "x"), gettext("across"), gettext("up")
+    names = gettext("along {name}", name=motion.name or "x"), gettext("transverse"), gettext("vertical")
     for values, name, colour in zip(motion.acceleration, names, ("0.2", "0.55", style.SECOND), strict=True):
         if np.any(values):
             draw_curve(panel, motion.time, values / unit, color=colour, label=name, linewidth=0.7)
@@ -93,14 +93,14 @@ def _draw_motion(panel: Axes, panel_name: str, response: Response[UpliftOutcome]
 
 
 def _block_label(response: Response[UpliftOutcome]) -> str:
-    """Return the block in words."""
+    """Return size and vertical natural frequency of the block."""
     body = response.body
     size = f"{body.width:.3g} × {body.depth:.3g} × {body.height:.3g} m"
-    return gettext("{size}, {f:.3g} Hz vertical", size=size, f=body.omega[2] / 2 / np.pi)
+    return gettext("{size}, vertical {f:.3g} Hz", size=size, f=body.omega[2] / 2 / np.pi)
 
 
 def _draw_corner(panel: Axes, response: Response[UpliftOutcome], i: int, disp_unit: Unit) -> None:
-    """Draw the displacement of one corner, its uplift shaded."""
+    """Draw the displacement of one corner with uplift shaded."""
     corner = response.outcome.corners[i]
     draw_curve(panel, response.time, response[f"uplift_{i + 1}"] / disp_unit.size, color=style.ACCENT)
     panel.axhline(0.0, color=style.THRESHOLD, linewidth=0.6)
@@ -110,19 +110,19 @@ def _draw_corner(panel: Axes, response: Response[UpliftOutcome], i: int, disp_un
     style.label_axes(panel, y=f"u{SUBSCRIPTS[i]} ({disp_unit.name})")
     sx, sy = ("+" if sign > 0 else "−" for sign in CORNER_SIGNS[i])
     if corner.uplifts:
-        status = gettext("first at {time:.3f} s", time=corner.first_uplift_s)
+        status = gettext("first uplift {time:.3f} s", time=corner.first_uplift_s)
         if response.outcome.within_model:
             status = gettext(
-                "first at {time:.3f} s, highest {most}", time=corner.first_uplift_s, most=format_length(corner.max_uplift_m, disp_unit)
+                "first uplift {time:.3f} s, maximum {most}", time=corner.first_uplift_s, most=format_length(corner.max_uplift_m, disp_unit)
             )
     else:
-        status = gettext("never lifts")
-    title = gettext("corner {number} ({place}): {told}", number=i + 1, place=f"{sx}x, {sy}y", told=status)
+        status = gettext("no uplift")
+    title = gettext("corner {number} ({place}): {status}", number=i + 1, place=f"{sx}x, {sy}y", status=status)
     panel.set_title(title, fontsize=8, loc="left", pad=2)
 
 
 def _airborne_phases(response: Response[UpliftOutcome], i: int) -> list[Phase]:
-    """Return the stretches in which a corner is in the air."""
+    """Return the phases of uplift of a corner."""
     stretches: list[Phase] = []
     start = None
     for event in response.events:
@@ -137,7 +137,7 @@ def _airborne_phases(response: Response[UpliftOutcome], i: int) -> list[Phase]:
 
 
 def _draw_plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: float) -> None:
-    """Draw the base from above; at each corner a time line of when it was in the air."""
+    """Draw the plan of the base, with a time line of uplift at each corner."""
     body, outcome = response.body, response.outcome
     half_a, half_b = body.width / 2, body.depth / 2
     panel.grid(False)
@@ -161,22 +161,21 @@ def _draw_plan(panel: Axes, response: Response[UpliftOutcome], start: float, end
         left = x + 0.1 * body.width if sx > 0 else x - 0.1 * body.width - length
         panel.add_patch(_rectangle((left, y - tall / 2), length, tall, facecolor="white", edgecolor="0.6", linewidth=0.6))
         scale, min_width = length / (end - start), 0.002 * length
-        begins = [(left + (phase.start_s - start) * scale, phase.duration_s * scale) for phase in _airborne_phases(response, i)]
-        spans = [(begin, begin + max(wide, min_width)) for begin, wide in begins]
+        bars = [(left + (phase.start_s - start) * scale, phase.duration_s * scale) for phase in _airborne_phases(response, i)]
+        spans = [(begin, begin + max(width, min_width)) for begin, width in bars]
         panel.add_patch(span_patch(spans, y - tall / 2, y + tall / 2, facecolor=style.ACCENT, linewidth=0))
-        template = N_("{time:.2f} s in the air, the first") if first else N_("{time:.2f} s in the air")
-        text = gettext(template, time=corner.uplift_duration_s) if corner.uplifts else gettext("never lifts")
+        template = N_("uplift {time:.2f} s (first)") if first else N_("uplift {time:.2f} s")
+        text = gettext(template, time=corner.uplift_duration_s) if corner.uplifts else gettext("no uplift")
         panel.annotate(text, (left, y + tall), fontsize=7, va="bottom")
     limit = half_a + 1.3 * body.width
     panel.set_xlim(-limit, limit)
     panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)
-    lines = [gettext("plan: when each corner was in the air, {start:.1f} to {end:.1f} s", start=start, end=end)]
+    lines = [gettext("plan: uplift of each corner, {start:.1f} to {end:.1f} s", start=start, end=end)]
     if not outcome.within_model:
-        lines.append(gettext("leans beyond what the model holds for: heights are not to be believed"))
+        lines.append(gettext("tilt beyond the range of the model: uplift not reliable"))
     panel.set_title("\n".join(lines), fontsize=8, loc="left", linespacing=1.4)
     style.label_axes(panel, x="x (m)", y="y (m)")
 
 
 def _rectangle(corner: tuple[float, float], width: float, height: float, **style: Any) -> Any:
-    """Return a rectangle."""
     return Rectangle(corner, width, height, **style)

@@ -1,4 +1,4 @@
-"""Harmonic uplift in pictures: regions and frequencies."""
+"""Figures of harmonic uplift: uplift regions and natural frequencies ([Okumura1987]_)."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from seisblock.report.text.uplift_harmonic import SYMBOLS, region_title, varied_
 from seisblock.studies.uplift_regions import UpliftRegion, modal_frequencies_against
 
 STYLES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 3)))
-"""Lines that stay apart in grey."""
+"""Dash patterns, distinct in greyscale."""
 
 GROUPS = (N_("first rocking"), N_("second rocking"), N_("vertical"), N_("torsion"))
-"""How the names of modes begin."""
+"""Prefixes of the names of modes."""
 
 
 def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None) -> Figure:
-    """Return the uplift regions beside the natural frequencies; or one figure of [Okumura1987]_ alone."""
+    """Return the uplift regions and natural frequencies, or a single figure of [Okumura1987]_."""
     if figure in (3, 4):
         fig, (panel,) = style.new_figure(1, width=6.5, height=5.0)
         _draw_frequencies(panel, regions, "beta" if figure == 3 else "alpha")
@@ -41,7 +41,7 @@ def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None) 
 
 
 def _draw_regions(panel: Axes, regions: Sequence[UpliftRegion]) -> None:
-    """Draw the least A/g that lifts against theta/omega_1, as [Okumura1987]_ figs. 6 to 11."""
+    """Draw the smallest A/g with uplift over theta/omega_1, as [Okumura1987]_ figs. 6 to 11."""
     names = varied_names(regions)
     for index, region in enumerate(regions):
         colour = COLOURS[index % len(COLOURS)]
@@ -60,25 +60,25 @@ def _draw_regions(panel: Axes, regions: Sequence[UpliftRegion]) -> None:
         panel.fill_between(
             region_only.frequency_ratio, np.minimum(region_only.acceleration_ratio, 10.0), 10.0, color=LIFTED_COLOUR, alpha=0.6, linewidth=0
         )
-        panel.text(region_only.minimum.frequency_ratio, 0.8, gettext("a corner lifts"), ha="center", fontsize=8)
+        panel.text(region_only.minimum.frequency_ratio, 0.8, gettext("corner uplift"), ha="center", fontsize=8)
     panel.set_ylim(0.0, 1.0)
     panel.set_xlim(*_ratio_range(regions))
     style.label_axes(panel, x="θ/ω₁", y="A/g")
     fixed = [name for name in SYMBOLS if name not in names]
-    rule = gettext("least of four corners") if regions[0].corner is None else gettext("corner {number}", number=regions[0].corner)
+    rule = gettext("minimum of four corners") if regions[0].corner is None else gettext("corner {number}", number=regions[0].corner)
     panel.set_title(f"{region_title(regions[0], fixed)}; {rule}", fontsize=9, loc="left")
     style.add_legend(panel, ncols=1, loc="best", bbox_to_anchor=None, borderaxespad=0.5)
 
 
 def _ratio_range(regions: Sequence[UpliftRegion]) -> tuple[float, float]:
-    """Return the range of theta/omega_1 in which 1 g is enough, with some room, or all of it."""
+    """Return the range of theta/omega_1 with uplift at 1 g plus a margin, or the full range."""
     highest = max(float(region.frequency_ratio.max()) for region in regions)
     ratios = [float(r) for region in regions for r in region.frequency_ratio[region.acceleration_ratio <= 1.0]]
     return (0.0, min(highest, 1.15 * max(ratios))) if ratios else (0.0, highest)
 
 
 def _draw_frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> None:
-    """Draw omega_i / omega_V against beta (fig. 3) or alpha (fig. 4) for the other's values."""
+    """Draw omega_i / omega_V over beta (fig. 3) or alpha (fig. 4) for the values of the other parameter."""
     parameter = "alpha" if against == "beta" else "beta"
     gamma = regions[0].ratios["gamma"]
     values = np.linspace(0.01, 3.0, 150)
@@ -88,14 +88,14 @@ def _draw_frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str
         curves = modal_frequencies_against(against, values, **{against: 1.0, parameter: fixed}, gamma=gamma)
         for mode, curve in curves.items():
             group = next(name for name in groups if mode.startswith(name))
-            # vertical: one line for all; torsion: one line against beta, where alpha does not matter
+            # the vertical mode depends on neither parameter, the torsional mode not on alpha
             if index > 0 and (group == "vertical" or (group == "torsion" and against == "beta")):
                 continue
             panel.plot(values, curve, color=groups[group], linewidth=1.1, linestyle=STYLES[index % len(STYLES)])
     for group, colour in groups.items():
         panel.plot([], [], color=colour, label=gettext(group))
     for _ in range(len(groups), len(fixed_values)):
-        panel.plot([], [], " ", label=" ")  # so that each column of the key holds one kind
+        panel.plot([], [], " ", label=" ")  # pads the legend so that each column has one kind of entry
     for index, fixed in enumerate(fixed_values):
         panel.plot([], [], color="0.85", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[parameter]} = {fixed:.4g}")
     panel.set_xlim(0.0, 3.0)

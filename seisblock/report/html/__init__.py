@@ -1,1 +1,1 @@
-"""Answers as pages for a browser."""
+"""HTML pages: report, map, gallery of validation cases, notebook display."""

@@ -1,4 +1,4 @@
-"""Formulas on a page as they are printed: what a terminal shows as ``sqrt(theta_1^2)`` is √(θ₁²)."""
+"""Typesetting of plain-text formulas with Unicode: ``sqrt(theta_1^2)`` becomes √(θ₁²)."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def typeset_formulas(text: str) -> str:
-    """Return a text with Greek letters, roots, powers, indices and signs of its formulas as letters of their own.
+    """Replace names of Greek letters, roots, powers, indices and relations in a text by Unicode characters.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The gallery: every checked statement of the papers on one page, with computed drawn against expected."""
+"""Validation gallery page: published against computed values of every case, by paper."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from seisblock.report.text.validate import KINDS, explanation, format_short, qua
 from seisblock.validation.case import EVIDENCE_KINDS, VERDICTS, CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict
 
 FIELD_TEST = "furukawa-field-worn"
-"""Beginning of the keys of cases that belong to the figure of the field test, and have computed what it shows."""
+"""Prefix of the keys of the field-test cases, whose place gets the field-test figure."""
 
 VERDICT_WORDS = {"holds": N_("holds"), "differs": N_("differs"), "fails": N_("FAILS")}
-COLUMNS = (N_("expected"), N_("computed"), N_("error"), N_("tolerance"))
+COLUMNS = (N_("published"), N_("computed"), N_("error"), N_("tolerance"))
 WORD = re.compile(r"\d+|[A-Z]?[^A-Z\d]+|[A-Z]+")
-"""A name or the year of a paper's key, between which a line may end."""
+"""A word or the year of a paper key; lines may break between them."""
 
 OVERLAY_SIDE, MARGIN = 240.0, 34.0
-"""Size of the overlay figure and the room for its labels, in its own units."""
+"""Side of the overlay figure and margin for its labels, SVG units."""
 
 
 @dataclass(frozen=True)
 class Mark:
-    """The small drawing of a case: half the width of its tolerance, and where the computed value lies, None for nowhere."""
+    """Tolerance strip of a case: half width of the tolerance, and position of the computed value (or None), SVG units."""
 
     half: float
     at: float | None
@@ -38,7 +38,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Overlay:
-    """Computed against expected: points with whether they agree, the ends of both axes, what stands below, beside and under all."""
+    """Plot of computed against published values: points (x, y, agrees), labels of the axis ends, axis labels, caption."""
 
     points: tuple[tuple[float, float, bool], ...]
     first: str
@@ -52,19 +52,19 @@ class Overlay:
 
 
 def gallery(results: Sequence[CaseResult]) -> str:
-    """Return the page: a summary, what differs with its reason, then each statement with its numbers and its figure.
+    """Return the gallery page: summary, differences with their reasons, then every case with numbers and figure.
 
     Parameters
     ----------
     results : sequence of CaseResult
-        What :meth:`Case.run` gave on this machine.
+        Results of :meth:`Case.run`.
     """
     differing = [result for result in sort_by_verdict(results) if result.verdict != "holds"]
     return render_page(
         "gallery.html",
-        gettext("What the papers print, and what seisblock computes"),
+        gettext("Validation: published and computed values"),
         subtitles=[
-            gettext("Computed on this machine by seisblock validate; a tolerance is half the last printed digit, round-off, or stated.")
+            gettext("Computed by `seisblock validate` on this machine. Tolerance: half the last printed digit, round-off, or as stated.")
         ],
         lead=_summary(results),
         columns=[gettext(name) for name in COLUMNS],
@@ -76,19 +76,19 @@ def gallery(results: Sequence[CaseResult]) -> str:
 
 
 def _summary(results: Sequence[CaseResult]) -> str:
-    """Return what the page comes to, in a sentence."""
+    """Return the summary sentence of the page."""
     verdict_counts = count_verdicts(results)
     papers = len(list(_group_by_paper(results)))
-    statement = N_("1 statement") if len(results) == 1 else N_("{count} statements")
+    statement = N_("1 case") if len(results) == 1 else N_("{count} cases")
     paper = N_("1 paper") if papers == 1 else N_("{count} papers")
     phrases = lazy_gettext(statement, count=len(results)), lazy_gettext(paper, count=papers)
     return gettext(
-        "{statements} of {papers}: {verdicts}.", statements=phrases[0], papers=phrases[1], verdicts=verdict_counts_text(verdict_counts)
+        "{statements} from {papers}: {verdicts}.", statements=phrases[0], papers=phrases[1], verdicts=verdict_counts_text(verdict_counts)
     )
 
 
 def anchor(paper: str, place: str) -> str:
-    """Return by which name a place of a paper is linked to.
+    """Return the HTML anchor of a place in a paper.
 
     Parameters
     ----------
@@ -109,7 +109,6 @@ def _group_by_paper(results: Sequence[CaseResult]) -> Iterator[tuple[str, list[C
 
 
 def _paper_summary(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
-    """Return the summary of one paper."""
     verdict_counts = count_verdicts(results)
     level = "bad" if verdict_counts["fails"] else "mild" if verdict_counts["differs"] else ""
     parts = WORD.findall(paper)
@@ -122,7 +121,7 @@ def _paper_summary(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
 
 
 def _kind_counts(results: Sequence[CaseResult]) -> dict[str, Any]:
-    """Return how many cases of each kind got each verdict: what the evidence is worth."""
+    """Return the table of verdict counts by kind of evidence."""
     rows = [
         {
             "name": gettext(KINDS[kind]),
@@ -135,7 +134,7 @@ def _kind_counts(results: Sequence[CaseResult]) -> dict[str, Any]:
 
 
 def _paper_section(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
-    """Return one paper: its statements equation by equation, table by table, figure by figure."""
+    """Return the section of one paper, with one part per equation, table or figure."""
     places = dict.fromkeys(result.case.place for result in results)
     return {
         "key": paper,
@@ -146,7 +145,7 @@ def _paper_section(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
 
 
 def _place_section(place: str, results: Sequence[CaseResult]) -> dict[str, Any]:
-    """Return one equation, table or figure: its statements, its overlays, its largest difference."""
+    """Return the part of one equation, table or figure: cases, overlays, largest difference."""
     overlays = [_unit_overlay(unit_name, results) for unit_name in dict.fromkeys(unit_label(result.case) for result in results)]
     return {
         "name": place,
@@ -159,19 +158,16 @@ def _place_section(place: str, results: Sequence[CaseResult]) -> dict[str, Any]:
 
 
 def _field_test() -> Picture:
-    """Return the figure of the field test."""
     from seisblock.report.figures.field_test import figure
     from seisblock.report.figures.fonts import build_localized
     from seisblock.report.figures.svg import embed_figure
 
-    caption = gettext(
-        "Rates surveyed around six stations after the western Tottori earthquake of 2000, and those of each model of a stone."
-    )
+    caption = gettext("Overturning rates of gravestones around six stations, western Tottori earthquake 2000: survey and models.")
     return embed_figure(build_localized(figure), caption)
 
 
 def _largest_difference(results: Sequence[CaseResult]) -> str:
-    """Return the largest difference of several in words."""
+    """Return the largest difference of several cases as text."""
     worst = max(results, key=_error_in_tolerances)
     if len(results) == 1:
         return ""
@@ -184,20 +180,20 @@ def _largest_difference(results: Sequence[CaseResult]) -> str:
 
 
 def _error_in_tolerances(result: CaseResult) -> float:
-    """Return the size of a difference in tolerances."""
+    """Return the absolute error of a case over its tolerance."""
     if math.isnan(result.error):
         return math.inf
     return abs(result.error) / result.case.tolerance if result.case.tolerance else (0.0 if result.error == 0.0 else math.inf)
 
 
 def _case_rows(results: Sequence[CaseResult], *, place: bool = False) -> Iterator[dict[str, Any]]:
-    """Yield one row per case; the last of each stretch of the same note carries the note."""
+    """Yield one row per case; consecutive cases with the same note show it once, after the last."""
     for index, result in enumerate(results):
         case, note = result.case, explanation(result)
         last = index + 1 == len(results) or explanation(results[index + 1]) != note
         yield {
             "verdict": result.verdict,
-            "told": gettext(VERDICT_WORDS[result.verdict]),
+            "verdict_text": gettext(VERDICT_WORDS[result.verdict]),
             "kind": gettext(KINDS[case.kind]),
             "status": case.status,
             "statement": typeset_formulas(f"{case.paper} {case.place}: {quantity_label(result)}" if place else quantity_label(result)),
@@ -209,20 +205,20 @@ def _case_rows(results: Sequence[CaseResult], *, place: bool = False) -> Iterato
             ],
             "strip": _tolerance_mark(result),
             "why": typeset_formulas(
-                "" if not (note and last) else gettext("why: {reason}", reason=note) if result.verdict != "holds" else note
+                "" if not (note and last) else gettext("reason: {reason}", reason=note) if result.verdict != "holds" else note
             ),
         }
 
 
 def _tolerance_mark(result: CaseResult) -> Mark:
-    """Return where the computed value lies in the band of the tolerance."""
+    """Return the tolerance strip of a case."""
     half_range = max(2.0 * result.case.tolerance, 1.25 * abs(result.error) if math.isfinite(result.error) else 0.0) or 1.0
     at = None if math.isnan(result.error) else 66 + 60 * result.error / half_range
     return Mark(max(60.0 * result.case.tolerance / half_range, 1.0), at)
 
 
 def _unit_overlay(unit_name: str, results: Sequence[CaseResult]) -> Overlay | None:
-    """Return computed against expected for the cases of one unit, None for fewer than four."""
+    """Return the overlay of the cases of one unit, None for fewer than four points or equal values."""
     points = [(r.expected, r.computed, r.verdict) for r in results if unit_label(r.case) == unit_name and math.isfinite(r.computed)]
     values = [value for x, y, _ in points for value in (x, y)]
     if len(points) < 4 or max(values) == min(values):
@@ -238,7 +234,7 @@ def _unit_overlay(unit_name: str, results: Sequence[CaseResult]) -> Overlay | No
         tuple((MARGIN + at(x), 8 + Overlay.span - at(y), verdict != "differs") for x, y, verdict in points),
         format_short(min(values), 3),
         format_short(max(values), 3),
-        gettext("expected{unit}", unit=inside),
+        gettext("published{unit}", unit=inside),
         gettext("computed{unit}", unit=inside),
-        gettext("{count} values of one kind: on the line computed and expected are the same; hollow ones differ.", count=len(points)),
+        gettext("{count} values. Line: computed = published; hollow: known difference.", count=len(points)),
     )

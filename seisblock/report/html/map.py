@@ -1,4 +1,4 @@
-"""The page of an earthquake's stations: a map to move and to enlarge, a station's record and answer where it is touched, a table."""
+"""Station map page of an earthquake: interactive map, record and result of the selected station, table of stations."""
 
 from __future__ import annotations
 
@@ -31,23 +31,23 @@ from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
 
 MIN_MARGIN_DEG = 0.2
-"""How far around one station the coast is drawn."""
+"""Smallest margin of the coastline around the stations, degrees."""
 
 LEGEND = 9
-"""Colours of the scale."""
+"""Number of colours of the legend."""
 
 
 def map_page(stations: Stations, model: StationModel | None, *, gal: bool = True, surveys: Sequence[SurveyComparison] = ()) -> str:
-    """Return the page, in the language spoken; it needs no network.
+    """Return the self-contained map page in the language of the locale.
 
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
+    model : StationModel or None
     gal : bool
-        Whether accelerations are shown in gal.
-    surveys : sequence of SurveyAnswer
-        Squares on the map, and a table of their own.
+        Accelerations in gal if true, else m/s².
+    surveys : sequence of SurveyComparison
+        Surveyed cemeteries: squares on the map and a table.
     """
     answers = [answer for answer in stations.answers if answer.pga_m_s2 is not None]
     header, rows = station_rows(answers, model, gal=gal)
@@ -68,7 +68,7 @@ def map_page(stations: Stations, model: StationModel | None, *, gal: bool = True
             "at": _offset_km(map_position(stations, survey.surveyed.longitude, survey.surveyed.latitude), centre),
             "name": survey.surveyed.place,
             "colour": share_colour(survey_value(survey, model, gal=gal) / max_value),
-            "told": [[name, cell] for name, cell in zip(names[1:], row[1:], strict=True)],
+            "details": [[name, cell] for name, cell in zip(names[1:], row[1:], strict=True)],
             "failure": "",
             "outline": [],
         }
@@ -104,39 +104,39 @@ def map_page(stations: Stations, model: StationModel | None, *, gal: bool = True
 
 
 def _map_centre(stations: Stations) -> tuple[float, float]:
-    """Return the middle of the stations, degrees east and north."""
+    """Return the centre of the stations, degrees east and north."""
     places = _station_positions(stations) or [(0.0, 0.0)]
     east, north = zip(*places, strict=True)
     return 0.5 * (min(east) + max(east)), 0.5 * (min(north) + max(north))
 
 
 def _station_positions(stations: Stations) -> list[tuple[float, float]]:
-    """Return where the stations lie on the map, degrees east and north."""
+    """Return the map positions of the stations, degrees east and north."""
     return [map_position(stations, answer.longitude, answer.latitude) for answer in stations.mapped]
 
 
 def _surrounding_area(places: FloatArray) -> tuple[float, float, float, float]:
-    """Return a part of the Earth with these places and as much room on each side: west, east, south and north."""
+    """Return the bounding box (west, east, south, north) of places, extended by its larger side on each side."""
     (west, south), (east, north) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
-    room = max(east - west, north - south, MIN_MARGIN_DEG)
-    return west - room, east + room, south - room, north + room
+    margin = max(east - west, north - south, MIN_MARGIN_DEG)
+    return west - margin, east + margin, south - margin, north + margin
 
 
 def _offset_km(at: Sequence[float], centre: tuple[float, float]) -> list[float]:
-    """Return how far a place is from the middle, km to the east and to the south, as a page counts; both in degrees east and north."""
+    """Return the offset of a place from the centre, both in degrees east and north, as km east and km south (SVG axes)."""
     narrowing = math.cos(math.radians(centre[1]))
     return [round((at[0] - centre[0]) * narrowing * KM_PER_DEGREE, 3), round((centre[1] - at[1]) * KM_PER_DEGREE, 3)]
 
 
 def _station_point(answer: StationReport, row: list[str], header: list[str], colour: str, *, gal: bool) -> dict[str, Any]:
-    """Return what the page's script draws of one station."""
+    """Return the data of one station for the map script."""
     unit = acceleration_unit(gal=gal)
     details = [[column_name, cell] for column_name, cell in zip(header[1:], row[1:], strict=True)]
     return {
         "name": answer.label,
         "colour": colour,
         "falls": answer.effect.overturns_nominally,
-        "told": [*details, [gettext("record"), answer.record], [gettext("begins"), answer.local_start]],
+        "details": [*details, [gettext("record"), answer.record], [gettext("start time"), answer.local_start]],
         "failure": gettext(answer.failure) if answer.failure else "",
         "outline": [[round(value / GAL, 1) for value in pair] for pair in answer.outline],
         "peak": f"±{(answer.pga_m_s2 or 0.0) / unit.size:.4g} {unit.name}",

@@ -1,4 +1,4 @@
-"""What a value shows of itself in a notebook: its numbers as a table, and its figure."""
+"""Notebook display of values: numbers as tables, and a figure."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MEASURE_KEYS = ("components", "jma_intensity", "jma_class")
 
 
 def plot(value: Any) -> Figure:
-    """Return the figure of a response, a record, a motion or a spectrum, in the language of the locale; a notebook shows it.
+    """Return the figure of a response, record, motion, spectrum or fragility study, in the language of the locale.
 
     Parameters
     ----------
@@ -44,20 +44,19 @@ def plot(value: Any) -> Figure:
         If the model has no figure.
     """
     figure = build_localized(lambda: _figure(value))
-    # a notebook asks what it shows for its picture; pyplot, which would teach it Figures, is not used here
+    # notebooks display a Figure only where pyplot has registered a formatter; pyplot is not imported here
     vars(figure)["_repr_png_"] = lambda: _png(figure)
     return figure
 
 
 def _png(figure: Figure) -> bytes:
-    """Return a figure as .png."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
     return buffer.getvalue()
 
 
 def html(value: Any) -> str:
-    """Return a value as a notebook shows it: what it is about, its numbers, its warnings, its figure."""
+    """Return the HTML of a value for a notebook: title, numbers, warnings, figure."""
     title, numbers, warnings = _summary(value)
     return render_page(
         "notebook.html",
@@ -70,7 +69,6 @@ def html(value: Any) -> str:
 
 
 def _figure(value: Any) -> Figure:
-    """Return the figure of a value."""
     if isinstance(value, Response):
         return response_figure([value])
     from seisblock.report.figures import inputs
@@ -87,7 +85,7 @@ def _figure(value: Any) -> Figure:
 
 
 def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
-    """Return the title of a value, its numbers under the names of keys, and its warnings."""
+    """Return title, numbers by JSON key, and warnings of a value."""
     if isinstance(item, Response):
         parts = (item.model, item.motion.name, gettext(str(getattr(item.body, "name", ""))))
         return SEPARATOR.join(part for part in parts if part), to_builtins(item.outcome), item.warnings
@@ -115,12 +113,11 @@ def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
 
 
 def _peak(row: FloatArray) -> float:
-    """Return the largest absolute value."""
     return float(np.abs(row).max())
 
 
 def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]:
-    """Yield the numbers of an outcome, then a table with its name for each list of things in it."""
+    """Yield the scalar values of an outcome as a table, then one named table per list of mappings."""
     flat = {key: value for key, value in outcome.items() if not isinstance(value, (Mapping, list)) or _fits_cell(value)}
     yield "", [_row(key, [value]) for key, value in flat.items()]
     for key, value in outcome.items():
@@ -130,22 +127,24 @@ def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]
             table_name = key.replace("_", " ")
             is_truncated = len(value) > MAX_COLUMNS
             yield (
-                gettext("{things}: {shown} of {all}", things=table_name, shown=MAX_COLUMNS, all=len(value)) if is_truncated else table_name,
+                gettext("{things} ({shown} of {all})", things=table_name, shown=MAX_COLUMNS, all=len(value))
+                if is_truncated
+                else table_name,
                 rows,
             )
 
 
 MAX_COLUMNS, MAX_ENTRIES = 8, 12
-"""How many things of a list a table shows."""
+"""Columns of a table, and entries of a cell, at most."""
 
 
 def _fits_cell(value: Any) -> bool:
-    """Whether a list of plain values fits a cell."""
+    """Return True if a value is a list of plain values short enough for a cell."""
     return isinstance(value, list) and len(value) <= MAX_ENTRIES and not any(isinstance(entry, (Mapping, list)) for entry in value)
 
 
 def _row(key: str, values: Sequence[Any]) -> list[str]:
-    """Return a key as words, and its values, in the unit in which people see them."""
+    """Return a table row: heading with display unit from a JSON key, and its values in that unit."""
     name, unit = split_unit(key)
     size, unit_name = _display_unit(unit, values) if key not in ENERGIES else (1.0, unit)
     words = name.replace("_", " ")
@@ -154,11 +153,11 @@ def _row(key: str, values: Sequence[Any]) -> list[str]:
 
 
 ENERGIES = ("arias_m_s",)
-"""What has the unit of a velocity and is none."""
+"""Keys with the unit of a velocity that are not velocities, kept in m/s."""
 
 
 def _display_unit(unit: str, values: Sequence[Any]) -> tuple[float, str]:
-    """Return what one of the unit shown is worth, and its name; only accelerations, velocities and lengths have one of their own."""
+    """Return size in SI and name of the display unit; only accelerations, velocities and lengths are converted."""
     if unit == "m/s^2":
         return acceleration_unit(gal=True)
     if unit == "m/s":
@@ -170,19 +169,18 @@ def _display_unit(unit: str, values: Sequence[Any]) -> tuple[float, str]:
 
 
 def _in_unit(value: Any, size: float) -> Any:
-    """Return a value, or each of several, in a unit."""
+    """Return a value, or nested lists of values, divided by the size of a unit."""
     if isinstance(value, list):
         return [_in_unit(item, size) for item in value]
     return value / size if isinstance(value, float) and size != 1.0 else value
 
 
 def _superscript(unit: str) -> str:
-    """Return a unit with raised powers."""
+    """Return a unit with superscript exponents."""
     return unit.replace("^2", "²").replace("^3", "³")
 
 
 def _cell(value: Any) -> str:
-    """Return a value as text."""
     if isinstance(value, list):
         return join_list(_cell(entry) for entry in value) or "-"
     return gettext(value) if isinstance(value, str) and value else "-" if value in ("", None) else format_number(value)

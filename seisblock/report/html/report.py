@@ -1,4 +1,4 @@
-"""The report: one self-contained page about one record and what it does to some bodies."""
+"""HTML report: seismic response of unanchored objects to one record, on a self-contained page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.criteria.compare import unique_criteria
-from seisblock.records.qc_report import qc_summary as doubts
+from seisblock.records.qc_report import qc_summary
 from seisblock.records.site import format_local_time, get_site, source_name
 from seisblock.references import REFERENCES
 from seisblock.report.describe_wear import describe_edges
@@ -24,36 +24,36 @@ from seisblock.studies.assessment import Assessment, BodyAssessment, ModelRespon
 from seisblock.studies.criteria_comparison import CriteriaComparison
 
 NON_BREAKING_HYPHEN = "\u2011"
-"""A hyphen at which no line ends."""
+"""Hyphen without line break."""
 
 GOVERNING_KIND = "respond"
 ORDER = (GOVERNING_KIND, "rock", "slide", "jump", "uplift")
-"""Sections of a body, in this order: what it does, then the idealised models."""
+"""Sections of a body in order: full response, then the idealised models."""
 
 DRAWN_KINDS = (GOVERNING_KIND, "jump", "uplift")
-"""What has a figure; rocking and sliding by themselves are seen in that of the first."""
+"""Kinds with a figure; rocking and sliding alone are covered by the figure of the full response."""
 
 
 def report(assessment: Assessment, *, command: str = "") -> str:
-    """Return the page, in the language spoken.
+    """Return the report page in the language of the locale.
 
     Parameters
     ----------
     assessment : Assessment
     command : str
-        The command line that made it, for the provenance.
+        Command line that produced the page, for the provenance.
     """
     record = assessment.record
     read_as = record.format.replace("-", NON_BREAKING_HYPHEN)
     summary = " · ".join(part for part in (format_local_time(record, record.start), f"{record.samples} × {record.dt:g} s", read_as) if part)
     return render_page(
         "report.html",
-        gettext("What {name} does to what stands there", name=get_site(record).label or source_name(record) or gettext("record")),
+        gettext("Seismic response of unanchored objects: {name}", name=get_site(record).label or source_name(record) or gettext("record")),
         subtitles=[summary, *record_info(record)],
         processed=processing_text(record) if record.history else "",
         foot=", ".join(assessment.citations),
         contents=_contents(assessment),
-        doubts=[gettext(flag) for flag in doubts([record])],
+        doubts=[gettext(flag) for flag in qc_summary([record])],
         verdicts=[_tile(body) for body in assessment.bodies],
         record=_record(assessment),
         bodies=[_body(assessment, body) for body in assessment.bodies],
@@ -64,18 +64,18 @@ def report(assessment: Assessment, *, command: str = "") -> str:
 
 
 def _contents(assessment: Assessment) -> list[tuple[str, str]]:
-    """Return the sections of the page: where each is, and its name."""
+    """Return anchor and title of each section."""
     bodies = [(f"body-{number}", gettext(body.subject.name)) for number, body in enumerate(assessment.bodies, start=1)]
-    return [("record", gettext("The record")), *bodies, ("origin", gettext("Where this comes from"))]
+    return [("record", gettext("Ground motion record")), *bodies, ("origin", gettext("Provenance"))]
 
 
 def _effects_of_kind(body: BodyAssessment, kind: str) -> list[ModelResponse]:
-    """Return the effects of one kind, a component each."""
+    """Return the effects of one kind, one per component."""
     return [effect for effect in body.effects if effect.kind == kind]
 
 
 def _tile(body: BodyAssessment) -> dict[str, str]:
-    """Return the one card of a body: what it does in the direction in which that is worst, and how sure that is."""
+    """Return the card of a body: result in the governing direction, with its probability."""
     effects = _effects_of_kind(body, GOVERNING_KIND)
     verdict_word, text = words.card_text(effects)
     title = gettext("{name}: {what}", name=gettext(body.subject.name), what=verdict_word)
@@ -83,19 +83,19 @@ def _tile(body: BodyAssessment) -> dict[str, str]:
 
 
 def _record(assessment: Assessment) -> dict[str, Any]:
-    """Return the record: what it is in words, its peaks and frequencies with a column per component, its figure."""
+    """Return the section of the record: summary, table of intensity measures by component, figure."""
     from seisblock.report.figures.measure import measure_figure
 
     measures = assessment.measures
     lead = []
     if measures.jma_intensity is not None:
         lead.append(
-            gettext("JMA intensity {value:.2f} (class {name}).", value=measures.jma_intensity, name=gettext(measures.jma_class or ""))
+            gettext("JMA intensity {value:.2f} (class {name})", value=measures.jma_intensity, name=gettext(measures.jma_class or ""))
         )
     if measures.horizontal is not None:
         peak = measures.horizontal
         size = format_acceleration(peak.pga_m_s2, gal=True)
-        lead.append(gettext("Largest horizontal vector {size} at {time:.2f} s.", size=size, time=peak.time_s))
+        lead.append(gettext("horizontal resultant PGA {size} at {time:.2f} s", size=size, time=peak.time_s))
     parts = measures.components
     speed, disp_unit = velocity_unit(gal=True), length_unit((m.pgd_m for m in parts), gal=True)
     rows = [
@@ -104,13 +104,13 @@ def _record(assessment: Assessment) -> dict[str, Any]:
         (f"PGV ({speed.name})", *(format_number(m.pgv_m_s / speed.size) for m in parts)),
         (f"PGD ({disp_unit.name})", *(format_number(m.pgd_m / disp_unit.size) for m in parts)),
         ("f = PGA/2πPGV (Hz)", *(format_number(m.equivalent_frequency_hz.pga_pgv) for m in parts)),
-        (gettext("f, Fourier (Hz)"), *(format_number(m.equivalent_frequency_hz.fourier) for m in parts)),
-        (gettext("Arias (m/s)"), *(format_number(m.arias_m_s) for m in parts)),
+        (gettext("f, Fourier peak (Hz)"), *(format_number(m.equivalent_frequency_hz.fourier) for m in parts)),
+        (gettext("Arias intensity (m/s)"), *(format_number(m.arias_m_s) for m in parts)),
         (gettext("duration, 5-95 % (s)"), *(format_seconds(m.significant_duration_s) for m in parts)),
     ]
-    caption = gettext("Acceleration, velocity and spectra of the record.")
+    caption = gettext("Acceleration, velocity and spectra of the record")
     return {
-        "lead": join_sentences(lead),
+        "lead": join_list(lead),
         "headings": ["", *(m.component for m in parts)],
         "rows": rows,
         "picture": embed_figure(build_localized(lambda: measure_figure(assessment.record, measures)), caption),
@@ -119,7 +119,7 @@ def _record(assessment: Assessment) -> dict[str, Any]:
 
 
 def _body(assessment: Assessment, body: BodyAssessment) -> dict[str, Any]:
-    """Return one body: what it is, then a section for each kind of motion."""
+    """Return the section of one body: dimensions, then one part per kind of motion."""
     block, friction = body.subject.block, body.subject.mu
     facts = [
         f"{block.width:.3g} × {block.height:.3g} m",
@@ -133,7 +133,7 @@ def _body(assessment: Assessment, body: BodyAssessment) -> dict[str, Any]:
 
 
 def _models(body: BodyAssessment) -> list[list[str]]:
-    """Return the idealised models as rows: what each says in each component, and from which factor on the record it begins."""
+    """Return one row per idealised model and component: result, and factor on the record at which motion begins."""
     rows = []
     for kind in ORDER[1:]:
         for effect in _effects_of_kind(body, kind):
@@ -143,7 +143,7 @@ def _models(body: BodyAssessment) -> list[list[str]]:
 
 
 def _section(assessment: Assessment, body: BodyAssessment, kind: str) -> dict[str, Any]:
-    """Return one kind of motion: in words, then in pictures."""
+    """Return the part of one kind of motion: sentences, warnings, figures."""
     effects = _effects_of_kind(body, kind)
     worst = max(effects, key=words.rank)
     return {
@@ -157,14 +157,14 @@ def _section(assessment: Assessment, body: BodyAssessment, kind: str) -> dict[st
 
 
 def _picture(effect: ModelResponse, *, of: int) -> Picture:
-    """Return the figure of the worst of several effects, or of one where none is worse."""
-    text = N_("{what}, {name}") if of == 1 else N_("{what}, {name}, the worst direction")
+    """Return the figure of an effect; the caption marks the governing one of several."""
+    text = N_("{what}, {name}") if of == 1 else N_("{what}, {name} (governing direction)")
     caption = gettext(text, name=effect.response.motion.name, what=gettext(words.SECTIONS[effect.kind]))
     return embed_figure(build_localized(lambda: response_figure([effect.response])), caption)
 
 
 def _criteria(assessment: Assessment, body: BodyAssessment, effects: Sequence[ModelResponse]) -> dict[str, Any]:
-    """Return the criteria beside the simulated truth."""
+    """Return the comparison of overturning criteria with the simulation."""
     from seisblock.report.figures.criteria import figure
 
     measures = {m.component: m for m in assessment.measures.components}
@@ -180,14 +180,14 @@ def _criteria(assessment: Assessment, body: BodyAssessment, effects: Sequence[Mo
     for card in cards:
         rows = unique_criteria(card.rows)
         right = sum(row.overturns == card.outcome.overturned for row in rows)
-        text = N_("{name}: {right} of {all} criteria agree with the simulation.")
+        text = N_("{name}: {right} of {all} criteria agree with the simulation")
         sentences.append(gettext(text, name=card.component, right=right, all=len(rows)))
-    caption = gettext("Demand over threshold: right of 1 a criterion says that the body falls.")
+    caption = gettext("Demand / threshold; a criterion predicts overturning above 1")
     return {"sentences": sentences, "picture": embed_figure(build_localized(lambda: figure(cards)), caption)}
 
 
 def _provenance(assessment: Assessment, command: str) -> list[tuple[str, str]]:
-    """Return where everything comes from."""
+    """Return name and value of each item of the provenance."""
     record, corner = assessment.record, assessment.measures.conventions.velocity_highpass_hz
     return [
         (gettext("file"), source_name(record) or DASH),
@@ -196,5 +196,5 @@ def _provenance(assessment: Assessment, command: str) -> list[tuple[str, str]]:
         (gettext("processing"), processing_text(record)),
         (gettext("gravity"), f"{assessment.gravity:g} m/s²"),
         (gettext("velocity"), gettext("high-pass {corner:g} Hz", corner=corner) if corner else DASH),
-        (gettext("command"), command or gettext("none, made in Python")),
+        (gettext("command"), command or gettext("none (called from Python)")),
     ]

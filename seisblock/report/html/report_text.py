@@ -1,4 +1,4 @@
-"""The sentences of the report, about any effect."""
+"""Sentences of the HTML report on the response of one model."""
 
 from __future__ import annotations
 
@@ -10,46 +10,47 @@ from seisblock.core.i18n import N_, gettext
 from seisblock.models.jump.chain import JUMPED
 from seisblock.report.directions import direction_label, format_displacement, with_direction
 from seisblock.report.text.respond import probability_sentence, variation_text
-from seisblock.report.text.respond import verdict as told
+from seisblock.report.text.respond import verdict as respond_verdict
 from seisblock.report.text.rock import lean_text
 from seisblock.report.units_display import format_length, format_size, length_unit
 from seisblock.studies.assessment import ModelResponse
 
 SECTIONS = {
-    "respond": N_("What it does"),
+    "respond": N_("Full response"),
     "rock": N_("Rocking and overturning"),
     "slide": N_("Sliding"),
     "jump": N_("Jump of the two-layer block"),
-    "uplift": N_("Uplift from corner springs"),
+    "uplift": N_("Uplift on corner springs"),
 }
 LIMITS = N_(
-    "Each model is rigid and planar but for uplift. What it does is followed with all of its motions together; the idealised models "
-    "follow one motion each, by itself. Rocking is sensitive: read shares and margins before the verdict."
+    "All models are rigid and plane, except uplift. The full response combines rest, sliding, rocking and flight; the idealised models "
+    "have one mode of motion each. Rocking is sensitive to small changes of the input: rely on probabilities and margins rather than on "
+    "a single result."
 )
 
 SEVERE = 2.0
-"""Severity from which a body falls or jumps."""
+"""Severity of overturning and of a jump."""
 
 
 def rank(effect: ModelResponse) -> tuple[float, float]:
-    """Return what makes one direction worse than another: in what share of its versions the body falls there, then its verdict as given."""
+    """Return the sort key of severity of a direction: overturning probability, then severity of the nominal body."""
     return _overturned_share(effect), severity(effect)
 
 
 def severity_class(effects: Sequence[ModelResponse]) -> str:
-    """Return the class of a card: a body that falls in any direction, one that moves or falls in some version, or neither."""
+    """Return the CSS class of a card: ``bad`` for overturning, ``mild`` for motion or overturning of some sample, else empty."""
     worst = max(map(severity, effects))
     return "bad" if worst >= SEVERE else "mild" if worst > 0.0 or any(map(_overturned_share, effects)) else ""
 
 
 def _overturned_share(effect: ModelResponse) -> float:
-    """Return the share of versions that fall, 0 where none was followed."""
+    """Return the overturning probability, 0 without samples."""
     run = effect.governing
     return 0.0 if run is None or run.probability is None else run.probability.overturned
 
 
 def severity(effect: ModelResponse) -> float:
-    """Return how bad an effect is: 0 nothing happens, below ``BAD`` the body moves, from there on it falls or jumps."""
+    """Return the severity of a response: 0 no motion, below :data:`SEVERE` motion, from there on overturning or a jump."""
     outcome = effect.response.outcome
     if effect.kind == "respond":
         motion_measure = max(outcome.max_rotation_ratio, outcome.slip_path_m)
@@ -64,40 +65,40 @@ def severity(effect: ModelResponse) -> float:
 
 
 def _jump_displacement(effect: ModelResponse) -> float:
-    """Return how far from where it stood a block that jumped is in the end, m."""
+    """Return the residual displacement of a jump, m."""
     return float(effect.response.outcome.final_displacement_m)
 
 
 def verdict(effect: ModelResponse) -> str:
-    """Return what one model says of one direction, in a few words."""
+    """Return the result of one model in one direction as a short text."""
     outcome, name = effect.response.outcome, effect.response.motion.name
     if effect.kind == "respond":
-        return told(effect.response)
+        return respond_verdict(effect.response)
     if effect.kind == "rock":
         if outcome.overturned:
-            return gettext("overturns to {side}", side=direction_label(name, outcome.overturned_towards))
+            return gettext("overturning to {side}", side=direction_label(name, outcome.overturned_towards))
         if outcome.rocks:
-            return gettext("rocks and stands: {way}", way=lean_text(outcome.max_rotation_ratio))
-        return gettext("stands still")
+            return gettext("rocking without overturning, {way}", way=lean_text(outcome.max_rotation_ratio))
+        return gettext("no motion")
     if effect.kind == "slide":
         if not outcome.slips:
-            return gettext("does not slide")
+            return gettext("no sliding")
         if format_size(outcome.max_slip_m) != format_length(outcome.max_slip_m):
-            return gettext("slides {path} in all", path=format_size(outcome.path_m))
-        return gettext("slides up to {most}", most=format_length(outcome.max_slip_m))
+            return gettext("total sliding path {path}", path=format_size(outcome.path_m))
+        return gettext("maximum sliding displacement {most}", most=format_length(outcome.max_slip_m))
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
-            return gettext("jumps {moved}", moved=format_displacement(_jump_displacement(effect), name))
-        return gettext("rocks without jumping" if outcome.chains else "stands still")
+            return gettext("jump, displacement {moved}", moved=format_displacement(_jump_displacement(effect), name))
+        return gettext("rocking without jump" if outcome.chains else "no motion")
     if not outcome.uplifts:
-        return gettext("no corner lifts")
+        return gettext("no uplift")
     if not outcome.within_model:
-        return gettext("corner {corner} lifts, how far is beyond the model", corner=outcome.corner)
-    return gettext("corner {corner} lifts, up to {most}", corner=outcome.corner, most=format_length(outcome.max_uplift_m))
+        return gettext("uplift of corner {corner} beyond the range of the model", corner=outcome.corner)
+    return gettext("uplift of corner {corner}, maximum {most}", corner=outcome.corner, most=format_length(outcome.max_uplift_m))
 
 
 def sentences(effect: ModelResponse) -> Iterator[str]:
-    """Yield what happened and with what margin, in words."""
+    """Yield sentences on the response and its margin."""
     if effect.kind == "respond":
         yield from governing_text(effect)
         return
@@ -110,19 +111,19 @@ def sentences(effect: ModelResponse) -> Iterator[str]:
 
 
 def governing_text(effect: ModelResponse) -> Iterator[str]:
-    """Yield what the body does, how sure that is, and which friction it rests on."""
+    """Yield sentences on the full response, its probability, and an assumed friction."""
     run = effect.governing
     assert run is not None
-    yield told(effect.response)
+    yield respond_verdict(effect.response)
     if run.probability is not None:
         yield capitalize(probability_sentence(run.probability))
     options = effect.response.options
     if not run.friction_known:
-        yield gettext("No friction was given: {mu:.2f} is taken, at which a foot hardly slips.", mu=options["mu"])
+        yield gettext("Friction not given; assumed coefficient {mu:.2f} (almost no sliding).", mu=options["mu"])
 
 
 def card_text(effects: Sequence[ModelResponse]) -> tuple[str, list[str]]:
-    """Return the head and the text of a body's card: the worst direction, each other one in which it may fall, what a share is worth."""
+    """Return head and text of a card: governing direction, other directions with possible overturning, caveats."""
     worst, *remaining = sorted(effects, key=rank, reverse=True)
     head, *text = [*governing_text(worst), *share_caveat(worst)]
     for effect in remaining:
@@ -132,75 +133,75 @@ def card_text(effects: Sequence[ModelResponse]) -> tuple[str, list[str]]:
 
 
 def share_caveat(effect: ModelResponse) -> Iterator[str]:
-    """Yield what it is worth that no version falls, or that all of them do."""
+    """Yield the observed error rate of predictions with no or all samples overturned."""
     if effect.governing is None or effect.governing.probability is None:
         return
     if _overturned_share(effect) == 0.0:
-        yield gettext("In runs of two granite rocks on shaking tables 3 % fell where no version did.")
+        yield gettext("In shaking-table runs of two granite rocks, 3 % of those predicted 0/20 overturned.")
     elif _overturned_share(effect) == 1.0:
-        yield gettext("In runs of two granite rocks on shaking tables 2 % stood where every version fell.")
+        yield gettext("In shaking-table runs of two granite rocks, 2 % of those predicted 20/20 did not overturn.")
 
 
 def scatter_text(effects: Sequence[ModelResponse]) -> str:
-    """Return what was varied in the versions of a body, as a sentence; nothing where none were followed."""
+    """Return the varied parameters of the samples as a sentence, empty without samples."""
     for effect in effects:
         if effect.governing is not None and effect.governing.probability is not None:
-            return gettext("Shares are {varied}.", varied=variation_text(effect.governing.probability, effect.response.body))
+            return gettext("{varied}.", varied=variation_text(effect.governing.probability, effect.response.body))
     return ""
 
 
 def capitalize(text: str) -> str:
-    """Return a text with a capital letter, where its language has them."""
+    """Return a text with an initial capital."""
     return text[:1].upper() + text[1:]
 
 
 _ONSETS = {
-    "rock": N_("Rocking begins at {factor:.2f} times this record."),
-    "slide": N_("Sliding begins at {factor:.2f} times this record."),
-    "jump": N_("The chain begins at {factor:.2f} times this record."),
-    "uplift": N_("A corner just lifts at {factor:.2f} times this record."),
+    "rock": N_("Onset of rocking at {factor:.2f} times this record."),
+    "slide": N_("Onset of sliding at {factor:.2f} times this record."),
+    "jump": N_("Onset of the rocking-jump sequence at {factor:.2f} times this record."),
+    "uplift": N_("Onset of uplift at {factor:.2f} times this record."),
 }
 
 
 def _rock(effect: ModelResponse, outcome: Any) -> Iterator[str]:
-    """Yield rocking and its margins."""
+    """Yield sentences on rocking and its margins."""
     if not outcome.rocks:
-        yield gettext("The body stands still.")
+        yield gettext("No motion.")
     elif outcome.overturned:
         fall_time = math.nan if outcome.overturning_time_s is None else outcome.overturning_time_s
         if outcome.decided_after_record:
-            text = N_("The body overturns to {side} after the record's end; it lies down at {time:.2f} s.")
+            text = N_("Overturning to {side} after the end of the record, at {time:.2f} s.")
         else:
-            text = N_("The body overturns to {side}; it lies down at {time:.2f} s.")
+            text = N_("Overturning to {side} at {time:.2f} s.")
         yield gettext(text, side=direction_label(effect.response.motion.name, outcome.overturned_towards), time=fall_time)
     else:
-        text = N_("The body rocks from {time:.2f} s and stands; largest lean: {way}.")
+        text = N_("Rocking from {time:.2f} s without overturning; {way}.")
         yield gettext(text, time=outcome.rocking_start_s, way=lean_text(outcome.max_rotation_ratio))
     margin = effect.margin
     if margin is not None:
         if margin.nearest_flip is None:
-            yield gettext("The verdict is the same at every factor up to {limit:g}.", limit=margin.limit)
+            yield gettext("Same result at all scale factors up to {limit:g}.", limit=margin.limit)
         else:
-            yield gettext("The verdict changes next at {factor:.3f} times this record.", factor=margin.nearest_flip)
+            yield gettext("Nearest change of the result at scale factor {factor:.3f}.", factor=margin.nearest_flip)
         first = next((window for window in margin.windows if window.overturned), None)
         if first is not None:
-            yield gettext("Of the factors looked at, all below {factor:.3f} let it stand.", factor=first.first)
+            yield gettext("No overturning at the scale factors examined below {factor:.3f}.", factor=first.first)
     if outcome.flips_at_factor is not None:
         text = (
-            N_("At {factor:.3f} times this record it would stand.")
+            N_("No overturning at {factor:.3f} times this record.")
             if outcome.overturned
-            else N_("At {factor:.3f} times this record it would fall.")
+            else N_("Overturning at {factor:.3f} times this record.")
         )
         yield gettext(text, factor=outcome.flips_at_factor)
 
 
 def _slide(effect: ModelResponse, outcome: Any) -> Iterator[str]:
-    """Yield sliding."""
+    """Yield sentences on sliding."""
     if not outcome.slips:
-        yield gettext("Friction holds throughout.")
+        yield gettext("No sliding.")
         return
     unit = length_unit([outcome.max_slip_m], gal=True)
-    text = N_("The body slides from {start:.2f} s, up to {most} at {time:.2f} s; {rest} remain.")
+    text = N_("Sliding from {start:.2f} s; maximum displacement {most} at {time:.2f} s, residual displacement {rest}.")
     yield gettext(
         text,
         start=outcome.slip_start_s,
@@ -211,13 +212,13 @@ def _slide(effect: ModelResponse, outcome: Any) -> Iterator[str]:
 
 
 def _jump(effect: ModelResponse, outcome: Any) -> Iterator[str]:
-    """Yield the chains of a jump."""
+    """Yield sentences on each rocking-jump sequence."""
     if not outcome.chains:
-        yield gettext("The ground acceleration never exceeds the rocking threshold.")
+        yield gettext("The ground acceleration does not exceed the rocking threshold.")
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
             displacement = chain.total_displacement_m or 0.0
-            text = N_("Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {moved}; the centroid rises by {rise}.")
+            text = N_("Sequence {number}: rocking {rock:.3f} s, flight {fly:.3f} s, displacement {moved}, rise of the centroid {rise}.")
             yield gettext(
                 text,
                 number=number,
@@ -227,23 +228,23 @@ def _jump(effect: ModelResponse, outcome: Any) -> Iterator[str]:
                 rise=format_length(chain.max_rise_m or 0.0),
             )
         else:
-            yield gettext("Chain {number}: {outcome}.", number=number, outcome=gettext(chain.outcome))
+            yield gettext("Sequence {number}: {outcome}.", number=number, outcome=gettext(chain.outcome))
 
 
 def _uplift(effect: ModelResponse, outcome: Any) -> Iterator[str]:
-    """Yield uplift."""
+    """Yield sentences on uplift."""
     if not outcome.uplifts:
-        yield gettext("No corner leaves its spring.")
+        yield gettext("No corner separates from its spring.")
         return
     if not outcome.within_model:
         text = N_(
-            "Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold."
+            "First uplift at corner {corner}, {time:.2f} s; the subsequent tilt exceeds the range of this model, which neglects P-delta."
         )
         yield gettext(text, corner=outcome.corner, time=outcome.first_uplift_s)
         return
     text = N_(
-        "Corner {corner} lifts first, at {time:.2f} s; up to {most}, {total:.2f} s in the air; "
-        "largest force {ratio:.1f} times the static one."
+        "First uplift at corner {corner}, {time:.2f} s; maximum {most}, total duration {total:.2f} s; "
+        "maximum contact force {ratio:.1f} times the static force."
     )
     yield gettext(
         text,

@@ -1,1 +1,1 @@
-"""Output files of answers: time histories, tables and their formats."""
+"""Output files: time histories, tables and their formats."""

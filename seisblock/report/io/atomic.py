@@ -1,4 +1,4 @@
-"""The one place that decides where an output may go, and writes it so that nothing that is there is ever harmed."""
+"""Atomic output files: checks of the target, and replacement of the old file only by a complete new one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 
 from seisblock.core.errors import OutputError, SeisblockError, os_error_text
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.io.csv_safety import escape_formula, unescape_formula
 from seisblock.core.io.locking import PREFIX, file_lock, remove_stale
 from seisblock.core.io.overwrite import check_not_input, mark_written
@@ -26,25 +25,25 @@ from seisblock.core.typing import FloatArray
 from seisblock.records import Record
 
 FIGURE_SUFFIXES, ANIMATION_SUFFIXES = (".png", ".svg", ".pdf"), (".gif", ".mp4", ".html")
-"""What a figure and an animation may be."""
+"""Suffixes of figures and of animations."""
 
 TIME_DECIMALS = 9
-"""Of the times of samples, s: what is beyond is round-off."""
+"""Decimals of sample times, s; further digits are round-off."""
 
 ENCODING_ERRORS = "backslashreplace"
-"""How bytes in names of files that are no UTF-8 are written."""
+"""Error handler for bytes of file names that are not UTF-8."""
 
 
 @contextlib.contextmanager
 def atomic_write(path: Path | str) -> Iterator[Path]:
-    """Give a temporary name, and move what was written there to `path` when the block ends well.
+    """Yield a temporary file that replaces `path` when the block succeeds.
 
-    A link is followed, a device or a pipe is written into, and what cannot be written whole leaves the old file as it was.
+    Links are followed; devices and pipes are written into. After an error the old file is unchanged.
 
     Raises
     ------
     OutputError
-        If it is a directory, lies in none, is read-only, is a file that is read or another output, or if the disk is full.
+        If `path` is a folder, an input file, another output or read-only, its folder does not exist, or the disk is full.
     """
     target = Path(path)
     try:
@@ -56,7 +55,7 @@ def atomic_write(path: Path | str) -> Iterator[Path]:
                 with real.open("wb") as stream:
                     stream.write(temporary.read_bytes())
             return
-        # named before it is made: an interruption at any instant finds it here
+        # the name exists before the file does, so that the cleanup below works after an interrupt at any instant
         temporary = real.parent / f"{PREFIX}{secrets.token_hex(6)}{target.suffix[-20:]}"
         try:
             temporary.touch(mode=0o600, exist_ok=False)
@@ -71,133 +70,137 @@ def atomic_write(path: Path | str) -> Iterator[Path]:
     except (SeisblockError, BrokenPipeError):
         raise
     except OSError as error:
-        note = lazy_gettext("; what was there is unchanged") if target.is_file() else ""
-        raise OutputError("cannot write {target}: {reason}{kept}", target=target, reason=os_error_text(error), kept=note) from error
+        text = "cannot write {target}: {reason}; the existing file is unchanged" if target.is_file() else "cannot write {target}: {reason}"
+        raise OutputError(text, target=target, reason=os_error_text(error)) from error
     mark_written(real)
 
 
 def check_target(path: Path | str) -> Path:
-    """Return the file that a name leads to, links followed, if an output may go there.
+    """Return the resolved path of an output file after checking that it can be written.
 
     Raises
     ------
     OutputError
-        If it may not, in one sentence.
+        If the file cannot be written.
     """
     target = Path(path)
     if target.exists() and not (target.is_file() or target.is_dir()):
-        return target  # a name such as /dev/fd/63 leads to a pipe, which has no other
+        return target  # a pipe such as /dev/fd/63 has no resolved path
     try:
         target.stat()
     except OSError as error:
         if error.errno == errno.ELOOP:
-            raise OutputError("cannot write {target}: {reason}{kept}", target=target, reason=os_error_text(error), kept="") from error
+            raise OutputError("cannot write {target}: {reason}", target=target, reason=os_error_text(error)) from error
     real = target.resolve()
     if real.is_dir():
-        raise OutputError("{target} is a directory: give a file name", target=target)
+        raise OutputError("{target} is a folder: give a file name", target=target)
     if not real.parent.is_dir():
         raise OutputError(
-            "cannot write {target}: there is no directory {parent}",
+            "cannot write {target}: the folder {parent} does not exist",
             target=target,
             parent=real.parent if target.is_symlink() else target.parent,
         )
     if real.is_file() and not real.stat().st_mode & 0o222:
-        raise OutputError("{target} is read-only: make it writable, or give another name", target=target)
+        raise OutputError("{target} is read-only: make the file writable or give another name", target=target)
     check_not_input(target)
     return real
 
 
 def check_distinct_outputs(*targets: Path | str | None) -> None:
-    """Refuse, before anything is written, outputs that cannot all be written: see :func:`check_target`.
+    """Check, before anything is written, that outputs are writable and distinct; see :func:`check_target`.
 
     Raises
     ------
     OutputError
-        If one may not be written, or two are one file.
+        If an output cannot be written, or two outputs are the same file.
     """
     targets_by_path: dict[Path, Path] = {}
     for target in (Path(path) for path in targets if path is not None):
         real = check_target(target)
         if real in targets_by_path and (real.is_file() or not real.exists()):
             raise OutputError(
-                "{first} and {target} are one file: give each output its own name", first=targets_by_path[real], target=target
+                "{first} and {target} are the same file: give every output its own name", first=targets_by_path[real], target=target
             )
         targets_by_path[real] = target
 
 
 def check_figure(path: Path | str) -> None:
-    """Refuse a figure whose name does not say its format.
+    """Check the suffix of a figure file.
 
     Raises
     ------
     OutputError
-        If the suffix is none of ``FIGURES``.
+        If the suffix is not in :data:`FIGURE_SUFFIXES`.
     """
     if Path(path).suffix.lower() not in FIGURE_SUFFIXES:
-        raise OutputError("cannot draw {target}: the name must end in {suffixes}", target=path, suffixes=list(FIGURE_SUFFIXES))
+        raise OutputError(
+            "cannot save the figure as {target}: the name must end in {suffixes}", target=path, suffixes=list(FIGURE_SUFFIXES)
+        )
 
 
 def check_animation(path: Path | str) -> None:
-    """Refuse an animation whose name does not say its format, or that nothing here can write.
+    """Check the suffix of an animation file, and that ffmpeg is available for .mp4.
 
     Raises
     ------
     OutputError
-        If the suffix is none of ``FILMS``, or ffmpeg is missing for .mp4.
+        If the suffix is not in :data:`ANIMATION_SUFFIXES`, or ffmpeg is missing for .mp4.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in ANIMATION_SUFFIXES:
-        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=path, suffixes=list(ANIMATION_SUFFIXES))
+        raise OutputError(
+            "cannot save the animation as {target}: the name must end in {suffixes}", target=path, suffixes=list(ANIMATION_SUFFIXES)
+        )
     if suffix == ".mp4" and find_ffmpeg() is None:
-        text = "cannot write {suffix}: ffmpeg is not installed, nor is the package imageio-ffmpeg; write a .gif or a .html instead"
+        text = "cannot write {suffix}: ffmpeg not found; install ffmpeg or the package imageio-ffmpeg, or write .gif or .html"
         raise OutputError(text, suffix=suffix)
 
 
 def find_ffmpeg() -> str | None:
-    """Return the program that makes an .mp4: that of the system, else that of the package imageio-ffmpeg; None where there is neither."""
+    """Return the path of ffmpeg: that of the system, else that of the package imageio-ffmpeg; None if neither is installed."""
     program = shutil.which("ffmpeg")
     if program is None and find_spec("imageio_ffmpeg") is not None:
-        with contextlib.suppress(RuntimeError):  # the package stands there without its program
+        with contextlib.suppress(RuntimeError):  # imageio-ffmpeg may be installed without its binary
             return str(import_module("imageio_ffmpeg").get_ffmpeg_exe())
     return program
 
 
 def _umask() -> int:
-    """Return the process's file mode mask."""
+    """Return the file mode mask of the process."""
     mask = os.umask(0)
     os.umask(mask)
     return mask
 
 
 def write_text(path: Path | str, text: str) -> None:
-    """Write a text file in UTF-8, whole or not at all."""
+    """Write a UTF-8 text file atomically."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8", errors=ENCODING_ERRORS)
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder, unless it is there.
+    """Create a folder and its parents if they do not exist.
 
     Raises
     ------
     OutputError
-        If it cannot be made, or is a file.
+        If the folder cannot be created, or a file has its name.
     """
     if folder.exists() and not folder.is_dir():
-        raise OutputError("cannot write into {directory}: it is a file; give a directory", directory=folder)
+        raise OutputError("cannot write into {directory}: a file, not a folder; give a folder", directory=folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError("cannot make the directory {directory}: {reason}", directory=folder, reason=os_error_text(error)) from error
+        raise OutputError("cannot create the folder {directory}: {reason}", directory=folder, reason=os_error_text(error)) from error
 
 
 def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
-    """Write records as CSV with all their digits, one file each, into a folder that is made if need be; return the files.
+    """Write records as CSV at full precision, one file per record, into a folder that is created if needed; return the files.
 
     Raises
     ------
     OutputError
-        If the folder cannot be made, or a file not be written.
+        If the folder cannot be created or a file cannot be written.
     """
     make_folder(folder)
     paths = []
@@ -210,7 +213,7 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
 
 
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows as CSV; floats keep all their digits, and no text of a record's becomes a formula of a spreadsheet."""
+    """Write rows as CSV at full precision; text that a spreadsheet would read as a formula is escaped."""
     with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8", errors=ENCODING_ERRORS, newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)
@@ -218,12 +221,12 @@ def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence
 
 
 def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
-    """Yield the rows of a table that was written here, with cells of the types of its columns, None where empty.
+    """Yield the rows of a CSV batch table, cells converted to the types of the columns, None where empty.
 
     Raises
     ------
     OutputError
-        If it has other columns, or cannot be read.
+        If the columns differ or the table cannot be read.
     """
     with table_errors(path), path.open(encoding="utf-8", newline="") as stream:
         rows = csv.DictReader(stream)
@@ -234,30 +237,30 @@ def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, An
 
 @contextlib.contextmanager
 def table_errors(path: Path) -> Iterator[None]:
-    """Say in one sentence that a file is not the table that was written here."""
+    """Convert errors of reading a batch table to :class:`OutputError`."""
     try:
         yield
     except SeisblockError:
         raise
-    except (OSError, ValueError, csv.Error) as error:  # pyarrow's errors are among these
-        raise OutputError("{path} is no table of a batch: {error}", path=path, error=str(error)[:200]) from error
+    except (OSError, ValueError, csv.Error) as error:  # pyarrow's errors are subclasses of these
+        raise OutputError("cannot read {path} as a batch table: {error}", path=path, error=str(error)[:200]) from error
 
 
 def check_columns(path: Path, header: Iterable[str], columns: Iterable[str]) -> None:
-    """Refuse a table that has other columns than it should."""
+    """Raise OutputError if the columns of a table differ from those expected."""
     if list(header) != list(columns):
-        raise OutputError("{path} is a table with other columns: give another name", path=path)
+        raise OutputError("the columns of {path} differ from those of this table: give another name", path=path)
 
 
 def _parse_cell(text: str, kind: type) -> Any:
-    """Return what a cell says."""
+    """Return the value of a CSV cell, None if empty."""
     if text == "":
         return None
     return text == str(True) if kind is bool else unescape_formula(text) if kind is str else kind(text)
 
 
 def normalize_zeros(values: FloatArray) -> list[float]:
-    """Return the numbers of a column as they are written: a zero has no sign.
+    """Return a column as numbers without negative zeros.
 
     Examples
     --------

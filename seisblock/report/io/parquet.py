@@ -1,4 +1,4 @@
-"""A table as Apache Parquet, the types of its columns kept."""
+"""Typed tables as Apache Parquet."""
 
 from __future__ import annotations
 
@@ -11,31 +11,31 @@ from seisblock.core.errors import OutputError
 from seisblock.report.io.atomic import ENCODING_ERRORS, atomic_write, check_columns, table_errors
 
 ROWS_PER_BLOCK = 50_000
-"""Rows that are held and written at a time."""
+"""Rows per record batch."""
 
 
 def check_parquet() -> None:
-    """Refuse to write Parquet where its package is missing.
+    """Check that pyarrow is installed.
 
     Raises
     ------
     OutputError
-        If so, with what installs it.
+        If pyarrow is missing.
     """
     try:
-        import pyarrow.parquet  # noqa: F401 - only whether it is there
+        import pyarrow.parquet  # noqa: F401 - availability check
     except ImportError as error:
-        raise OutputError("a .parquet needs pyarrow: pip install 'seisblock[parquet]', or write a .csv") from error
+        raise OutputError("writing .parquet requires pyarrow: run pip install 'seisblock[parquet]', or write .csv") from error
 
 
 def write_parquet(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows as Parquet, whole or not at all.
+    """Write rows as Parquet atomically.
 
     Parameters
     ----------
     path : Path
     columns : mapping of str to type
-        Names, and bool, int, float or str.
+        Column names and types: bool, int, float or str.
     rows : iterable of sequences
         Cells in the order of the columns, None where empty.
     """
@@ -52,17 +52,17 @@ def write_parquet(path: Path, columns: Mapping[str, type], rows: Iterable[Sequen
 
 
 def _encode_cell(cell: Any) -> Any:
-    """Return a cell in letters that there are: bytes in the name of a file that are no UTF-8 are spelt out."""
+    """Return a cell with bytes that are not UTF-8 (from file names) escaped."""
     return cell.encode(errors=ENCODING_ERRORS).decode() if isinstance(cell, str) else cell
 
 
 def read_parquet(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
-    """Yield the rows of a table that was written here, None where a cell is empty.
+    """Yield the rows of a Parquet batch table, None where a cell is empty.
 
     Raises
     ------
     OutputError
-        If it has other columns, or cannot be read.
+        If the columns differ or the table cannot be read.
     """
     from pyarrow.parquet import ParquetFile
 
@@ -73,7 +73,7 @@ def read_parquet(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, 
 
 
 def _blocks(rows: Iterable[Sequence[Any]]) -> Iterator[list[Sequence[Any]]]:
-    """Yield the rows, many at a time."""
+    """Yield the rows in blocks of :data:`ROWS_PER_BLOCK`."""
     remaining = iter(rows)
     while block := list(islice(remaining, ROWS_PER_BLOCK)):
         yield block

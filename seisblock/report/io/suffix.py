@@ -1,4 +1,4 @@
-"""What is written as text, and which names say that it is something else."""
+"""File name suffixes of text outputs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from seisblock.core.errors import OutputError
 from seisblock.report.io.atomic import ANIMATION_SUFFIXES, FIGURE_SUFFIXES
 
 TEXT_SUFFIXES = {"CSV": (".csv", ".txt"), "HTML": (".html", ".htm"), "GeoJSON": (".geojson", ".json")}
-"""Suffixes of what is written as text; another, or none, may be anybody's own, but for those that say something else."""
+"""Suffixes of each text format; unknown suffixes, or none, are accepted as well."""
 
 OTHER_SUFFIXES = frozenset(
     {*(".tsv", ".xlsx", ".xls", ".xlsm", ".ods", ".parquet", ".feather", ".hdf5", ".h5", ".nc", ".npy", ".npz", ".mat", ".sqlite")}
@@ -16,17 +16,17 @@ OTHER_SUFFIXES = frozenset(
     | {*(".doc", ".docx", ".odt", ".rtf", ".tex", ".md", ".ppt", ".pptx", ".xml", ".toml", ".yaml", ".yml", ".kml", ".shp", ".gpkg")}
     | {*(".zip", ".gz", ".bz2", ".xz", ".tar", ".7z", ".tgz", ".py", ".mseed", ".sac")}
 )
-"""Suffixes of other formats, which programs go by."""
+"""Suffixes of other formats, rejected for text outputs."""
 
 
 def check_text_suffix(path: Path | str, form: str) -> None:
-    """Refuse a text whose name says that it is something else; a device or a pipe has any name.
+    """Raise OutputError if a text output has the suffix of another format; devices and pipes may have any name.
 
     Parameters
     ----------
     path : Path or str
     form : str
-        What is written, a key of ``TEXTS``.
+        Format written, a key of :data:`TEXT_SUFFIXES`.
 
     Raises
     ------
@@ -37,10 +37,10 @@ def check_text_suffix(path: Path | str, form: str) -> None:
     --------
     >>> check_text_suffix("table.xlsx", "CSV")
     Traceback (most recent call last):
-    seisblock.core.errors.OutputError: cannot write table.xlsx: what is written there is CSV, the name must end in .csv, .txt
+    seisblock.core.errors.OutputError: cannot write CSV to table.xlsx: the name must end in .csv, .txt
     """
     target, fitting = Path(path), TEXT_SUFFIXES[form]
     foreign_suffixes = OTHER_SUFFIXES.union(FIGURE_SUFFIXES, ANIMATION_SUFFIXES, *TEXT_SUFFIXES.values()).difference(fitting)
     if target.suffix.lower() in foreign_suffixes and (target.is_file() or not target.exists()):
-        text = "cannot write {target}: what is written there is {form}, the name must end in {suffixes}"
+        text = "cannot write {form} to {target}: the name must end in {suffixes}"
         raise OutputError(text, target=target, form=form, suffixes=list(fitting))

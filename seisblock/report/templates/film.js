@@ -1,4 +1,4 @@
-// Plays a film that stands in the page as data: clock, speed, scrubbing, and the curves below a scene that another script draws.
+// Player of an animation: clock, speed, scrubbing, and curves below a scene drawn by another script.
 "use strict";
 const byId = name => document.getElementById(name);
 const INK = "#1c1f23", SOFT = "#626a73", FLOOR = "#c9ccd0", FONT = "11px system-ui, -apple-system, 'Hiragino Sans', 'Noto Sans JP', sans-serif";
@@ -50,7 +50,7 @@ function ticks(low, high, most) {
 const numeral = value => String(+value.toPrecision(3)).replace("-", "\u2212");
 
 function gutter(pen) {
-  // room for the longest number beside any strip, so that all of them stand on one clock
+  // common margin for the longest axis number, so that all strips share one time axis
   pen.font = FONT;
   return Math.ceil(Math.max(38, ...film.strips.flatMap(data => data.inner.map(value => pen.measureText(numeral(value)).width))) + 8);
 }
@@ -74,7 +74,7 @@ function strip(index, height) {
     pen.stroke();
   });
   pen.restore();
-  // whole where the film begins and ends, too: on the edge of its strip
+  // not clipped, so that the cursor is complete at both edges
   pen.strokeStyle = pen.fillStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
   polygon(pen, [[x(now) - 4, top - 4], [x(now) + 4, top - 4], [x(now), top + 3]], INK, null);
   pen.fillStyle = SOFT; pen.fillText(data.label, left, 11);

@@ -1,8 +1,8 @@
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("stations").textContent);
-  const map = document.getElementById("map"), layer = map.querySelector("g"), told = document.getElementById("told");
-  const made = (name, attributes, parent) => {
+  const map = document.getElementById("map"), layer = map.querySelector("g"), details = document.getElementById("details");
+  const createSvg = (name, attributes, parent) => {
     const node = document.createElementNS("http://www.w3.org/2000/svg", name);
     for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
     if (parent) parent.append(node);
@@ -14,15 +14,15 @@
     parent.append(node);
     return node;
   };
-  // kilometres east and south of the middle are the map's own units
+  // map units: km east and south of the centre
   const bounds = [0, 1].map((axis) => [Math.min(...data.framed.map((p) => p[axis])), Math.max(...data.framed.map((p) => p[axis]))]);
   const middle = bounds.map(([low, high]) => (low + high) / 2);
-  const view = { x: middle[0], y: middle[1], km: 1 };  // km for each pixel
+  const view = { x: middle[0], y: middle[1], km: 1 };  // km per pixel
   const circles = [], squares = [];
-  for (const line of data.coast) made("polyline", { points: line.join(" "), class: "coast" }, layer);
+  for (const line of data.coast) createSvg("polyline", { points: line.join(" "), class: "coast" }, layer);
   let star, name;
 
-  const whole = () => {
+  const fit = () => {
     const box = map.getBoundingClientRect();
     const spans = bounds.map(([low, high]) => high - low);
     view.x = middle[0];
@@ -60,36 +60,36 @@
     draw();
   };
   const choose = (point, circle) => {
-    [...circles, ...squares.map(([square]) => square)].forEach((each) => each.classList.toggle("chosen", each === circle));
-    told.replaceChildren();
-    html("h2", point.name, told);
-    if (point.failure) html("p", point.failure, told).className = "note";
+    [...circles, ...squares.map(([square]) => square)].forEach((shape) => shape.classList.toggle("selected", shape === circle));
+    details.replaceChildren();
+    html("h2", point.name, details);
+    if (point.failure) html("p", point.failure, details).className = "note";
     if (point.outline.length > 1) {
       const reach = Math.max(...point.outline.flat().map(Math.abs)) || 1, count = point.outline.length;
-      const trace = made("svg", { viewBox: "0 0 160 70", preserveAspectRatio: "none", role: "img", "aria-label": point.peak }, told);
+      const trace = createSvg("svg", { viewBox: "0 0 160 70", preserveAspectRatio: "none", role: "img", "aria-label": point.peak }, details);
       const at = (value, index) => `${(160 * index / (count - 1)).toFixed(2)},${(35 - 32 * value / reach).toFixed(2)}`;
       const edge = [...point.outline.map((pair, i) => at(pair[1], i)), ...point.outline.map((pair, i) => at(pair[0], i)).reverse()];
-      made("polygon", { points: edge.join(" "), fill: "#62697a", stroke: "#62697a", "stroke-width": "0.4" }, trace);
-      html("p", `${point.peak}, ${point.end}`, told).className = "soft";
+      createSvg("polygon", { points: edge.join(" "), fill: "#62697a", stroke: "#62697a", "stroke-width": "0.4" }, trace);
+      html("p", `${point.peak}, ${point.end}`, details).className = "soft";
     }
-    const list = html("dl", "", told);
-    for (const [key, value] of point.told) {
+    const list = html("dl", "", details);
+    for (const [key, value] of point.details) {
       html("dt", key, list);
       html("dd", value, list);
     }
   };
 
-  const shown = new Map();
+  const pointOf = new Map();
   let dragged = 0;
-  // the worst comes first in the data and lies on top; touched again, a station gives way to the one beneath it
+  // the most severe station is drawn on top; a second click selects the one beneath
   const place = (point, circle) => {
-    made("title", {}, circle).textContent = point.name;
-    shown.set(circle, point);
+    createSvg("title", {}, circle).textContent = point.name;
+    pointOf.set(circle, point);
     circle.addEventListener("click", (event) => {
       if (event.detail && dragged > 5) return;
-      const here = document.elementsFromPoint(event.clientX, event.clientY).filter((node) => shown.has(node));
-      const next = here[(here.indexOf(map.querySelector(".chosen")) + 1) % here.length] ?? circle;
-      choose(shown.get(next), next);
+      const overlapping = document.elementsFromPoint(event.clientX, event.clientY).filter((node) => pointOf.has(node));
+      const next = overlapping[(overlapping.indexOf(map.querySelector(".selected")) + 1) % overlapping.length] ?? circle;
+      choose(pointOf.get(next), next);
     });
     circle.addEventListener("keydown", (event) => {
       if (event.key === "Enter" || event.key === " ") {
@@ -99,13 +99,13 @@
     });
   };
   [...data.points].reverse().forEach((point) => {
-    const circle = made("circle", { cx: point.at[0], cy: point.at[1], fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+    const circle = createSvg("circle", { cx: point.at[0], cy: point.at[1], fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
     circle.classList.toggle("falls", point.falls);
     place(point, circle);
     circles.push(circle);
   });
   data.squares.forEach((point) => {
-    const square = made("rect", { fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+    const square = createSvg("rect", { fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
     place(point, square);
     squares.push([square, point.at]);
   });
@@ -114,8 +114,8 @@
       const r = i % 2 ? 5 : 12, turn = (Math.PI * i) / 5;
       return `${(r * Math.sin(turn)).toFixed(2)},${(-r * Math.cos(turn)).toFixed(2)}`;
     });
-    star = made("polygon", { points: corners.join(" "), fill: "#fff", stroke: "#000", "stroke-width": 1.4, "pointer-events": "none" }, layer);
-    name = made("text", { y: 25, "text-anchor": "middle", "font-size": 12, "pointer-events": "none", stroke: "#f5f6f7", "stroke-width": 3, "paint-order": "stroke" }, layer);
+    star = createSvg("polygon", { points: corners.join(" "), fill: "#fff", stroke: "#000", "stroke-width": 1.4, "pointer-events": "none" }, layer);
+    name = createSvg("text", { y: 25, "text-anchor": "middle", "font-size": 12, "pointer-events": "none", stroke: "#f5f6f7", "stroke-width": 3, "paint-order": "stroke" }, layer);
     name.textContent = data.named;
   }
 
@@ -146,9 +146,9 @@
     zoom(event.deltaY > 0 ? 1.2 : 1 / 1.2, event.clientX, event.clientY);
   }, { passive: false });
   for (const button of document.querySelectorAll("[data-zoom]")) {
-    button.addEventListener("click", () => (button.dataset.zoom === "0" ? whole() : zoom(Number(button.dataset.zoom))));
+    button.addEventListener("click", () => (button.dataset.zoom === "0" ? fit() : zoom(Number(button.dataset.zoom))));
   }
   window.addEventListener("resize", draw);
-  whole();
+  fit();
   choose(data.points[0], circles[circles.length - 1]);
 })();

@@ -1,4 +1,4 @@
-// A scene from the side: polygons on a ground that shakes along x, the paths of points, and a window enlarged.
+// Side view: polygons on a moving ground, paths of points, and a close-up window.
 function drawScene(place) {
   const scene = film.scene, wide = byId("scene").clientWidth, tall = Math.min(Math.max(wide * 0.8, 220), 400);
   view("scene", tall, scene.extent, true, place);

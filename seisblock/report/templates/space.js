@@ -1,4 +1,4 @@
-// A scene in three dimensions, without perspective: cuboids, cylinders and springs on a patch of ground; dragged sideways one walks around it.
+// Orthographic 3-D scene of cuboids, cylinders and springs on a patch of ground; dragging rotates the view.
 const FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]], COILS = 5, WIDE = 0.35;
 const MARK = "#c0392b", EDGE = "#404040";
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map(i => [i >> 2, i >> 1 & 1, i & 1].map(bit => bit - 0.5));
@@ -16,7 +16,7 @@ function eye() {
   return { right: [-s, c, 0], up: [-c * se, -s * se, ce], ahead: [c * ce, s * ce, se] };
 }
 
-// what is in the picture depends on where one stands: all that ever is in sight from there
+// bounding box of everything ever in sight from this azimuth
 function extent() {
   const all = film.scene.extents, turned = azimuth === null ? 0 : (azimuth - film.scene.view[0]) / (2 * Math.PI) * all.length;
   const i = Math.floor(turned), after = turned - i, box = k => all[(k % all.length + all.length) % all.length];
@@ -33,30 +33,30 @@ function drawScene(place) {
   const [pen, width, height] = canvasOf("scene", Math.min(Math.max(byId("scene").clientWidth * 0.9, 300), 520));
   const scale = Math.min(width / (box[1] - box[0]), height / (box[3] - box[2]));
   const put = p => [width / 2 + (dot(p, right) - (box[0] + box[1]) / 2) * scale, height / 2 - (dot(p, up) - (box[2] + box[3]) / 2) * scale];
-  const vector = columns => columns.map(column => sample(column, place)), moved = vector(scene.moved);
-  const patch = scene.patch.map(corner => plus(corner, moved));
+  const vector = columns => columns.map(column => sample(column, place)), ground = vector(scene.ground);
+  const patch = scene.patch.map(corner => plus(corner, ground));
   polygon(pen, patch.map(put), "#e6e6e6", "#bfbfbf");
-  // the x axis on the ground, by which one knows where one stands
+  // x axis on the ground, for orientation
   pen.strokeStyle = SOFT; pen.fillStyle = SOFT; pen.lineWidth = 1; pen.beginPath();
-  const [x0, y0] = put(moved), [x1, y1] = put(plus(moved, [scene.half, 0, 0]));
+  const [x0, y0] = put(ground), [x1, y1] = put(plus(ground, [scene.half, 0, 0]));
   pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); pen.fillText(film.along, x1 + 4, y1 + 4);
-  scene.springs.forEach(spring => coil(pen, put, plus(spring.foot, moved), Math.min(vector(spring.top)[2], spring.free), spring.free * scale));
+  scene.springs.forEach(spring => coil(pen, put, plus(spring.foot, ground), Math.min(vector(spring.top)[2], spring.free), spring.free * scale));
   const corner = spring => {
-    const top = vector(spring.top), [x, y] = put(plus(top, moved));
+    const top = vector(spring.top), [x, y] = put(plus(top, ground));
     pen.fillStyle = top[2] > spring.free ? MARK : EDGE; pen.beginPath(); pen.arc(x, y, 4, 0, 7); pen.fill();
   };
-  // of the corners below a block the farthest is behind it
+  // the spring farthest from the viewer is hidden behind the block
   const [behind, ...before] = [...scene.springs].sort((a, b) => dot(a.foot, ahead) - dot(b.foot, ahead));
   if (behind) corner(behind);
-  faces(scene, vector, moved, ahead).forEach(face => polygon(pen, face.points.map(put), face.shade, face.edge));
+  faces(scene, vector, ground, ahead).forEach(face => polygon(pen, face.points.map(put), face.shade, face.edge));
   before.forEach(corner);
   bar(pen, width, height, scale);
 }
 
-function faces(scene, vector, moved, ahead) {
+function faces(scene, vector, ground, ahead) {
   const seen = [];
   scene.solids.forEach(solid => {
-    const centre = plus(vector(solid.centre), moved), q = vector(solid.turn), length = Math.hypot(...q), turn = q.map(v => v / length);
+    const centre = plus(vector(solid.centre), ground), q = vector(solid.turn), length = Math.hypot(...q), turn = q.map(v => v / length);
     const corners = (solid.round ? RIMS : CORNERS).map(corner => plus(centre, rotated(turn, corner.map((v, i) => v * solid.size[i]))));
     const edge = solid.fell !== null && now >= solid.fell ? MARK : EDGE;
     (solid.round ? [...MANTLE, ...CAPS] : FACES).forEach(face => {
