@@ -65,7 +65,7 @@ OF_BODIES = {
     "blocks of jump_many": (lambda body: sb.jump_many([body], MOTION, contacts=[sb.load_contact("chozusha")]), "TwoLayerBlock"),
     "contacts of jump_many": (lambda body: sb.jump_many([LAYERS], MOTION, contacts=[body]), "Contact"),
     "bodies of uplift_many": (lambda body: sb.uplift_many([body], MOTION), "SpringBlock"),
-    "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "Setting"),
+    "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "RespondParams"),
 }
 
 
@@ -75,7 +75,7 @@ def test_a_motion_is_needed(name):
     with pytest.raises(sb.KindError, match=r"is a Record: choose a component with motion_of\(record, 'NS'\)"):
         OF_MOTIONS[name](RECORD)
     for wrong in (np.zeros(100), "record.csv", None):
-        with pytest.raises(sb.KindError, match=r"a Motion is needed, found (ndarray|str|nothing)"):
+        with pytest.raises(sb.KindError, match=r"a Motion is needed, found (ndarray|str|None)"):
             OF_MOTIONS[name](wrong)
 
 
@@ -83,7 +83,7 @@ def test_a_motion_is_needed(name):
 def test_a_record_is_needed(name):
     """What works on records names what it found in its place."""
     for wrong in (MOTION, "record.csv", None):
-        with pytest.raises(sb.KindError, match=r"a Record is needed, found (Motion|str|nothing)"):
+        with pytest.raises(sb.KindError, match=r"(a|expected) Record( is needed)?, found (Motion|str|None)"):
             OF_RECORDS[name](wrong)
 
 
@@ -92,7 +92,7 @@ def test_a_body_is_needed(name):
     """So does what needs a body, a survey, or a contact; a motion in its place is such a thing, too."""
     call, kind = OF_BODIES[name]
     for wrong in (MOTION, 0.3, "gravestone"):
-        with pytest.raises(sb.KindError, match=rf"a {kind} is needed, found (Motion|float|str)|the body comes first"):
+        with pytest.raises(sb.KindError, match=rf"(a|expected) {kind}( is needed)?, found (Motion|float|str)|the body comes first"):
             call(wrong)
 
 
@@ -110,9 +110,9 @@ def test_a_body_is_needed(name):
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; it has NS, EW, UD"),
         (lambda: sb.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
         (lambda: sb.crop(RECORD, "a", 2.0), "the start of the window must be a number, found 'a'"),
-        (lambda: sb.load_block(None), "a path or a name is needed, found nothing"),
-        (lambda: sb.load_two_layer(3), "a path or a name is needed, found int"),
-        (lambda: sb.read_cemetery(b"aoyama.csv"), "a path or a name is needed, found bytes"),
+        (lambda: sb.load_block(None), "expected a path or a name, found None"),
+        (lambda: sb.load_two_layer(3), "expected a path or a name, found int"),
+        (lambda: sb.read_cemetery(b"aoyama.csv"), "expected a path or a name, found bytes"),
         (lambda: sb.Motion.from_arrays("a", 0.01), "the horizontal acceleration must be numbers, found 'a'"),
         (lambda: sb.Motion.from_arrays([[1.0], [1.0, 2.0]], 0.01), "the horizontal acceleration must be numbers"),
         (lambda: sb.Motion.from_arrays([0.0, 1.0], 0.01, vertical=[None, 1.0]), "the vertical acceleration must be numbers"),
@@ -123,16 +123,19 @@ def test_a_body_is_needed(name):
         (lambda: sb.overturning_rate(CEMETERY, 3.0, 1.0, limits=3), "the criterion must be a function, found int"),
         (lambda: sb.overturning_rate(CEMETERY, 3.0, "2 Hz"), "the frequency must be a number, found '2 Hz'"),
         (lambda: sb.scale_factors(3.0, 0.05, MOTION), "the displacement must be a function, found float"),
-        (lambda: sb.scale_factors(lambda factor: factor, 0.05, MOTION, steps=2.5), "the number of steps must be a whole number"),
-        (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be a whole number, 1 or more, found 2.5"),
-        (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be a whole number, 1 or more, found True"),
-        (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be a whole number"),
-        (lambda: sb.solve_stack(PILE, MOTION, points=2.5), "the number of points along each side of a joint must be a whole number, 2"),
+        (lambda: sb.scale_factors(lambda factor: factor, 0.05, MOTION, steps=2.5), "the number of steps must be an integer of at least"),
+        (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be an integer of at least 1, found 2.5"),
+        (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be an integer of at least 1, found True"),
+        (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be an integer of at least"),
+        (
+            lambda: sb.solve_stack(PILE, MOTION, points=2.5),
+            "the number of points along each side of a joint must be an integer of at least 2",
+        ),
         (lambda: sb.uplift_thresholds(SPRINGS, "a"), "the frequency ratios must be numbers, found 'a'"),
         (lambda: sb.mode_map([0.3], None, [0.2], MOTION), "sizes and slendernesses must be numbers, found None"),
         (lambda: sb.rocking_spectrum(["a"], [0.2], MOTION), "sizes and slendernesses must be numbers, found \\['a'\\]"),
         (lambda: sb.read(3), "a path is needed, or a list of paths, found int"),
-        (lambda: sb.read_all(None), "a path is needed, or a list of paths, found nothing"),
+        (lambda: sb.read_all(None), "a path is needed, or a list of paths, found None"),
     ],
 )
 def test_a_wrong_value_is_told(call, says):

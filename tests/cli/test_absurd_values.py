@@ -100,7 +100,7 @@ def test_an_edge_that_is_hardly_worn(value):
 def test_a_frequency_of_nothing_on_earth(recwarn):
     """One sentence, and no warning of the machine's own numbers."""
     code, answer, said = run("overturn-rate", "--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1e300")
-    assert (code, answer) == (3, "") and "frequency lies outside all that can be computed with, found 1e+300 Hz" in said
+    assert (code, answer) == (3, "") and "frequency is outside the computable range (1e-100 to 1e100), found 1e+300 Hz" in said
     assert not recwarn.list
 
 
