@@ -1,4 +1,4 @@
-"""One step of the engine: the ground motion over it, how long it may be, which guard ends it, and the state at its end."""
+"""Parts of one integration step: ground motion, step length, first guard crossing, state at the end."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from seisblock.dynamics.polynomial import NO_CROSSING, ROUND_OFF, evaluate_row, 
 _t = types()
 
 TRUNCATION = 1.1e-16
-"""Largest last term of a full series, relative to the state."""
+"""Maximum last term of a series of full order, relative to the state."""
 
 
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
 def step_length(c, n_states, order, h, p, floors):
-    """Return the part of `h` over which a full series is converged to round-off; `floors` says where they stand in `p`, or -1."""
+    """Return the step length up to `h` at which the series has converged; `floors` is the index of the floors in `p`, or -1."""
     top = 1.0
     for _ in range(order - 1):
         top *= h
@@ -29,7 +29,7 @@ def step_length(c, n_states, order, h, p, floors):
             size = max(size, p[floors + i])
         tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
         if tail > TRUNCATION * size:
-            # a state that starts from zero has its size in its later terms
+            # a state that starts from zero gets its size from the higher terms
             power = h**3
             for k in range(4, order - 1):
                 power *= h
@@ -43,7 +43,7 @@ def step_length(c, n_states, order, h, p, floors):
 
 @kernel(_t.void(FORCING, _t.int64, _t.float64, MATRIX), inline=True)
 def read_forcing(forcing, sample, tau, f):
-    """Write the ground motion, value and slope, `tau` after a sample."""
+    """Write value and slope of the ground motion `tau` seconds after a sample to `f`."""
     acceleration, gains = forcing.acceleration, forcing.gains
     per_dt = 1.0 / forcing.dt
     for row in range(acceleration.shape[0]):
@@ -55,7 +55,7 @@ def read_forcing(forcing, sample, tau, f):
 
 @kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, SHAPE, _t.int64, _t.float64), inline=True)
 def first_guard_crossing(scratch, shape, degree, h):
-    """Return the guard that fires first within a step, -1 for none, and when: the end of the step."""
+    """Return the first guard that fires within a step (-1 for none) and its time, which ends the step."""
     g = scratch.g
     guard = -1
     for k in range(shape.guards):
@@ -72,7 +72,7 @@ def first_guard_crossing(scratch, shape, degree, h):
 
 @kernel(_t.boolean(SCRATCH, _t.int64, _t.float64, _t.float64, _t.int64, VECTOR, MATRIX), inline=True)
 def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
-    """Move the state on by a step that begins at `start_time`, and its extrema with it; return whether it stays finite."""
+    """Advance the state and its extrema by a step that begins at `start_time`; return True if the state is finite."""
     c = scratch.c
     for i in range(n_tracked):
         if may_exceed_extrema(c, i, degree, h, extrema):
