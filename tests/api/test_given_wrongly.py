@@ -99,7 +99,7 @@ def test_a_body_is_needed(name):
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: sb.response_spectrum(MOTION, 0.01), "accelerations are needed, found a Motion: give motion.horizontal and motion.dt"),
+        (lambda: sb.response_spectrum(MOTION, 0.01), "expected an array of accelerations, found Motion: pass motion.horizontal and motion.dt"),
         (lambda: sb.response_spectrum(MOTION.horizontal, 0.0), "the sampling interval must be positive, found 0 s"),
         (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "the damping must be one of modal, dashpots, found 'modl'"),
         (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers, 0 <= fallen <= stones, .* found 3.5/10"),
