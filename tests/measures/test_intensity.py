@@ -89,7 +89,7 @@ def test_without_three_components_there_is_no_jma_intensity():
     answer = measure(alone)
     assert answer.jma_intensity is None
     assert answer.jma_class is None
-    assert any("two horizontals and the vertical" in text for text in answer.warnings)
+    assert any("two horizontal components and the vertical" in text for text in answer.warnings)
 
 
 def test_a_record_too_short_or_at_rest_has_no_jma_intensity():
