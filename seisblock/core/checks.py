@@ -211,7 +211,8 @@ def float_array(quantity: str, values: Any, /) -> FloatArray:
 
     try:
         array = np.asarray(values)
-    except ValueError:  # rows that differ in length
+    except ValueError:
+        # rows of different lengths
         array = np.asarray(None)
     if array.dtype.kind not in "iuf":
         raise ParameterError("{what} must be numbers, found {found}", what=lazy_gettext(quantity), found=repr(values)[:MAX_REPR_LENGTH])
@@ -266,7 +267,8 @@ def _to_float(quantity: str, value: Any, error: ErrorClass, names: dict[str, Any
         raise error("{what} must be a number, found {value}", what=lazy_gettext(quantity, **names), value=repr(value)[:MAX_REPR_LENGTH])
     try:
         return float(value)
-    except OverflowError:  # a whole number of more than 308 digits
+    except OverflowError:
+        # an integer of more than 308 digits
         return math.inf if value > 0 else -math.inf  # type: ignore[operator]
 
 

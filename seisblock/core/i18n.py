@@ -266,7 +266,7 @@ def _load_catalogue(locale: str) -> Callable[[str], str]:
     from gettext import GNUTranslations
 
     with mo_path.open("rb") as stream:
-        # gettext answers an empty text with the head of the catalogue
+        # gettext translates the empty string to the header of the catalogue
         translate = GNUTranslations(stream).gettext
     return lambda template: translate(template) if template else ""
 
@@ -277,6 +277,7 @@ def _read_po(path: Path) -> Iterator[tuple[str, str]]:
 
     entry = {"msgid": "", "msgstr": ""}
     key = ""
+    # the additional msgid completes the last entry
     for line in [*path.read_text(encoding="utf-8").splitlines(), 'msgid ""']:
         if not line.startswith('"'):
             key, _, line = line.partition(" ")

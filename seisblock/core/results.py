@@ -272,6 +272,7 @@ class Response(PlotMixin, Generic[Outcome]):
             return np.zeros(self.time.size, dtype=np.int64)
         starts = np.array([phase.start_s for phase in self.phases])
         index = np.clip(np.searchsorted(starts, self.time, side="right") - 1, 0, None)
+        # an event is logged twice at the same time, before and after
         first_of_pair = np.append(self.time[1:] == self.time[:-1], False)
         ends_one = first_of_pair & (self.time == starts[index]) & (index > 0)
         return (index - ends_one).astype(np.int64)

@@ -130,7 +130,9 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
         text = to_halfwidth(text)
         pieces = _QUANTITY_TERM.findall(text) if len(text) <= MAX_QUANTITY_LENGTH else []
         units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
+        # several terms with known, descending units and nothing between them
         if len(pieces) > 1 and not _QUANTITY_TERM.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
+            # rounding removes binary round-off such as 0.24240000000000003
             return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
     value = _parse(text, LENGTH_UNITS, "m", quantity)
     if abs(value) > MAX_UNITLESS_LENGTH and (not isinstance(text, str) or is_unitless(text)):

@@ -91,6 +91,7 @@ def overturning_card(
     checks.instance(block, Block)
     checks.non_negative("the PGA", pga, "m/s^2")
     checks.non_negative("the PGV", pgv, "m/s")
+    # the shorter arm governs for an asymmetric block
     width, height = 2 * min(block.arms), 2 * block.centre
     alpha, p = block.slenderness, block.frequency_parameter(gravity)
     rows = [

@@ -133,6 +133,7 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
     [Furukawa2009]_ eqs. (7), (8) solved for f.
     """
     level = _validate(pga, N_("PGA"), "m/s^2") * _validate(ratio, N_("height over width"), "1")
+    # negative surplus: PGA below p/(H/B), too low at any frequency
     surplus = (level / fit.p_m_s2) ** 2 - 1.0
     return np.where(surplus >= 0.0, fit.q_hz * np.maximum(surplus, 0.0) ** (1.0 / fit.r), np.nan)
 

@@ -44,6 +44,7 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
     (0.5, 0.2)
     """
     checks.gravity(gravity)
+    # without weight on the base (downward acceleration above g) the ratio is infinite
     weight = gravity + motion.vertical * vertical_gain(motion, vertical)
     with np.errstate(divide="ignore"):
         ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)

@@ -101,6 +101,7 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
         # same sign as the energy surplus while the angle increases, and smooth at the root
         return speed - 2 * p * math.sin((alpha - theta) / 2)
 
+    # Housner's linear estimate as the upper end of the bracket, enlarged until the block overturns
     high = max(math.hypot(1.0, omega / p), 1.0 + 1e-9)
     while surplus(high) <= 0.0:
         high *= 1.5
@@ -162,6 +163,7 @@ def _root(w: float, end: float, sign: float) -> float:
     def surplus(x: float) -> float:
         return math.sqrt(x * x - 1.0) + sign * x * math.exp(-(end - math.asin(1.0 / x)) / w) - w
 
+    # X = 1 never overturns; hypot(1, W) is Housner's estimate, an upper bound for the half sine
     low = 1.0
     high = math.hypot(1.0, w)
     while surplus(high) <= 0.0:

@@ -85,6 +85,7 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
     a2, b2 = alpha**2, beta**2
     s = 4.0 * a2 * b2 + b2 + 3.0
     root = math.sqrt(16.0 * a2**2 * b2**2 + b2**2 + 8.0 * a2 * b2**2 + 12.0 * a2 * b2 - 6.0 * b2 + 9.0)
+    # c1 from the product of the roots: their printed difference cancels
     c2_squared = (s + root) / (2.0 * (1.0 + a2))
     c1_squared = 6.0 * b2 / (s + root)
     d1 = -alpha * b2 / (2.0 * (b2 - c2_squared))
@@ -155,6 +156,7 @@ def harmonic_uplift_ratio(
     e = c**2 - forcing_squared
     d = 2.0 * damping * c * np.sqrt(forcing_squared)
     e = np.where((e == 0.0) & (d == 0.0), UNDAMPED_RESONANCE, e)
+    # normalised transfer functions: products of u and v stay finite near an undamped resonance
     with np.errstate(divide="ignore"):
         scale = 1.0 / np.hypot(e, d)
         u, v = e * scale, d * scale
@@ -166,6 +168,7 @@ def harmonic_uplift_ratio(
         for sx, sy in _corner_signs(corner):
             s = -sindg(rho_deg) * (sx * cosdg(phi_deg) + sy * sindg(phi_deg))
             gain_squared = 0.25 * s**2 * (w1**2 + 2.0 * w1 * w5 * p15 + w5**2)
+            # horizontal shaking: skip the vertical terms, which may be infinite times zero
             if vertical != 0.0:
                 gain_squared = gain_squared - s * vertical * w3 * (w1 * p13 + w5 * p53) + (vertical * w3) ** 2
             thresholds.append(np.where(gain_squared > 1.0 / UNDAMPED_RESONANCE, 0.0, 1.0 / np.sqrt(np.maximum(gain_squared, 0.0))))

@@ -76,6 +76,7 @@ def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_
             Output(path, modes, events, times, limits, rows.extrema[row], rows.transition_counts[row], rows.dwell_times[row]),
             scratch,
         )
+        # one step is charged for the call itself, so that rows at rest use up the allowance, too
         steps = counters[STEPS_LEFT] - 1
         segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= forcing.acceleration.shape[1] - 1
         if rows.statuses[row] != PAUSED or segment_done:
@@ -187,6 +188,7 @@ def integrate_many(
         np.full(m, PAUSED, dtype=np.int64),
     )
     rows.counters[:, MODE], rows.counters[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
+    # all rows pass one segment before the next is read, so that one segment is in memory
     for segment in motion.segments((scale != 0.0).any(axis=0).tolist()):
         forcing = BatchForcing(segment.acceleration, scale, motion.dt)
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after

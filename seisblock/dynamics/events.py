@@ -152,6 +152,7 @@ def concatenate_events(logs: Sequence[EventLog]) -> EventLog:
     count, n_states = sum(map(len, remaining)), remaining[0].limits.shape[2]
     log, tau, limits = allocate_events(count, n_states)
     result = EventLog(log, tau, np.empty(count), limits)
+    # parts are popped from the end and released one by one after copying
     remaining.reverse()
     begin = 0
     while remaining:

@@ -36,6 +36,7 @@ def update_extrema(extrema, i, value, time):
 @kernel(_t.boolean(MATRIX, _t.int64, _t.int64, _t.float64, MATRIX), inline=True)
 def may_exceed_extrema(c, i, degree, h, extrema):
     """Return False only if state `i` certainly reaches no new extremum inside a step."""
+    # monotone over the step if the linear term dominates: the end value is checked by the caller
     curvature = 0.0
     power = 1.0
     for k in range(2, degree + 1):
@@ -50,6 +51,7 @@ def may_exceed_extrema(c, i, degree, h, extrema):
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
 def update_interior_extrema(c, i, degree, h, start_time, extrema, rate, q, d):
     """Update the extrema of state `i` with its first maximum and first minimum inside a step."""
+    # derivative with the sign for which it is positive before a maximum (first pass) or minimum (second pass)
     for sign in (1.0, -1.0):
         for k in range(degree):
             rate[k] = sign * (k + 1) * c[i, k + 1]

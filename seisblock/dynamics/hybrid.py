@@ -170,9 +170,10 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     )
     at_rest = counters[AT_REST] != 0
     tau = clock[TAU]
-    # rows with a zero gain are not read below: reset what an earlier trajectory left in the work array
+    # models read all rows of f, but rows with a zero gain are not written: clear the values of an earlier trajectory
     for row in range(f.shape[0]):
         f[row, 0] = f[row, 1] = 0.0
+    # first call for this trajectory, not a continuation after a pause
     if counters[HAS_STARTED] == 0:
         counters[HAS_STARTED] = 1
         clock[FIRST_EVENT_TIME] = np.nan
@@ -182,9 +183,11 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             _store_sample(output, sample, y, mode)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
+        # pause between samples only, so that the result does not depend on the pauses
         if steps_left <= 0 or (stores_events and 2 * (n_events - n_flushed) > times.size):
             status = PAUSED
             break
+        # at rest: let the model look ahead for the first sample at which the motion can begin
         if tau == 0.0 and at_rest:
             next_sample = skip(mode, acceleration, gains, sample, p)
             if next_sample > sample:
@@ -204,6 +207,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 _clamp_grazing(grazing, g)
             at_rest = degree == CONSTANT
             remaining = dt - tau
+            # only a series of full order is truncated and may need a shorter step
             h = remaining
             if degree >= order:
                 h = step_length(c, y.size, order, remaining, p, floors)
@@ -217,18 +221,20 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 ):
                     status = NOT_FINITE
                     break
+                # time has advanced: chattering and grazing concern events at one instant only
                 if tau + h > tau:
                     n_simultaneous = 0
                     grazing = 0
             at_sample = h == remaining
             tau += h
-            # f is the motion at the start of the step: move its values to the end of the step
+            # resets and the next series need the ground motion at the end of the step
             if not at_sample or guard >= 0:
                 for row in range(f.shape[0]):
                     f[row, 0] += f[row, 1] * h
             if guard >= 0:
                 if stores_events:
                     if n_events - n_flushed >= times.size:
+                        # the tables are full within one sample interval; the caller starts again with larger ones
                         status = TOO_MANY_EVENTS
                         break
                     _store_limit(output, n_events - n_flushed, 0, y)
@@ -254,6 +260,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     events[row, EVENT_TO] = next_mode
                     times[row] = tau
                     _store_limit(output, row, 1, y)
+                # a reset may set a state beyond the extrema of the step
                 for i in range(shape.tracked):
                     update_extrema(extrema, i, y[i], (segment_start + sample) * dt + tau)
                 if n_events == 0:
@@ -270,6 +277,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 if n_simultaneous > MAX_SIMULTANEOUS_EVENTS:
                     status = CHATTERING
                     break
+            # a remainder below round-off counts as the sample, to avoid a step of length zero
             if at_sample or dt - tau <= 1e-15 * dt:
                 break
             steps_left -= 1

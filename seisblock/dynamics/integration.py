@@ -123,6 +123,7 @@ def integrate(
         check_event_memory(n_events, bytes_per_event(n_states))
         logs.append(_flush_events(output, state, motion.dt))
     events = concatenate_events(logs) if logs else _empty_events(n_states)
+    # a stored path is one piece; otherwise the pieces are recomputed on access
     if stores_path:
         samples = slice(_first_stored_sample(start), end.sample + 1)
         full_path = Path(motion.dt, samples.start, _trim(path, samples), _trim(modes, samples), events)
@@ -164,6 +165,7 @@ class _Integration:
             check_cancelled()
             state.counters[STEPS_LEFT] = STEPS_PER_SLICE
             status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output)
+            # paused because of half-full tables, not because of the steps
             if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
                 if state.counters[N_EVENTS] > max(_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
@@ -185,6 +187,7 @@ class _Integration:
             )
             last_sample = int(state.counters[SAMPLE])
             rows = slice(first_sample - segment.first, last_sample + 1 - segment.first)
+            # events in the interval after last_sample belong to the next piece
             end_event = int(np.searchsorted(events.sample, last_sample)) if status == PAUSED else len(events)
             yield Path(self.motion.dt, first_sample, path[rows], modes[rows], events[first_event:end_event])
             first_sample, first_event = last_sample + 1, end_event

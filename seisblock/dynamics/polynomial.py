@@ -89,6 +89,7 @@ def _bracketed_root(c, degree, high):
     """
     if c[0] <= 0.0:
         return 0.0
+    # start from the root of the quadratic part, in the form without cancellation
     low = 0.0
     t = high
     if degree > 1:
@@ -98,6 +99,7 @@ def _bracketed_root(c, degree, high):
             if 0.0 < guess < high:
                 t = guess
     for _ in range(100):
+        # value and slope in one Horner scheme
         value = c[degree]
         slope = 0.0
         for k in range(degree - 1, -1, -1):
@@ -110,6 +112,7 @@ def _bracketed_root(c, degree, high):
         next_t = t - value / slope if slope != 0.0 else t
         if value == 0.0 or (slope != 0.0 and abs(next_t - t) <= NEWTON_TOLERANCE * t):
             return min(max(next_t, low), high)
+        # Newton left the bracket: bisect
         if not (low < next_t < high):
             next_t = 0.5 * (low + high)
             if high - low <= 2.3e-16 * high:
@@ -140,6 +143,7 @@ def first_negative(g, degree, h, round_off, q, d):
     """
     if lower_bound(g, degree, h) > 0.0:
         return NO_CROSSING
+    # sum of the absolute terms over the step: the scale of round-off
     total = 0.0
     power = 1.0
     for k in range(degree + 1):
@@ -148,6 +152,7 @@ def first_negative(g, degree, h, round_off, q, d):
     if not total < np.inf:
         return NO_CROSSING
     noise = round_off * total
+    # first coefficient above round-off: it decides the sign just after the start
     leading = 0
     power = 1.0
     while leading <= degree and abs(g[leading]) * power <= noise:
@@ -171,6 +176,7 @@ def first_negative(g, degree, h, round_off, q, d):
     smallest = 1e-14 * h
     while start < h:
         if lower_bound(q, n, width) <= -noise:
+            # the derivative does not change sign: at most one root, so that the end value decides
             for k in range(n):
                 d[k] = -(k + 1) * q[k + 1]
             monotone = n > 0 and lower_bound(d, n - 1, width) >= 0.0

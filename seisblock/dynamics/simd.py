@@ -50,6 +50,7 @@ def integrate_in_lanes(
     while running and steps > 0:
         running = False
         for lane in range(lane_rows.size):
+            # still advancing in the stride: nothing to do for the engine
             if needs_engine[lane] == 0:
                 running = True
                 continue
@@ -61,6 +62,7 @@ def integrate_in_lanes(
                 lane_row = lane_rows[lane]
                 if lane_row < 0:
                     break
+                # one sample interval by the engine, then back to the stride
                 counters = rows.counters[lane_row]
                 counters[STEPS_LEFT] = 1
                 rows.statuses[lane_row] = advance(
@@ -87,6 +89,7 @@ def integrate_in_lanes(
                 segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= last
                 if rows.statuses[lane_row] != PAUSED or segment_done:
                     lane_rows[lane] = -1
+                # a trajectory at rest stays with the engine, whose skip passes many samples at once
                 elif counters[AT_REST] == 0:
                     running = True
                     break

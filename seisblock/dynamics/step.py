@@ -18,6 +18,7 @@ TRUNCATION = 1.1e-16
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
 def step_length(c, n_states, order, h, p, floors):
     """Return the step length up to `h` at which the series has converged; `floors` is the index of the floors in `p`, or -1."""
+    # h^(order - 1), scales the last two terms
     top = 1.0
     for _ in range(order - 1):
         top *= h
@@ -35,6 +36,7 @@ def step_length(c, n_states, order, h, p, floors):
                 power *= h
                 size += abs(c[i, k]) * power
         if tail > TRUNCATION * size:
+            # the tail scales with h^(order - 1); factor 0.9 for safety
             reduced_h = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
             top *= (reduced_h / h) ** (order - 1)
             h = reduced_h
@@ -62,6 +64,7 @@ def first_guard_crossing(scratch, shape, degree, h):
         if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
             continue
         crossing = first_negative(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
+        # the step is shortened to the earliest crossing; of simultaneous ones the first guard is kept
         if crossing != NO_CROSSING and (guard < 0 or crossing < h):
             guard = k
             h = crossing
@@ -74,6 +77,7 @@ def first_guard_crossing(scratch, shape, degree, h):
 def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
     """Advance the state and its extrema by a step that begins at `start_time`; return True if the state is finite."""
     c = scratch.c
+    # extrema inside the step; its end point follows below
     for i in range(n_tracked):
         if may_exceed_extrema(c, i, degree, h, extrema):
             update_interior_extrema(c, i, degree, h, start_time, extrema, scratch.rate, scratch.q, scratch.d)
@@ -85,4 +89,5 @@ def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
         size += abs(y[i])
     for i in range(n_tracked):
         update_extrema(extrema, i, y[i], start_time + h)
+    # False for infinite and NaN sums
     return size < OFF

@@ -76,6 +76,7 @@ class Path:
         """Return the indices, in the whole table, of the rows that :meth:`table` returns for some samples, (m,)."""
         if not self.events:
             return samples
+        # rows of the whole table: each sample is preceded by the inserted rows of earlier events
         positions = self._event_positions
         at_samples = samples + np.searchsorted(positions, samples, side="right")
         return np.insert(at_samples, self._insert_positions(samples), positions + np.arange(positions.size))
@@ -94,6 +95,7 @@ class Path:
             part = part[samples]
         if not self.events:
             return part
+        # the input is continuous: both sides of an event have the same value
         indices, fraction = self.events.sample, self.events.tau / self.dt
         at_events = values[indices] + fraction * (values[np.minimum(indices + 1, values.size - 1)] - values[indices])
         return np.insert(part, self._insert_positions(samples), np.repeat(at_events, 2))

@@ -128,8 +128,10 @@ def _intervals_one_sided(values: FloatArray, dt: float, threshold: float) -> Flo
     is_above = excess >= 0
     rises = np.flatnonzero(~is_above[:-1] & is_above[1:])
     falls = np.flatnonzero(is_above[:-1] & ~is_above[1:])
+    # zeros of the linear interpolant
     starts = dt * (rises + excess[rises] / (excess[rises] - excess[rises + 1]))
     ends = dt * (falls + excess[falls] / (excess[falls] - excess[falls + 1]))
+    # intervals cut by the ends of the record
     if is_above[0]:
         starts = np.concatenate(([0.0], starts))
     if is_above[-1]:

@@ -39,6 +39,7 @@ def filter_weights(samples: int, dt: float, gain: Callable[[FloatArray], FloatAr
     height = samples // width
     weights = np.empty((height // 2 + 1, width))
     for lines in _blocks(len(weights), width):
+        # frequency index at [row, column] after both transforms; indices above the half are negative frequencies
         number = np.arange(len(weights))[lines, None] + height * np.arange(width)
         weights[lines] = gain(np.minimum(number, samples - number) / (samples * dt))
     return weights
@@ -65,6 +66,7 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
     spectrum = np.empty(weights.shape, dtype=np.complex128)
     for columns in _blocks(width, len(table)):
         spectrum[:, columns] = np.fft.rfft(table[:, columns], axis=0)
+    # rows: twiddle, transform, filter and inverse transform while a block is in the cache
     for lines in _blocks(len(spectrum), width):
         if width == 1:
             spectrum[lines] *= weights[lines]
@@ -73,6 +75,7 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
         weighted_block = np.fft.fft(spectrum[lines] * twiddle, axis=1)
         weighted_block *= weights[lines]
         np.multiply(np.fft.ifft(weighted_block, axis=1), np.conj(twiddle, out=twiddle), out=spectrum[lines])
+    # inverse transform of the columns, block by block, added to the sum of squares
     for columns in _blocks(width, len(table)):
         filtered_block = np.fft.irfft(spectrum[:, columns], len(table), axis=0)
         filtered_block *= filtered_block

@@ -123,6 +123,7 @@ def dominant_frequency(
     if left_value > peak_value or right_value > peak_value:
         # the amplitude still rises beyond the edge of the band
         return None
+    # vertex of the parabola through the maximum and its neighbours
     curvature = left_value - 2.0 * peak_value + right_value
     shift = 0.5 * (left_value - right_value) / curvature if curvature < 0 else 0.0
     return float(frequency[top] + shift * frequency[1])

@@ -133,6 +133,7 @@ def jma_intensity(record: Record) -> float | None:
     vector_squared = np.zeros(record.samples)
     for acceleration in orthogonal_components(record):
         add_filtered_square(vector_squared, acceleration, weights)
+    # a0 is the n-th largest amplitude, n = number of samples in 0.3 s
     vector_squared.partition(record.samples - n_exceeding)
     a0_squared = float(vector_squared[record.samples - n_exceeding]) / GAL**2
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
@@ -161,6 +162,7 @@ def missing_intensity_reason(record: Record) -> str:
 
 def _samples_needed(record: Record) -> int:
     """Return the number of samples in 0.3 s."""
+    # the tolerance removes the round-off of the division, which could add a sample
     return math.ceil(JMA_EXCEEDANCE_S / record.dt - 1e-6)
 
 
@@ -184,12 +186,14 @@ def jma_class(intensity: float) -> str:
     ['0', '4', '5-', '5+', '7']
     """
     checks.finite("the intensity", intensity)
+    # the inner rounding to 6 digits removes the round-off of the multiplication before the floor
     reported_intensity = math.floor(round(round(intensity, 2) * 10, 6)) / 10
     return next((name for bound, name in _CLASSES if reported_intensity < bound), "7")
 
 
 def _jma_filter(frequency: FloatArray) -> FloatArray:
     """Return the product of the three filters of [JMA1996]_ at frequencies in Hz; zero at zero frequency."""
+    # placeholder at zero frequency, where the weight is set to zero below
     f = np.where(frequency > 0, frequency, 1.0)
     y2 = (f / 10.0) ** 2
     high_cut = 1.0 / np.sqrt(np.polynomial.polynomial.polyval(y2, _HIGH_CUT))

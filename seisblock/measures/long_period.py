@@ -108,12 +108,14 @@ def long_period_class(floor_velocity: float) -> str:
 
 def _highpass(row: FloatArray, dt: float) -> FloatArray:
     """Return samples after JMA's high-pass, (n,), m/s^2."""
+    # decay and angle of the poles per sample, scaled from 100 Hz to the sampling rate
     rate_ratio = _RATE * dt
     decay, angle = -0.5 * math.log(_A2) * rate_ratio, math.acos(-_A1 / (2.0 * math.sqrt(_A2))) * rate_ratio
     a1, a2 = -2.0 * math.exp(-decay) * math.cos(angle), math.exp(-2.0 * decay)
     # unit gain at the Nyquist frequency, as JMA's filter
     gain = 0.25 * (1.0 - a1 + a2)
     out = np.zeros(row.size)
+    # constant input before the record: an offset gives no transient
     memory = np.array([row[0], row[0], 0.0, 0.0])
     for begin in range(0, row.size, CHUNK_SIZE):
         part = slice(begin, begin + CHUNK_SIZE)
@@ -151,6 +153,7 @@ def _update_peaks(steps, first, second, dt, states, largest):
                 step[0, 0] * u_2 + step[0, 1] * v_2 + (step[0, 2] * c + step[0, 3] * d),
                 step[1, 0] * u_2 + step[1, 1] * v_2 + (step[1, 2] * c + step[1, 3] * d),
             )
+            # ground velocity by the trapezoidal rule, exact for linear acceleration
             ground += 0.5 * dt * (a + b)
             ground_2 += 0.5 * dt * (c + d)
             top = max(top, (v + ground) ** 2 + (v_2 + ground_2) ** 2)

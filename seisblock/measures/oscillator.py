@@ -59,6 +59,7 @@ def _update_peaks(step, ground, dt, omega, damping, peaks):
     u, v = peaks[FINAL_DISPLACEMENT], peaks[FINAL_VELOCITY]
     absolute = -(damping_term * v + stiffness * u)
     relative = absolute - ground[0]
+    # slope of the absolute acceleration, needed by its cubic interpolant
     jerk = -(damping_term * relative + stiffness * v)
     max_acceleration, max_velocity, max_displacement = (
         max(peaks[ACCELERATION], abs(absolute)),
@@ -89,6 +90,7 @@ def _update_peaks(step, ground, dt, omega, damping, peaks):
 def _peak_of_cubic(first, last, slope, slope_2, dt, top):
     """Return the maximum of `top` and the absolute value of the cubic Hermite interpolant of two values and slopes."""
     high = max(abs(first), abs(last))
+    # an interior extremum needs slopes of opposite sign; skip it if the bound cannot exceed the peak so far
     if slope * slope_2 < 0.0 and high + FOUR_OVER_27 * dt * abs(slope - slope_2) > top:
         slope_dt, slope_2_dt, rise = dt * slope, dt * slope_2, last - first
         square, cube = 3.0 * rise - 2.0 * slope_dt - slope_2_dt, slope_dt + slope_2_dt - 2.0 * rise

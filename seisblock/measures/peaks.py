@@ -74,6 +74,7 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     largest = 0.0
     for begin, v in velocities(history.acceleration, dt, history.initial_velocity):
         a = history.acceleration[begin : begin + v.size]
+        # velocity is extremal where the acceleration crosses zero
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
         at_crossings = v[crossing] + 0.5 * a[crossing] * until_zero

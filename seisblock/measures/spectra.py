@@ -106,6 +106,7 @@ def response_spectrum(
     resampled: dict[int, FloatArray] = {1: np.ascontiguousarray(acceleration)}
     peaks = np.empty((3, period_s.size))
     for column, period in enumerate(period_s):
+        # short periods need points between the samples of a coarse record
         subdivisions = max(1, math.ceil(_POINTS_PER_PERIOD * dt / period))
         if subdivisions not in resampled:
             n = acceleration.size
@@ -143,6 +144,7 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size
     longest_lag = _PARZEN_LAG / smoothing_hz
+    # zero padding: no circular overlap of the autocorrelation, and enough frequencies per bandwidth
     size = 1 << math.ceil(math.log2(max(2 * min(n, LONG_TRANSFORM), 8.0 * longest_lag / dt)))
     if n <= LONG_TRANSFORM:
         energy = np.abs(np.fft.rfft(acceleration - acceleration.mean(), size)) ** 2 * dt**2
@@ -153,6 +155,7 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     window = np.where(lag < 0.5, 1.0 - 6.0 * lag**2 * (1.0 - lag), 2.0 * np.clip(1.0 - lag, 0.0, None) ** 3)
     smoothed_energy = np.fft.rfft(autocorrelation * window).real
     frequency = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
+    # the Parzen spectrum is non-negative; clip the round-off
     return frequency, np.sqrt(np.clip(smoothed_energy, 0.0, None))
 
 

@@ -244,8 +244,10 @@ def component_peaks(component: Component, dt: float, rules: Conventions, start_s
     pga, index = peak_acceleration(a)
     history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
     pgv = peak_velocity(history, dt)
+    # what remains of a constant offset after the filter is round-off, not motion
     pgv = pgv if pgv > _ROUND_OFF * pga * (a.size - 1) * dt else 0.0
     pgd = peak_displacement(history)
+    # release the filtered copy before the Fourier transform of long records
     del history
     pulse = peak_pulse(a, dt)
     return ComponentPeaks(

@@ -69,7 +69,8 @@ class Checkpoint:
             try:
                 path.write_bytes(_encode_line(purpose))
             except OSError:
-                path.unlink()  # nothing of a batch is in it
+                # the file holds no rows yet
+                path.unlink()
                 raise
         return cls(path)
 
@@ -100,6 +101,7 @@ class Checkpoint:
                 entry = _decode_line(line)
                 if entry is not None:
                     journal.places[entry["path"], entry["stamp"]] = end
+                # a complete but damaged line is recomputed; an incomplete one is the last and is cut off below
                 elif line.endswith(b"\n"):
                     journal.damaged += 1
                 else:

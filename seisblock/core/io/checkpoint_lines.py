@@ -58,6 +58,7 @@ def append_line(path: Path, line: str) -> None:
         with path.open("a+b", buffering=0) as stream:
             size = stream.seek(0, os.SEEK_END)
             begin = stream.seek(max(size - MAX_LINE_BYTES, 0))
+            # cut off an incomplete last line
             end = stream.truncate(begin + stream.read(size - begin).rfind(b"\n") + 1)
             buffer = memoryview(f"{line}\n".encode())
             try:

@@ -47,6 +47,7 @@ def remove_stale(folder: Path) -> None:
                 if not path.is_file() or time.time() - path.stat().st_mtime < MIN_AGE_S:
                     continue
                 descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+                # flock raises for a file locked by a living run, which is thereby kept
                 try:
                     fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
                     path.unlink()
