@@ -1,4 +1,4 @@
-"""Lazily compiled kernels: compiled completely when called from Python, as unoptimised callees when used by other kernels."""
+"""Lazily compiled kernels: complete when called from Python, unoptimised callees when used by other kernels."""
 
 from __future__ import annotations
 

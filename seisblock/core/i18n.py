@@ -124,7 +124,9 @@ def join_sentences(sentences: Iterable[str]) -> str:
 
 
 def format_percent(share: float, digits: str = ".0") -> str:
-    """Format a ratio in per cent, with a blank before the sign (ISO 80000-1); template formats that end with ``%`` do the same.
+    """Format a ratio in per cent, with a blank before the sign (ISO 80000-1).
+
+    Template formats that end with ``%`` do the same.
 
     Parameters
     ----------
@@ -160,7 +162,9 @@ def format_share(share: float) -> str:
 
 
 def get_locale(locale: str | None = None) -> str:
-    """Return the language: the argument, else that of :func:`use_locale`, else ``ja`` in a Japanese environment, else ``en``.
+    """Return the active language.
+
+    It is the argument, else that of :func:`use_locale`, else ``ja`` in a Japanese environment, else ``en``.
 
     Parameters
     ----------

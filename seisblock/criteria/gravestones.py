@@ -139,7 +139,7 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
 
 
 def predict(ratio: float, threshold: float) -> Prediction:
-    """Return the predicted behaviour of a stone with a given H/B: on the line within 0.1 of the threshold ([Furukawa2009]_ table 5).
+    """Return the prediction for a stone; on the line within 0.1 of the threshold ([Furukawa2009]_ table 5).
 
     Examples
     --------

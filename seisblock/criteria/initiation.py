@@ -1,7 +1,7 @@
-"""Initiation of motion of a rigid block on Coulomb friction: rest, sliding, rocking, slide-rocking; derived here ([Shenton1996]_).
+"""Initiation of motion of a rigid block: rest, sliding, rocking, slide-rocking; derived here ([Shenton1996]_).
 
-Let A be the horizontal ground acceleration over the weight per unit mass, g + a_y; b the horizontal distance from the centre of
-gravity to the corner of rotation; h the height of the centre and k the radius of gyration. The block is at rest while A <= mu
+Coulomb friction. Let A be the horizontal ground acceleration over the weight per unit mass, g + a_y; b the horizontal distance from
+the centre of gravity to the corner of rotation; h the height of the centre and k the radius of gyration. The block is at rest while A <= mu
 and A <= b/h. If A reaches one of these limits slowly, the block slides for mu < b/h and rocks otherwise. If A is applied suddenly, it
 rocks without slip only if friction holds the corner: with the angular acceleration g q, the centre accelerates by h g q horizontally and
 b g q upwards, so that the corner needs the friction (A - h q)/(1 + b q). With less friction it slides for mu < b/h and slide-rocks

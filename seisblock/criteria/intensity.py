@@ -15,7 +15,7 @@ FITTED_INTENSITY = (4.0, 7.0)
 
 
 def intensity_from_velocity(pgv: float) -> float:
-    """Return the instrumental JMA intensity for a peak ground velocity, I = 2.68 + 1.72 log10 PGV ([Midorikawa1999]_ relation).
+    """Return the instrumental JMA intensity I = 2.68 + 1.72 log10 PGV ([Midorikawa1999]_ relation).
 
     PGV in cm/s (kine), I from 4 to 7, standard deviation 0.21.
 

@@ -1,5 +1,6 @@
-"""Minimum overturning acceleration of pulses: half sine, full sine and rectangle (linear equation), half sine (nonlinear equation).
+"""Minimum overturning acceleration of half-sine, full-sine and rectangular pulses.
 
+Half sine, full sine and rectangle by the linear equation, half sine also by the nonlinear one.
 The ratios follow from the linear equation of slender blocks, theta'' = p^2 (theta - alpha + a/g): a pulse overturns the block without a
 previous impact if the coefficient of the growing exponential after the pulse, alpha - theta - theta'/p, is negative (as in
 [Housner1963]_; derived here, and verified with the solver). Size enters through X = a/(alpha g) and W = omega/p, so that each criterion

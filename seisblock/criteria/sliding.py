@@ -42,7 +42,7 @@ def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = 
 def slip_limits(
     slope_deg: float, mu: float, *, normal: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the limits of the acceleration along a slope between which static friction holds ([Fujino1978]_ eqs. (9), (10)).
+    """Return the sliding thresholds on a slope, downhill and uphill ([Fujino1978]_ eqs. (9), (10)).
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
 
 
 def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float = 1.0, gravity: float = STANDARD_GRAVITY) -> float | None:
-    """Return the slip per half cycle in steady sliding without sticking under harmonic motion ([WestermoUdwadia1983]_ steady sliding).
+    """Return the slip per half cycle under harmonic motion without sticking ([WestermoUdwadia1983]_ steady sliding).
 
     Parameters
     ----------

@@ -83,9 +83,9 @@ def lower_bound_of_row(c, i, degree, h):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
 def _bracketed_root(c, degree, high):
-    """Return the root in [0, high] of a polynomial that changes from positive to negative there (safeguarded Newton iteration).
+    """Return the root in [0, high] of a polynomial that changes from positive to negative there.
 
-    The iteration starts from the root of the quadratic part and ends at a relative step below ``NEWTON_TOLERANCE``.
+    Safeguarded Newton iteration. It starts from the root of the quadratic part and ends at a relative step below ``NEWTON_TOLERANCE``.
     """
     if c[0] <= 0.0:
         return 0.0

@@ -39,7 +39,7 @@ LANE_ARGUMENTS = BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, INTEGERS, INTEGERS, 
 def integrate_in_lanes(
     series, reset, skip, stride, forcing, shape, parameters, rows, lane_rows, needs_engine, lane_state, no_output, scratch, first_row, steps
 ):
-    """Integrate one trajectory per row of `parameters` from `first_row` on for `steps` steps in total; return the next unassigned row.
+    """Integrate one trajectory per row from `first_row` on for `steps` steps in total; return the next unassigned row.
 
     The caller repeats the call until all lanes are empty. `no_output` holds empty path and event arrays; the kernel allocates
     nothing itself, because reference counting would dominate its machine code.

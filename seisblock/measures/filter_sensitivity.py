@@ -36,7 +36,7 @@ class FilterRange:
 
 
 def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) -> FilterRange | None:
-    """Return the range of PGV and PGA/(2 pi PGV) for common filters, None if within 5 % (filter open in [Furukawa2009]_ section 3(5)e).
+    """Return the range of PGV and PGA/(2 pi PGV) for common filters, None if within 5 % ([Furukawa2009]_ section 3(5)e).
 
     Parameters
     ----------

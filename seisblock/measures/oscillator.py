@@ -20,7 +20,7 @@ FOUR_OVER_27 = 4.0 / 27.0
 
 
 def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float) -> tuple[float, float, float]:
-    """Return the peak absolute acceleration, relative velocity and relative displacement of an oscillator, including free vibration.
+    """Return the peak absolute acceleration, relative velocity and relative displacement of an oscillator.
 
     Exact step for linear ground acceleration ([NigamJennings1969]_ eq. (2.7)). Between samples, maxima are those of the
     cubic Hermite interpolants; after the last sample the ground is at rest and the peak of the free vibration counts, too.

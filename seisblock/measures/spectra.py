@@ -52,14 +52,14 @@ class ResponseSpectrum(PlotMixin):
 
 
 def default_periods() -> FloatArray:
-    """Return the default periods of response spectra, 100 values from 0.05 to 10 s, logarithmically spaced ([NigamJennings1969]_)."""
+    """Return 100 logarithmically spaced periods from 0.05 to 10 s for response spectra ([NigamJennings1969]_)."""
     return np.geomspace(0.05, 10.0, 100)
 
 
 def response_spectrum(
     acceleration: FloatArray, dt: float, periods: ArrayLike | None = None, *, damping: float = DAMPING
 ) -> ResponseSpectrum:
-    """Return the response spectrum by the exact solution for piecewise linear ground acceleration ([NigamJennings1969]_ method).
+    """Return the response spectrum, exact for piecewise linear acceleration ([NigamJennings1969]_ method).
 
     u'' + 2 h w u' + w^2 u = -a(t) from rest. The exact step between samples is linear in the state and the two samples. If
     the sampling is coarse relative to the period, the record is interpolated linearly to 20 points per period; between points, maxima

@@ -155,7 +155,7 @@ def measure(
     threshold: float = DEFAULT_THRESHOLD,
     conventions: Conventions | None = None,
 ) -> RecordMeasures:
-    """Return peaks, equivalent frequencies, durations and intensities of a record ([Furukawa2009]_, [JMA1996]_, [Arias1970]_).
+    """Return peaks, frequencies, durations and intensities of a record ([Furukawa2009]_, [JMA1996]_, [Arias1970]_).
 
     Parameters
     ----------

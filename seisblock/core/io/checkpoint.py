@@ -87,13 +87,10 @@ class Checkpoint:
         with _os_errors(path), path.open("r+b") as stream:
             header = _decode_line(stream.readline())
             if header is None:
-                raise OutputError(
-                    "{path}: the first line is damaged and the run cannot be resumed; start again without --resume", path=path
-                )
+                raise OutputError("{path}: the first line is damaged and the run cannot be resumed; start a new run", path=path)
             if header != dict(purpose):
                 raise OutputError(
-                    "{path} belongs to a run with other bodies, options or version: start again without --resume "
-                    "or repeat the original call",
+                    "{path} belongs to a run with other bodies, options or version: start a new run or repeat the original call",
                     path=path,
                 )
             end = stream.tell()
@@ -135,7 +132,7 @@ class Checkpoint:
             stream.seek(self.places[key])
             line = _decode_line(stream.readline())
         if line is None:
-            raise OutputError("{path} changed during reading: run again with --resume to recompute the damaged rows", path=self.path)
+            raise OutputError("{path} changed during reading: resume the run to recompute the damaged rows", path=self.path)
         stored: list[dict[str, Any]] = line["rows"]
         return stored
 

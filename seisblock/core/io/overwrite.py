@@ -1,7 +1,7 @@
-"""Protection of input files: files read and written in a run are tracked, and outputs that would overwrite one are rejected.
+"""Protection of input files against overwriting.
 
-Files are identified by device and inode, so that links and relative paths make no difference. Outside :func:`track_files` nothing is
-tracked or rejected.
+Files read and written in a run are tracked, and outputs that would overwrite one of them are rejected. Files are identified by device
+and inode, so that links and relative paths make no difference. Outside :func:`track_files` nothing is tracked or rejected.
 """
 
 from __future__ import annotations
