@@ -143,7 +143,7 @@ def test_two_runs_never_write_one_table(folder):
         held = journal.read_bytes()
         for how in ("--resume", "--force"):
             answer = run(f"{LINE} {how}")
-            assert answer.exit_code == 3 and "written by another run" in answer.stderr, how
+            assert answer.exit_code == 3 and "in use by another run" in answer.stderr, how
         assert journal.read_bytes() == held and not Path("t.csv").exists()
     assert run(LINE + " --force").exit_code == 0
 
