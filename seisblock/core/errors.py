@@ -100,4 +100,5 @@ def os_error_text(error: OSError) -> Message:
     ----------
     error : OSError
     """
-    return lazy_gettext(error.strerror or str(error))
+    # an OutputError is an OSError, too: keep its own translatable message
+    return error.message if isinstance(error, OutputError) else lazy_gettext(error.strerror or str(error))
