@@ -1,4 +1,4 @@
-# The public names: what a user's script imports from seisblock, read by type checkers and, at run time, by lazy_loader.
+# Public names of the package, read by type checkers and, at run time, by lazy_loader.
 
 from . import bodies, criteria, measures, models, readers, records, studies, validation
 from .bodies.block import Block, from_slenderness

@@ -1,4 +1,4 @@
-"""The command as a process of its own: ``seisblock`` and ``python -m seisblock``."""
+"""Entry point of ``seisblock`` and ``python -m seisblock``."""
 
 import gc
 import signal
@@ -7,14 +7,14 @@ import sys
 from seisblock.core._signals import defer_interrupt
 
 EXIT_INTERRUPTED = 130
-"""Exit code after Ctrl-C, as shells have it."""
+"""Exit code after Ctrl-C, 128 + SIGINT, as in shells."""
 
 GC_THRESHOLD = 50_000
-"""How many pile up before Python looks among them for circles that nobody holds: at its usual 700 that is a tenth of a run, for nothing."""
+"""Allocations before a garbage collection of the youngest generation; at the default of 700 it takes a tenth of the run time."""
 
 
 def run() -> None:
-    """Run the command and leave with its exit code; Ctrl-C while it is imported is no traceback, and behind its end too late."""
+    """Run the command line and exit with its code; SIGINT during imports exits cleanly and is ignored after the end."""
     gc.set_threshold(GC_THRESHOLD)
     try:
         with defer_interrupt():

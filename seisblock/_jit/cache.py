@@ -1,4 +1,4 @@
-"""Where compiled kernels are kept between processes, and what happens when they cannot be."""
+"""On-disk cache of compiled kernels, with fallback to recompilation."""
 
 from __future__ import annotations
 
@@ -21,28 +21,28 @@ from seisblock.core.i18n import Message, lazy_gettext
 Compiled = TypeVar("Compiled")
 
 KERNEL_PACKAGES = ("_jit", "dynamics", "measures", "records", "models")
-"""Packages that define kernels, or say how they are compiled."""
+"""Subpackages that define kernels or their compilation options."""
 
 CACHE_ERRORS = (
     *(OSError, EOFError, pickle.PickleError, ValueError, TypeError, LookupError, AttributeError),
     *(ImportError, RuntimeError, ArithmeticError, MemoryError),
 )
-"""What a kernel that lost or changed its bytes raises when it is read, and what a full disk does; numba's own errors are none of them."""
+"""Exceptions raised while loading a damaged cache file or writing to a full disk; numba's own errors are not among them."""
 
 _disabled = False
 
 _config_lock = threading.RLock()
-"""Held while numba's own settings name our place: another thread's kernels would be kept where the caller's are, or nowhere."""
+"""Lock held while ``numba.config.CACHE_DIR`` points at this package's folder, because the setting is global to the process."""
 
 
 def _source_digest() -> str:
     """Return a digest of every file that defines kernels.
 
-    A cached kernel that calls a kernel of another file is not invalidated by numba when that other
-    file changes; a cache directory named after all kernel sources is never stale.
+    Numba does not invalidate a cached kernel when a kernel in another file that it calls changes. A cache folder named after the digest
+    of all kernel sources is never stale.
     """
     root = Path(__file__).parent.parent
-    # numba keys its entries by the path of the source: two installations do not share them
+    # numba's cache keys contain the source path: two installations cannot share entries
     digest = hashlib.sha256(f"{sys.version} {root}".encode())
     for folder in KERNEL_PACKAGES:
         for path in sorted((root / folder).rglob("*.py")):
@@ -52,7 +52,7 @@ def _source_digest() -> str:
 
 @functools.cache
 def cache_directory() -> Path:
-    """Return the directory of compiled kernels of this very source: ``SEISBLOCK_CACHE_DIR``, else the user's cache."""
+    """Return the cache folder of this version of the sources, below ``SEISBLOCK_CACHE_DIR`` or the user's cache folder."""
     override = os.environ.get("SEISBLOCK_CACHE_DIR")
     if override:
         return Path(override) / _source_digest()
@@ -63,7 +63,7 @@ def cache_directory() -> Path:
 
 @functools.cache
 def _writable() -> bool:
-    """Make the cache directory; return whether it can be written."""
+    """Create the cache folder; return True if it is writable."""
     try:
         cache_directory().mkdir(parents=True, exist_ok=True)
     except OSError:
@@ -73,13 +73,13 @@ def _writable() -> bool:
 
 @functools.cache
 def _emit_once(emit: Callable[[str], None], message: Message) -> None:
-    """Say a line, once in a process."""
+    """Emit a message once per process."""
     emit(message)
 
 
 @contextlib.contextmanager
 def _numba_cache_dir(folder: Path) -> Iterator[None]:
-    """Let numba cache in one place and, should that be impossible, nowhere; what the caller's own kernels use stays as it was."""
+    """Point numba's cache at a folder inside the block and restore the previous settings, which the user's own kernels need."""
     import numba
 
     settings = {"CACHE_DIR": str(folder), "CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator"}
@@ -97,39 +97,43 @@ def _numba_cache_dir(folder: Path) -> Iterator[None]:
 def compile_with_cache(
     compile_kernel: Callable[[bool], Compiled], function: Callable[..., Any], emit: Callable[[str], None], *, cached: bool
 ) -> Compiled:
-    """Compile one kernel with the help of the cache as far as it goes.
+    """Compile one kernel, using the cache as far as it works.
 
     Parameters
     ----------
     compile_kernel : callable
-        Told whether to use the cache; returns the compiled kernel.
+        Function of a flag (use the cache or not) that returns the compiled kernel.
     function : function
-        The kernel's source.
+        Python source of the kernel.
     emit : callable
-        Told, once, what takes a while and why.
+        Callback for messages about slow or repeated compilation, each issued once per process.
     cached : bool
-        Whether something is kept of it.
+        True if the cache holds files of the kernel.
     """
     global _disabled
     folder = cache_directory()
     if not _writable():
         _emit_once(
-            emit, lazy_gettext("{place}: cannot be written: compiling afresh; SEISBLOCK_CACHE_DIR names another folder", place=str(folder))
+            emit,
+            lazy_gettext(
+                "the kernel cache {place} is not writable: kernels are compiled in every run; set SEISBLOCK_CACHE_DIR to a writable folder",
+                place=str(folder),
+            ),
         )
         _disabled = True
     if _disabled:
         return compile_kernel(False)
     if not cached:
-        _emit_once(emit, lazy_gettext("compiling the kernels, once; seconds, for the largest half a minute..."))
+        _emit_once(emit, lazy_gettext("compiling kernels (first run only, up to 30 s)..."))
     with _numba_cache_dir(folder):
         try:
             if enable_checksums(folder):
                 _verify_checksums(cast(FunctionType, function))
             return compile_kernel(True)
         except CACHE_ERRORS as error:
-            cause = os_error_text(error) if isinstance(error, OSError) and error.strerror else lazy_gettext("a damaged kernel")
+            cause = os_error_text(error) if isinstance(error, OSError) and error.strerror else lazy_gettext("damaged file")
             _emit_once(
-                emit, lazy_gettext("{place}: {why}: compiling afresh what cannot be read or kept there", place=str(folder), why=cause)
+                emit, lazy_gettext("kernel cache {place}: {why}; the affected kernels are compiled again", place=str(folder), why=cause)
             )
         try:
             _remove_cached(cast(FunctionType, function))
@@ -140,23 +144,23 @@ def compile_with_cache(
 
 
 def is_cached(function: Callable[..., Any]) -> bool:
-    """Whether something is kept of a kernel."""
+    """Return True if the cache holds files of a kernel."""
     return any(True for _ in _cached_files(cast(FunctionType, function)))
 
 
 def _verify_checksums(function: FunctionType) -> None:
-    """Refuse to read a kernel whose bytes are not those that were written: it would be run."""
+    """Raise ValueError if a cache file was changed: its machine code must not be executed."""
     if not all(has_valid_checksum(path) for path in _cached_files(function)):
-        raise ValueError("a digest does not hold")
+        raise ValueError("checksum mismatch")
 
 
 def _remove_cached(function: FunctionType) -> None:
-    """Remove what is kept of one kernel."""
     for path in _cached_files(function):
         path.unlink(missing_ok=True)
 
 
 def _cached_files(function: FunctionType) -> Iterator[Path]:
-    """Return the files of one kernel."""
+    """Yield the cache files of one kernel."""
     stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
-    return cache_directory().glob(f"*/{stem}.*.nb[ci]")  # numba makes a folder for each of ours, and nothing below it
+    # numba creates one subfolder per source folder
+    return cache_directory().glob(f"*/{stem}.*.nb[ci]")

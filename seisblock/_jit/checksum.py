@@ -1,6 +1,6 @@
-"""Digests at the end of what is kept of a kernel: machine code that changed on the disk is not run.
+"""SHA-256 digests appended to numba's cache files, so that altered machine code is not executed.
 
-Numba reads its files as pickles, which end by themselves, so that what stands behind them disturbs nobody.
+Numba reads its cache files as pickles, which mark their own end; trailing bytes are ignored.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from pathlib import Path
 from typing import Any
 
 DIGEST_SIZE = hashlib.sha256().digest_size
-"""Bytes of a digest."""
+"""Length of a digest, bytes."""
 
 
 @functools.cache
 def enable_checksums(folder: Path) -> bool:
-    """Let numba end each file that it keeps below a folder with a digest of it, from now on.
+    """Patch numba so that it appends a digest to each cache file below a folder.
 
     Returns
     -------
     bool
-        Whether it does; not where numba writes its files otherwise than it did from 0.60 to 0.68.
+        True if the patch is installed; False if numba's internals differ from those of 0.60 to 0.68.
     """
     from numba.core import caching
 
@@ -35,7 +35,7 @@ def enable_checksums(folder: Path) -> bool:
 
     @contextlib.contextmanager
     def open_with_checksum(self: Any, path: str) -> Iterator[Any]:
-        """Write a file, with its digest behind it if it is one of ours."""
+        """Open a file for writing; append the digest if it lies below the folder."""
         with open_for_write(self, path) as stream:
             if not Path(path).is_relative_to(folder):
                 yield stream
@@ -50,7 +50,7 @@ def enable_checksums(folder: Path) -> bool:
 
 
 def has_valid_checksum(path: Path) -> bool:
-    """Whether a file ends with its own digest; one that is gone meanwhile does no harm."""
+    """Return True if a file ends with its digest, or no longer exists."""
     try:
         data = path.read_bytes()
     except FileNotFoundError:

@@ -1,4 +1,4 @@
-"""A kernel that is compiled, or read from the cache, when somebody first needs it: as a whole for Python, as a part for other kernels."""
+"""Lazily compiled kernels: complete when called from Python, unoptimised callees when used by other kernels."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from seisblock.core._signals import defer_interrupt
 
 
 class LazyKernel:
-    """A kernel in the place of its function: Python calls it, and kernels that name it call what it holds.
+    """Wrapper that replaces the function of a kernel and compiles it on first use.
 
-    Most kernels are called by other kernels alone, whose machine code holds theirs: only the few that Python calls are kept, and read.
+    Most kernels are called by other kernels only and are linked into these: only the few that Python calls are written to the cache.
 
     Parameters
     ----------
     function : function
-        The kernel's source.
+        Python source of the kernel.
     compile_kernel : callable
-        Compiles it, or reads it from the cache.
+        Function that compiles the kernel or loads it from the cache.
     compile_callee : callable
-        Compiles what other kernels link; may return None.
+        Function that compiles the kernel for linking; may return None.
     """
 
     def __init__(self, function: Callable[..., Any], compile_kernel: Callable[[], Any], compile_callee: Callable[[], Any]) -> None:
@@ -33,9 +33,9 @@ class LazyKernel:
 
     @property
     def compiled(self) -> Any:
-        """Numba's dispatcher.
+        """Numba dispatcher, compiled on first access.
 
-        Nothing is locked to see whether it was made: two threads may both make it, one of them from what the other one kept.
+        There is no lock: two threads may both compile the kernel, the slower one usually from the cache of the other.
         """
         if self._compiled is None:
             with defer_interrupt():
@@ -44,7 +44,7 @@ class LazyKernel:
 
     @property
     def _numba_type_(self) -> Any:
-        """The attribute by which numba learns the type of what a kernel names."""
+        """Attribute from which numba reads the type of a global used in a kernel."""
         if self._compiled is not None:
             return self._compiled._numba_type_
         if self._part is None:
@@ -57,5 +57,5 @@ class LazyKernel:
         return self.compiled(*arguments)
 
     def __reduce__(self) -> str:
-        """Travel to another process by name; it is compiled, or read, there."""
+        """Pickle by name; the other process compiles the kernel or loads it from the cache."""
         return str(self.__qualname__)  # type: ignore[attr-defined]

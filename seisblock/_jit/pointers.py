@@ -1,4 +1,4 @@
-"""A compiled kernel with its address, as numba's first-class functions want it."""
+"""Function pointers to compiled kernels (numba first-class functions)."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from numba import types
 
 
 class FunctionPointer(types.WrapperAddressProtocol):  # type: ignore[misc]
-    """A compiled kernel that numba's calls need not ask again for its type and address.
+    """Compiled kernel with stored type and address, so that numba does not look them up at each call.
 
     Parameters
     ----------
-    kernel : OnDemand
-        Kept alive as long as the pointer.
+    kernel : LazyKernel
+        Kernel, kept alive as long as the pointer.
     signature : numba signature
-        One of those it was compiled for.
+        Signature for which the kernel is compiled.
     """
 
     def __init__(self, kernel: Any, signature: Any) -> None:
@@ -23,7 +23,7 @@ class FunctionPointer(types.WrapperAddressProtocol):  # type: ignore[misc]
         self._signature = signature
         result = kernel.compiled.get_compile_result(signature)
         self._address = result.library.get_pointer_to_function(result.fndesc.llvm_cfunc_wrapper_name)
-        # the attribute by which numba's dispatcher recognises a type without asking
+        # numba's dispatcher reads this attribute before it tries the slower typeof
         self._numba_type_ = types.FunctionType(signature)
 
     def __wrapper_address__(self) -> int:
@@ -35,7 +35,7 @@ class FunctionPointer(types.WrapperAddressProtocol):  # type: ignore[misc]
         return self._signature
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Travel to another process without the address, which means nothing there."""
+        """Pickle without the address, which is valid in this process only."""
         return FunctionPointer, (self._kernel, self._signature)
 
     def __call__(self, *arguments: Any) -> Any:

@@ -1,6 +1,7 @@
-"""What numba asks of its functions' types while it compiles one kernel, asked once.
+"""Memoised type inference during compilation.
 
-For each ``+`` numba tries some ten templates, for each kernel a few hundred times, at few combinations of types: a third of compiling.
+Numba tries about ten templates for each ``+``, a few hundred times per kernel, for few combinations of types; without memoisation this is
+a third of the compile time.
 """
 
 from __future__ import annotations
@@ -16,20 +17,21 @@ _thread = threading.local()
 
 @functools.cache
 def _install_cache() -> None:
-    """Let numba's functions look first into what was answered, wherever this thread keeps that."""
+    """Patch numba so that function types look into the cache of the current thread first."""
     from numba import types
 
     original = types.Function.get_call_type
 
     @functools.wraps(original)
     def get_call_type(self: Any, context: Any, args: Any, kws: Any) -> Any:
-        """Return the signature for types of arguments; what numba keeps in the function itself, it kept the first time."""
+        """Return the signature for argument types, from the cache if present."""
         signatures = getattr(_thread, "answers", None)
         if signatures is None:
             return original(self, context, args, kws)
         key = id(self), tuple(args), tuple(kws.items())
         if key not in signatures:
-            signatures[key] = original(self, context, args, kws), self  # which must live for its id to be its own
+            # self is stored, too: its id stays unique only while it is alive
+            signatures[key] = original(self, context, args, kws), self
         return signatures[key][0]
 
     types.Function.get_call_type = get_call_type
@@ -37,7 +39,7 @@ def _install_cache() -> None:
 
 @contextmanager
 def memoize_typing() -> Iterator[None]:
-    """Keep numba's answers while one kernel is compiled; one within it has its own."""
+    """Cache numba's type inference inside the block; a nested block has its own cache."""
     _install_cache()
     previous = getattr(_thread, "answers", None)
     _thread.answers = {}

@@ -1,7 +1,7 @@
-"""How values show themselves: a door in the ground floor through which the drawing room lends its pictures.
+"""Display hooks: ``plot()`` and ``_repr_html_()`` delegate to :mod:`seisblock.report` without importing it.
 
-A response, a record or a spectrum knows that it can be seen, not how. What draws stands above them, so it is not imported from here:
-the package's face (``seisblock/__init__.py``) hands over how to fetch it, and it is fetched when something is first shown.
+Results, records and spectra lie below the plotting code in the import order. ``seisblock/__init__.py`` registers a loader of the
+plotting backend; the loader runs at the first plot or notebook display, so that ``import seisblock`` does not load matplotlib.
 """
 
 from __future__ import annotations
@@ -12,43 +12,43 @@ from typing import Any, Protocol
 
 
 class Backend(Protocol):
-    """What the drawing room offers."""
+    """Interface of the plotting and HTML backend."""
 
     def plot(self, value: Any) -> Any:
         """Return the ``matplotlib.figure.Figure`` of a value."""
 
     def html(self, value: Any) -> str:
-        """Return what a notebook shows of a value."""
+        """Return the HTML representation of a value for notebooks."""
 
 
 _load_backend: Callable[[], Backend] | None = None
 
 
 def register_backend(loader: Callable[[], Backend]) -> None:
-    """Say how the painter is fetched, when something is first shown."""
+    """Register the function that loads the backend; it is called at the first display."""
     global _load_backend
     _load_backend = loader
 
 
 def backend() -> Backend:
-    """Return the painter that was lent.
+    """Return the registered backend.
 
     Raises
     ------
     RuntimeError
-        If this part of the package is used without its face.
+        If no backend is registered, that is, if a submodule was loaded without ``import seisblock``.
     """
     if _load_backend is None:
-        raise RuntimeError("nothing draws here: import seisblock, which brings the drawing room along")
+        raise RuntimeError("no plotting backend registered: import seisblock first")
     return _load_backend()
 
 
 MAX_REPR_FIELDS = 5
-"""How many numbers of an outcome are shown in a line."""
+"""Number of scalar fields shown in a one-line representation."""
 
 
 def summary_repr(label: str, outcome: Any, status: str) -> str:
-    """Return what a value is, the first plain facts of its outcome, a dataclass, and how it ended."""
+    """Return a one-line representation: label, first scalar fields of the outcome (a dataclass), status."""
     items = ((item.name, getattr(outcome, item.name)) for item in fields(outcome))
     scalars = [(name, value) for name, value in items if isinstance(value, (bool, int, float, str))]
     parts = [f"{name}={value:.6g}" if isinstance(value, float) else f"{name}={value!r}" for name, value in scalars]
@@ -56,20 +56,20 @@ def summary_repr(label: str, outcome: Any, status: str) -> str:
 
 
 class HtmlReprMixin:
-    """A value that a notebook shows as a table, and with its figure where it has one."""
+    """Mixin that gives a value an HTML representation in notebooks."""
 
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        """Return what a notebook shows."""
+        """Return the HTML representation."""
         return backend().html(self)
 
 
 class PlotMixin(HtmlReprMixin):
-    """A value that has a figure, too."""
+    """Mixin that gives a value a figure and an HTML representation."""
 
     __slots__ = ()
 
     def plot(self) -> Any:
-        """Return its figure, a ``matplotlib.figure.Figure``; a notebook shows it."""
+        """Return the figure of the value, a ``matplotlib.figure.Figure``."""
         return backend().plot(self)

@@ -1,4 +1,4 @@
-"""A signal that is heard in another way for a while, and one that is never lost."""
+"""Temporary signal handlers; deferred KeyboardInterrupt."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ Handler = Callable[[int, FrameType | None], Any]
 
 @contextlib.contextmanager
 def temporary_handler(number: signal.Signals, handler: Handler, *, default: Any) -> Iterator[bool]:
-    """Give a signal another handler inside the block, and the usual one back behind it; the block learns whether it has it.
+    """Install a signal handler inside the block and restore the default handler after it; yield whether it was installed.
 
-    It has not outside the main thread, which hears all signals, nor where somebody else took the signal before.
+    Nothing is installed outside the main thread, where Python forbids it, or where a handler other than the default is active.
 
     Parameters
     ----------
     number : signal.Signals
-        Which.
+        Signal number.
     handler : callable
-        What hears it.
+        Handler inside the block.
     default : handler
-        What hears it where nobody took it: :data:`signal.SIG_DFL`, or :func:`signal.default_int_handler`.
+        Handler expected before the block: :data:`signal.SIG_DFL` or :func:`signal.default_int_handler`.
 
     Examples
     --------
@@ -46,14 +46,14 @@ def temporary_handler(number: signal.Signals, handler: Handler, *, default: Any)
 
 
 _interrupt_pending = False
-"""Whether Ctrl-C was heard where none may be lost."""
+"""True if SIGINT arrived inside a :func:`defer_interrupt` block."""
 
 
 @contextlib.contextmanager
 def defer_interrupt() -> Iterator[None]:
-    """Raise KeyboardInterrupt out of the block where Ctrl-C came inside it, whatever became of it there.
+    """Raise KeyboardInterrupt at the end of the block if SIGINT arrived inside it and was swallowed there.
 
-    A finalizer swallows what is raised in it; a class whose body is executed raises a RuntimeError in its place.
+    Python discards exceptions raised in finalizers, and the creation of a class replaces them by a RuntimeError.
     """
     global _interrupt_pending
     with temporary_handler(signal.SIGINT, _on_interrupt, default=signal.default_int_handler) as is_outermost:
@@ -71,7 +71,7 @@ def defer_interrupt() -> Iterator[None]:
 
 
 def _on_interrupt(number: int, frame: FrameType | None) -> None:
-    """Take note of Ctrl-C, and do what Python does."""
+    """Record the interrupt, then call Python's default handler."""
     global _interrupt_pending
     _interrupt_pending = True
     signal.default_int_handler(number, frame)

@@ -1,4 +1,4 @@
-"""What is remarked to whoever calls from a program of his own: a warning of Python's, and none where the house calls itself."""
+"""Emit ``UserWarning`` for callers outside the package only."""
 
 from __future__ import annotations
 
@@ -6,28 +6,29 @@ import sys
 import warnings
 
 _INTERNAL_PACKAGES = {"seisblock", "dataclasses", "copy"}
-"""Packages that call for somebody else."""
+"""Top-level modules whose frames do not count as an external caller."""
 
 
 def called_externally(depth: int) -> bool:
-    """Return whether a function was called by another program than this one.
+    """Return True if the calling function was itself called from outside the package.
 
     Parameters
     ----------
     depth : int
-        How many calls lie between that function's caller and this call: 1 where the function itself asks.
+        Number of stack frames between the caller examined and this call: 1 for the caller of the calling function.
     """
     caller = str(sys._getframe(depth + 1).f_globals.get("__name__", ""))
     return caller.partition(".")[0] not in _INTERNAL_PACKAGES
 
 
 def warn_external(text: str, depth: int) -> None:
-    """Warn, with the line of the caller, as far away as for :func:`called_externally`.
+    """Issue a UserWarning that points at the line of the external caller.
 
     Parameters
     ----------
     text : str
-        A sentence that was said.
+        Message, a whole sentence.
     depth : int
+        Number of stack frames, see :func:`called_externally`.
     """
     warnings.warn(text, UserWarning, stacklevel=depth + 2)

@@ -1,7 +1,7 @@
-"""What a number must be: said once, for solvers, bodies, criteria and the command line.
+"""Validation of numbers and types, shared by solvers, bodies, criteria and the command line.
 
-Every check takes the quantity as a sentence begins with it, a template if it has values, then the number; it returns the number as a
-float, or refuses it. Nothing is worded before it is refused: bodies are built in inner loops.
+Every check takes the name of the quantity (a message template), then the value, and returns the value as a float or raises an
+:class:`~seisblock.core.errors.InputError`. Messages are formatted only on failure, because bodies are built in inner loops.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from seisblock.core.typing import FloatArray
 
 ErrorClass = type[InputError]
-"""The class of error that says so."""
+"""Exception class raised by a check."""
 
 MIN_MAGNITUDE, MAX_MAGNITUDE = 1e-100, 1e100
-"""Sizes between which squares and cubes stay in the range of numbers; nothing on earth is beyond."""
+"""Bounds of the magnitude of a value: squares and cubes within them neither overflow nor underflow in float64."""
 
 MAX_REPR_LENGTH = 200
-"""How much is shown of what is no number."""
+"""Maximum length of the representation of an invalid value in a message."""
 
 T = TypeVar("T")
 
@@ -35,15 +35,15 @@ def finite(quantity: str, value: Any, /, unit: str = "", *, error: ErrorClass = 
     Parameters
     ----------
     quantity : str
-        The quantity, as a sentence begins: ``the slope``, or ``{name}: the slope``.
+        Name of the quantity at the start of the message: ``the slope``, or ``{name}: the slope``.
     value : any
-        What was given for it; a truth or a text is no number.
+        Value to check; booleans and texts are rejected.
     unit : str
-        Told after the number.
+        Unit printed after the value.
     error : class
-        Raised instead of :class:`ParameterError`.
+        Exception class instead of :class:`ParameterError`.
     names : any
-        Of the fields of `quantity`.
+        Values of the fields of `quantity`.
 
     Examples
     --------
@@ -62,7 +62,7 @@ def finite(quantity: str, value: Any, /, unit: str = "", *, error: ErrorClass = 
 
 
 def positive(quantity: str, value: Any, /, unit: str = "", *, error: ErrorClass = ParameterError, **names: Any) -> float:
-    """Return a finite number above zero; parameters as for :func:`finite`.
+    """Return a finite positive number; parameters as for :func:`finite`.
 
     Examples
     --------
@@ -77,7 +77,7 @@ def positive(quantity: str, value: Any, /, unit: str = "", *, error: ErrorClass 
 
 
 def nonzero(quantity: str, value: Any, /, unit: str = "", *, error: ErrorClass = ParameterError, **names: Any) -> float:
-    """Return a finite number that is not zero; parameters as for :func:`finite`.
+    """Return a finite nonzero number; parameters as for :func:`finite`.
 
     Examples
     --------
@@ -100,14 +100,14 @@ def non_negative(quantity: str, value: Any, /, unit: str = "", *, error: ErrorCl
 
 
 def in_interval(quantity: str, value: Any, /, interval: str, unit: str = "", *, error: ErrorClass = ParameterError, **names: Any) -> float:
-    """Return a number of an interval.
+    """Return a number inside an interval.
 
     Parameters
     ----------
-    what, value, unit, error, names
+    quantity, value, unit, error, names
         As for :func:`finite`.
     interval : str
-        Its two ends, each included by ``[`` or ``]``, left out by ``(`` or ``)``.
+        Ends of the interval, closed by ``[`` and ``]``, open by ``(`` and ``)``.
 
     Examples
     --------
@@ -131,12 +131,12 @@ def fraction(quantity: str, value: Any, /, *, error: ErrorClass = ParameterError
 
 
 def gravity(value: Any) -> float:
-    """Return an acceleration of gravity, m/s^2: positive."""
+    """Return an acceleration of gravity, positive, m/s^2."""
     return positive("gravity", value, "m/s^2")
 
 
 def azimuth(value: Any, /, *, error: ErrorClass = ParameterError) -> float:
-    """Return a direction within a turn either way, degrees; parameters as for :func:`finite`.
+    """Return an azimuth from -360 to 360 degrees; parameters as for :func:`finite`.
 
     Examples
     --------
@@ -150,26 +150,26 @@ def azimuth(value: Any, /, *, error: ErrorClass = ParameterError) -> float:
 
 
 def instance(value: Any, kind: type[T]) -> T:
-    """Return what is of a kind, or refuse it.
+    """Return a value after checking its type.
 
     Examples
     --------
     >>> instance(None, dict)
     Traceback (most recent call last):
-    seisblock.core.errors.KindError: a dict is needed, found nothing
+    seisblock.core.errors.KindError: expected dict, found None
     """
     if not isinstance(value, kind):
-        raise KindError("a {kind} is needed, found {found}", kind=kind.__name__, found=type_name(value))
+        raise KindError("expected {kind}, found {found}", kind=kind.__name__, found=type_name(value))
     return value
 
 
 def type_name(value: Any) -> str:
-    """Return what a value is, for a message."""
-    return lazy_gettext("nothing") if value is None else type(value).__name__
+    """Return the name of the type of a value for messages."""
+    return "None" if value is None else type(value).__name__
 
 
 def function(quantity: str, value: Any, /) -> Any:
-    """Return what can be called, or refuse it.
+    """Return a callable after checking it.
 
     Examples
     --------
@@ -183,21 +183,21 @@ def function(quantity: str, value: Any, /) -> Any:
 
 
 def path(value: Any) -> str | PathLike[str]:
-    """Return the name of a file, or refuse what is none.
+    """Return a path (str or PathLike) after checking its type.
 
     Examples
     --------
     >>> path(None)
     Traceback (most recent call last):
-    seisblock.core.errors.KindError: a path or a name is needed, found nothing
+    seisblock.core.errors.KindError: expected a path or a name, found None
     """
     if not isinstance(value, (str, PathLike)):
-        raise KindError("a path or a name is needed, found {found}", found=type_name(value))
+        raise KindError("expected a path or a name, found {found}", found=type_name(value))
     return value
 
 
 def float_array(quantity: str, values: Any, /) -> FloatArray:
-    """Return an array of numbers, in whatever shape they come; whether they are finite and in range is asked elsewhere.
+    """Return a float64 array of any shape; finiteness and range are not checked.
 
     Examples
     --------
@@ -211,7 +211,8 @@ def float_array(quantity: str, values: Any, /) -> FloatArray:
 
     try:
         array = np.asarray(values)
-    except ValueError:  # rows that differ in length
+    except ValueError:
+        # rows of different lengths
         array = np.asarray(None)
     if array.dtype.kind not in "iuf":
         raise ParameterError("{what} must be numbers, found {found}", what=lazy_gettext(quantity), found=repr(values)[:MAX_REPR_LENGTH])
@@ -219,18 +220,18 @@ def float_array(quantity: str, values: Any, /) -> FloatArray:
 
 
 def float_vector(quantity: str, values: Any, /) -> FloatArray:
-    """Return one row of numbers, (n,); whether they are finite and in range is asked elsewhere.
+    """Return a one-dimensional float64 array, (n,); finiteness and range are not checked.
 
     Examples
     --------
     >>> float_vector("the acceleration", [[1.0, 2.0]])
     Traceback (most recent call last):
-    seisblock.core.errors.ParameterError: the acceleration must be one row of samples, of shape (n,), found shape (1, 2): give one component
+    seisblock.core.errors.ParameterError: the acceleration must have shape (n,), found (1, 2): give one component
     """
     vector = float_array(quantity, values)
     if vector.ndim != 1:
         raise ParameterError(
-            "{what} must be one row of samples, of shape (n,), found shape {shape}: give one component",
+            "{what} must have shape (n,), found {shape}: give one component",
             what=lazy_gettext(quantity),
             shape=str(vector.shape),
         )
@@ -238,50 +239,49 @@ def float_vector(quantity: str, values: Any, /) -> FloatArray:
 
 
 def integer(quantity: str, value: Any, /, *, minimum: int) -> int:
-    """Return a whole number that is so large at least.
+    """Return an integer not below a minimum.
 
     Examples
     --------
     >>> integer("the number of runs", 2.5, minimum=1)
     Traceback (most recent call last):
-    seisblock.core.errors.ParameterError: the number of runs must be a whole number, 1 or more, found 2.5
+    seisblock.core.errors.ParameterError: the number of runs must be an integer of at least 1, found 2.5
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < minimum:
         text = repr(value)[:MAX_REPR_LENGTH]
         raise ParameterError(
-            "{what} must be a whole number, {least} or more, found {found}", what=lazy_gettext(quantity), least=minimum, found=text
+            "{what} must be an integer of at least {least}, found {found}", what=lazy_gettext(quantity), least=minimum, found=text
         )
     return int(value)
 
 
 def seed(value: Any) -> int:
-    """Return a seed of dice: a whole number, zero or more."""
+    """Return a seed of a random number generator, a non-negative integer."""
     return integer("the seed", value, minimum=0)
 
 
 def _to_float(quantity: str, value: Any, error: ErrorClass, names: dict[str, Any]) -> float:
-    """Return what is a number as one."""
     if isinstance(value, float):
         return value
     if isinstance(value, bool) or not isinstance(value, Real):
         raise error("{what} must be a number, found {value}", what=lazy_gettext(quantity, **names), value=repr(value)[:MAX_REPR_LENGTH])
     try:
         return float(value)
-    except OverflowError:  # a whole number of more than 308 digits
+    except OverflowError:
+        # an integer of more than 308 digits
         return math.inf if value > 0 else -math.inf  # type: ignore[operator]
 
 
 def _check_magnitude(quantity: str, number: float, unit: str, error: ErrorClass, names: dict[str, Any], *, minimum: float = 0.0) -> float:
-    """Return a number of which squares and cubes can be taken."""
+    """Return a number whose square and cube are representable."""
     if abs(number) > MAX_MAGNITUDE or 0.0 < abs(number) < minimum:
         quantity = lazy_gettext(quantity, **names)
         text = lazy_gettext(
-            "{what} lies outside all that can be computed with, found {found}", what=quantity, found=_format_value(number, unit)
+            "{what} is outside the computable range (1e-100 to 1e100), found {found}", what=quantity, found=_format_value(number, unit)
         )
         raise error(text)
     return number
 
 
 def _format_value(number: float, unit: str) -> str:
-    """Return a number with its unit."""
     return f"{number:.10g} {unit}".rstrip()

@@ -1,4 +1,4 @@
-"""What can go wrong, one tree; each class is also the builtin a naive caller would catch."""
+"""Exception hierarchy; each class also derives from the matching built-in exception."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from seisblock.core.i18n import N_, Message, lazy_gettext, truncate
 
 
 class SeisblockError(Exception):
-    """Root of every error that seisblock raises on purpose.
+    """Base class of all errors raised by seisblock.
 
     Parameters
     ----------
     message : str
-        What, where, expected, found and the remedy: a template with a field for each value, or a text that was said.
+        Template with named fields, or a :class:`~seisblock.core.i18n.Message`. It states the fault, the place, the expected and the
+        actual value, and the remedy.
     values : any
-        Of the template's fields; another error's ``said`` among them is told along with it.
+        Values of the fields; a :class:`~seisblock.core.i18n.Message` among them is translated, too.
     """
 
     exit_code = 3
@@ -25,56 +26,56 @@ class SeisblockError(Exception):
         super().__init__(truncate(self.message))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Travel to another process with what was said."""
+        """Pickle with the template, so that the message can be translated in another process."""
         return type(self), (self.message,)
 
 
 class InputError(SeisblockError, ValueError):
-    """Something the user gave cannot be used."""
+    """Invalid input."""
 
 
 class ParameterError(InputError):
-    """A number or an option lies outside what the model admits."""
+    """Parameter outside the range of validity of a model."""
 
 
 class KindError(ParameterError, TypeError):
-    """A value is of another kind than the call takes."""
+    """Value of the wrong type."""
 
 
 class UnitError(InputError):
-    """A unit is unknown, or a number that needs one came without."""
+    """Unknown or missing unit."""
 
 
 class RecordError(InputError):
-    """A record cannot be read or does not hold what is asked of it."""
+    """Record that cannot be read or lacks the requested data."""
 
 
 class RecordNotFoundError(RecordError, FileNotFoundError):
-    """No file, and no bundled sample, of that name."""
+    """Neither a file nor a bundled sample of that name exists."""
 
 
 class RecordFormatError(RecordError):
-    """The file is there, but it is not what its format promises."""
+    """File whose content violates its format."""
 
 
 class ComponentError(RecordError, LookupError):
-    """The record has no such component, station or level."""
+    """Component, station or level missing from a record."""
 
 
 class BodyError(InputError):
-    """The description of a body is incomplete or contradicts itself."""
+    """Incomplete or contradictory description of a body."""
 
 
 class HazardError(InputError):
-    """A hazard curve is incomplete or contradicts itself."""
+    """Incomplete or contradictory hazard curve."""
 
 
 class OutputError(SeisblockError, OSError):
-    """An output file cannot be written."""
+    """Output file that cannot be written."""
 
 
 class SolverError(SeisblockError, ArithmeticError):
-    """A solver gave up: the answer would not be one."""
+    """Solver that stopped without a valid result."""
 
     exit_code = 4
 
@@ -89,14 +90,15 @@ SYSTEM_MESSAGES = (
     N_("Permission denied"),
     N_("Read-only file system"),
 )
-"""What systems say most when they refuse a file."""
+"""Most common operating system messages on file access, marked for translation."""
 
 
 def os_error_text(error: OSError) -> Message:
-    """Return why the system refused, without the file's name, so that it can be told.
+    """Return the reason of an operating system error as a translatable message, without the file name.
 
     Parameters
     ----------
     error : OSError
     """
-    return lazy_gettext(error.strerror or str(error))
+    # an OutputError is an OSError, too: keep its own translatable message
+    return error.message if isinstance(error, OutputError) else lazy_gettext(error.strerror or str(error))

@@ -1,9 +1,8 @@
-"""Every text a person sees: said once, in English, and told in the language of whoever reads it.
+"""Translatable messages (gettext) with lazy translation.
 
-Lower floors *say* (:func:`lazy_gettext`, or the template and the values of an error): what they give away reads as an English sentence, in
-documents and tracebacks alike, and remembers what it was made of. The rooms above *tell* (:func:`gettext`): the same template, looked
-up in the catalogue of the language now spoken, with the same values. A vocabulary that travels as data is *noted* where it is
-defined, so that it is in the catalogue when it is told.
+Libraries create a :class:`Message` (:func:`lazy_gettext`, or the template and values of an error): an English string, used as such in
+documents and tracebacks, that keeps its template and values. Reports and the command line translate it with :func:`gettext` into the
+active language. Strings that are data are marked for extraction by :func:`N_` at their definition.
 
 Templates are those of :meth:`str.format`, with named fields. The catalogues are gettext's, ``locale/LANGUAGE/LC_MESSAGES/seisblock.po``,
 compiled when a wheel is built; English loads none.
@@ -25,38 +24,36 @@ from unicodedata import category
 LANGUAGES = ("en", "ja")
 
 LOCALE_DIR = Path(__file__).parents[1] / "locale"
-"""Where the catalogues are."""
+"""Folder of the catalogues."""
 
 LOCALE_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
 
 _LIST_SEPARATORS = {"en": ", ", "ja": "、"}
-"""What stands between the members of a list."""
+"""Separator of the items of a list, by language."""
 
 _SENTENCE_SEPARATORS = {"en": " ", "ja": ""}
-"""What stands between two sentences."""
+"""Separator of two sentences, by language."""
 
 _VALUE_MARK = "\0"
-"""Where a value begins and ends in a template, while it is filled in."""
+"""Marker around each formatted value, removed after the adjustment of blanks."""
 
 _CJK_SPACE = re.compile(rf"(?<=[\u3040-\u9fff]) (?={_VALUE_MARK}[\u3040-\u9fff])|(?<=[\u3040-\u9fff]{_VALUE_MARK}) (?=[\u3040-\u9fff])")
-"""A blank between a template and a value: it parts Japanese from Latin letters and numbers, and goes where both are Japanese."""
+"""Blank between template and value: kept between Japanese and Latin text, removed between two Japanese parts."""
 
 MAX_MESSAGE_LENGTH = 1200
-"""Longest message, in letters."""
+"""Maximum length of a message, characters."""
 
-_locale: ContextVar[str | None] = ContextVar("language asked for", default=None)
+_locale: ContextVar[str | None] = ContextVar("locale", default=None)
 
 
 class Message(str):
-    """An English text that remembers its template and its values, so that it can be told in another language.
-
-    It is a string like any other, and stays one in a document, a message or a comparison.
+    """English string that keeps its template and values for later translation.
 
     Parameters
     ----------
     template : str
     values : mapping
-        Of the template's fields; values that are themselves ``Said`` are told along with it, sequences are listed.
+        Values of the template's fields; a ``Message`` among them is translated, too, and sequences are joined as lists.
     """
 
     __slots__ = ("template", "values")
@@ -64,49 +61,50 @@ class Message(str):
     values: Mapping[str, Any]
 
     def __new__(cls, template: str, values: Mapping[str, Any]) -> Message:
-        """Fill in the template."""
+        """Format the English text."""
         text = super().__new__(cls, _format(template, values, "en"))
         text.template, text.values = template, values
         return text
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Travel to another process, or into a copy, whole."""
+        """Pickle and copy template and values."""
         return Message, (self.template, self.values)
 
 
 def lazy_gettext(template: str, /, **values: Any) -> Message:
-    """Return a text, in English, that can be told in any language.
+    """Return an English message that can be translated later.
 
     Parameters
     ----------
     template : str
-        English, with a field in braces for each value; what was said already stays as it is.
+        English text with a field in braces for each value; a ``Message`` without values is returned unchanged.
     values : any
+        Values of the fields.
     """
     return template if isinstance(template, Message) and not values else Message(template, values)
 
 
 def N_(word: str) -> str:
-    """Return a word of a vocabulary as it is, and have it in the catalogues: it is data here, and told where somebody reads it."""
+    """Mark a string for extraction (gettext ``N_``) and return it unchanged."""
     return word
 
 
 def gettext(text: str, /, **values: Any) -> str:
-    """Return a text in the language now spoken.
+    """Return a text translated into the active language.
 
     Parameters
     ----------
     text : str
-        A template, a text that was :func:`lazy_gettext`, or a word that was :func:`N_`; what no catalogue holds stays as it is.
+        Template, :class:`Message`, or string marked by :func:`N_`; a text without a translation is returned in English.
     values : any
-        Of the template's fields.
+        Values of the template's fields.
     """
     message = text if isinstance(text, Message) and not values else Message(text, values)
     return _translate(message, get_locale())
 
 
 def join_list(parts: Iterable[str]) -> str:
-    """Return texts in a row, with what the language spoken puts between them.
+    """Join texts with the list separator of the active language.
 
     Parameters
     ----------
@@ -116,7 +114,7 @@ def join_list(parts: Iterable[str]) -> str:
 
 
 def join_sentences(sentences: Iterable[str]) -> str:
-    """Return sentences one after the other, with a blank between them where the language spoken has one.
+    """Join sentences with the sentence separator of the active language.
 
     Parameters
     ----------
@@ -126,13 +124,15 @@ def join_sentences(sentences: Iterable[str]) -> str:
 
 
 def format_percent(share: float, digits: str = ".0") -> str:
-    """Return a share in per cent, with a blank before the sign as in all units; in templates a format that ends with ``%`` does the same.
+    """Format a ratio in per cent, with a blank before the sign (ISO 80000-1).
+
+    Template formats that end with ``%`` do the same.
 
     Parameters
     ----------
     share : float, 1
     digits : str
-        How the number is written: decimals such as ``.0`` and ``.1``, or a format such as ``g``.
+        Number of decimals, such as ``.0`` and ``.1``, or a format such as ``g``.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def format_percent(share: float, digits: str = ".0") -> str:
 
 
 def format_share(share: float) -> str:
-    """Return a share, told in whole per cent; neither 0 % nor 100 % where it is not quite.
+    """Format a ratio in whole per cent; values just above 0 and just below 1 are not rounded to 0 % and 100 %.
 
     Parameters
     ----------
@@ -162,7 +162,9 @@ def format_share(share: float) -> str:
 
 
 def get_locale(locale: str | None = None) -> str:
-    """Return a language: the one asked for, else that of the block of :func:`use_locale`, else Japanese in a Japanese locale, else English.
+    """Return the active language.
+
+    It is the argument, else that of :func:`use_locale`, else ``ja`` in a Japanese environment, else ``en``.
 
     Parameters
     ----------
@@ -177,7 +179,7 @@ def get_locale(locale: str | None = None) -> str:
 
 @contextmanager
 def use_locale(locale: str | None) -> Iterator[None]:
-    """Speak a language inside the block; None changes nothing.
+    """Set the language inside the block; None keeps the current one.
 
     Parameters
     ----------
@@ -191,7 +193,7 @@ def use_locale(locale: str | None) -> Iterator[None]:
 
 
 def escape_control(text: str) -> str:
-    r"""Return a text from a file as one that a terminal prints and does not obey: what is no letter, sign or blank is spelt out.
+    r"""Escape control characters of a text from a file, so that a terminal does not interpret them.
 
     Parameters
     ----------
@@ -210,7 +212,7 @@ def escape_control(text: str) -> str:
 
 
 def truncate(text: str) -> str:
-    """Return a message that fits a screen: the middle of one that quotes half a file is left out.
+    """Shorten an overlong message by leaving out its middle.
 
     Parameters
     ----------
@@ -220,12 +222,11 @@ def truncate(text: str) -> str:
 
 
 def _translate(text: Message, locale: str) -> str:
-    """Return a text that was said in a language."""
     return str(text) if locale == "en" else _format(_load_catalogue(locale)(text.template), text.values, locale)
 
 
 def _format(template: str, values: Mapping[str, Any], locale: str) -> str:
-    """Return a template with its values; without values nothing is a field."""
+    """Format a template; without values, braces are literal."""
     if not values:
         return template
     text = _MessageFormatter(locale).vformat(template, (), values)
@@ -233,23 +234,22 @@ def _format(template: str, values: Mapping[str, Any], locale: str) -> str:
 
 
 class _MessageFormatter(Formatter):
-    """Fills in a template: texts that were said are told, those of files made harmless, sequences listed."""
+    """Formatter that translates messages, escapes control characters of strings and joins sequences."""
 
     def __init__(self, locale: str) -> None:
         self.locale = locale
 
     def get_field(self, field_name: str, args: Any, kwargs: Any) -> Any:
-        """Return the value of a field as it is shown."""
         value, used_key = super().get_field(field_name, args, kwargs)
         return self._to_text(value), used_key
 
     def format_field(self, value: Any, format_spec: str) -> str:
-        """Return a value in a format, in which ``%`` writes a share as :func:`format_percent` does."""
+        """Format a value; ``%`` is handled by :func:`format_percent`."""
         text = format_percent(value, format_spec[:-1]) if format_spec.endswith("%") else str(super().format_field(value, format_spec))
         return text if self.locale == "en" else f"{_VALUE_MARK}{text}{_VALUE_MARK}"
 
     def _to_text(self, value: Any) -> Any:
-        """Return a text or a sequence as text, anything else as it is."""
+        """Convert a string or a sequence to text; other values are returned unchanged."""
         if isinstance(value, Message):
             return _translate(value, self.locale)
         if isinstance(value, str):
@@ -261,7 +261,7 @@ class _MessageFormatter(Formatter):
 
 @cache
 def _load_catalogue(locale: str) -> Callable[[str], str]:
-    """Return what translates a template: the compiled catalogue, or the written one where it is newer, as in a developer's tree."""
+    """Return the translation function: from the compiled catalogue, or from the .po file if that is newer (development)."""
     folder = LOCALE_DIR / locale / "LC_MESSAGES"
     mo_path, po_path = folder / "seisblock.mo", folder / "seisblock.po"
     if po_path.is_file() and not (mo_path.is_file() and mo_path.stat().st_mtime > po_path.stat().st_mtime):
@@ -270,17 +270,18 @@ def _load_catalogue(locale: str) -> Callable[[str], str]:
     from gettext import GNUTranslations
 
     with mo_path.open("rb") as stream:
-        # gettext answers an empty text with the head of the catalogue
+        # gettext translates the empty string to the header of the catalogue
         translate = GNUTranslations(stream).gettext
     return lambda template: translate(template) if template else ""
 
 
 def _read_po(path: Path) -> Iterator[tuple[str, str]]:
-    """Yield what a catalogue that is not compiled translates, and how."""
+    """Yield msgid and msgstr of the entries of a .po file."""
     from ast import literal_eval
 
     entry = {"msgid": "", "msgstr": ""}
     key = ""
+    # the additional msgid completes the last entry
     for line in [*path.read_text(encoding="utf-8").splitlines(), 'msgid ""']:
         if not line.startswith('"'):
             key, _, line = line.partition(" ")

@@ -1,4 +1,4 @@
-"""How much may be read, kept and computed at once, and the environment variables that lift each limit."""
+"""Limits of memory and computation, each adjustable by an environment variable."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from seisblock.core.i18n import lazy_gettext
 MIB = 2**20
 
 CHUNK_SIZE = 2**18
-"""Samples that are worked on at a time: a day-long record needs no further memory of its size."""
+"""Samples processed at a time, so that day-long records need no temporary arrays of their own size."""
 
 DEFAULT_LIMITS = {
     "SEISBLOCK_READ_MIB": 1024,
@@ -30,58 +30,58 @@ DEFAULT_LIMITS = {
     "SEISBLOCK_TRIANGLES": 3_000_000,
     "SEISBLOCK_CORNERS": 10_000,
 }
-"""The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
-archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
-combinations of one study; stones of a cemetery, bodies of a list, stones of a pile, each pair of which is looked at, and points along a
-side of its joints; MiB of the changes of mode of one answer, 0.1 to 0.4 kB each; MiB of a record and of the transform of so many samples
-that they cannot be transformed in parts; triangles of a scan, each of 0.5 to 0.9 kB, and corners of the base of a scanned body."""
+"""Environment variables and default limits: MiB read and unpacked, members of archives, depth of nested archives, samples of all
+components; MiB of the time histories of one result; samples and scale factors of one body; values of one option; combinations of one
+study; stones of a cemetery, bodies of a list, stones of a pile (all pairs are tested for contact), contact points along a side of a
+joint; MiB of the events of one result (0.1 to 0.4 kB each); MiB of a record and its transform where the transform cannot be split;
+triangles of a scan (0.5 to 0.9 kB each) and corners of the base polygon of a scanned body."""
 
 
 def get_limit(variable: str) -> int:
-    """Return a limit, from the environment where it stands there.
+    """Return a limit: the value of the environment variable, else the default.
 
     Raises
     ------
     ParameterError
-        If the variable is no positive whole number.
+        If the variable is not a positive integer.
     """
     text = os.environ.get(variable, "")
     if text and not (text.isascii() and text.isdigit() and int(text) > 0):
-        raise ParameterError("{variable} must be a positive whole number, found {text!r}", variable=variable, text=text[:40])
+        raise ParameterError("{variable} must be a positive integer, found {text!r}", variable=variable, text=text[:40])
     return int(text) if text else DEFAULT_LIMITS[variable]
 
 
 def check_limit(items: str, count: int, variable: str, *, source: str = "", error: type[InputError] = ParameterError) -> None:
-    """Refuse more than may be computed at once.
+    """Raise an error if a count exceeds its limit.
 
     Parameters
     ----------
     items : str
-        What there are so many of, as it follows the number.
+        Name of the items, plural, printed after the number.
     count : int
-        How many are asked for.
+        Number requested.
     variable : str
-        Of the limit.
+        Environment variable of the limit.
     source : str
-        The file that asks for them.
+        Name of the file that requests them, printed first.
     error : class
-        Raised instead of :class:`ParameterError`.
+        Exception class instead of :class:`ParameterError`.
 
     Raises
     ------
     ParameterError
-        If so; the message says how many are asked for, how many are allowed, and what lifts the limit.
+        If the limit is exceeded; the message states the count, the limit and the environment variable.
 
     Examples
     --------
     >>> check_limit("versions", 10**9, "SEISBLOCK_RUNS")
     Traceback (most recent call last):
-    seisblock.core.errors.ParameterError: 1000000000 versions, and 100000 are allowed: ask for fewer, or set SEISBLOCK_RUNS to allow more
+    seisblock.core.errors.ParameterError: 1000000000 versions exceed the limit of 100000: reduce the number or raise SEISBLOCK_RUNS
     """
     maximum = get_limit(variable)
     if count > maximum:
         text = lazy_gettext(
-            "{found} {what}, and {most} are allowed: ask for fewer, or set {variable} to allow more",
+            "{found} {what} exceed the limit of {most}: reduce the number or raise {variable}",
             found=count,
             what=lazy_gettext(items),
             most=maximum,
@@ -91,18 +91,18 @@ def check_limit(items: str, count: int, variable: str, *, source: str = "", erro
 
 
 def check_curve_memory(samples: int, columns: int) -> None:
-    """Refuse curves that would take more memory than they may.
+    """Raise an error if time histories would exceed their memory limit.
 
     Raises
     ------
     ParameterError
-        If so; the message says how much, and what lifts the limit.
+        If the limit is exceeded; the message states the memory needed and the environment variable.
     """
     size_mib, maximum = samples * columns * 8 // MIB, get_limit("SEISBLOCK_CURVES_MIB")
     if size_mib > maximum:
         raise ParameterError(
-            "the curves of {samples} samples would take {found} MiB, and {most} may be taken: cut a window out of the record, or "
-            "set {variable} to take more",
+            "time histories of {samples} samples need {found} MiB, more than the limit of {most} MiB: select a shorter time window or "
+            "raise {variable}",
             samples=samples,
             found=size_mib,
             most=maximum,
@@ -111,18 +111,17 @@ def check_curve_memory(samples: int, columns: int) -> None:
 
 
 def check_event_memory(count: int, event_bytes: int) -> None:
-    """Refuse more changes of mode, of so many bytes each, than may be kept.
+    """Raise an error if the events of a trajectory exceed their memory limit.
 
     Raises
     ------
     ParameterError
-        If so; the message says how many there are, what they take, and what lifts the limit.
+        If the limit is exceeded; the message states the count, the memory needed and the environment variable.
     """
     maximum = get_limit("SEISBLOCK_CHANGES_MIB")
     if count * event_bytes > maximum * MIB:
         raise ParameterError(
-            "{count} changes of mode take {found} MiB, and {most} may be taken: cut a window out of the record, or set "
-            "{variable} to take more",
+            "{count} mode changes need {found} MiB, more than the limit of {most} MiB: select a shorter time window or raise {variable}",
             count=count,
             found=-(-count * event_bytes // MIB),
             most=maximum,

@@ -1,4 +1,4 @@
-"""What a solver answers: phases, events, channels and an outcome, in one immutable response."""
+"""Immutable result of a solver: outcome, phases, events and channels (time histories)."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ Value = TypeVar("Value")
 
 
 class LazySequence(Sequence[Value]):
-    """Values that are made when one looks at them: columns of numbers hold a million of them in the room of a hundredth.
+    """Sequence whose items are built on access from columns of numbers, which need about a hundredth of the memory.
 
     Parameters
     ----------
     count : int
-        How many there are.
+        Number of items.
     make : callable
-        Makes those of a slice.
+        Function that builds the items of a slice.
 
     Examples
     --------
@@ -40,7 +40,7 @@ class LazySequence(Sequence[Value]):
     """
 
     CHUNK_SIZE = 2**12
-    """How many are made at a time for whoever goes through them."""
+    """Number of items built at a time during iteration."""
 
     def __init__(self, count: int, make: Callable[[slice], Sequence[Value]]) -> None:
         self._count, self._make = count, make
@@ -63,7 +63,7 @@ class LazySequence(Sequence[Value]):
             yield from self._make(slice(begin, min(begin + self.CHUNK_SIZE, self._count)))
 
     def __eq__(self, other: object) -> bool:
-        """Whether another sequence holds the same."""
+        """Return True if another sequence has equal items."""
         return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
 
     __hash__ = None  # type: ignore[assignment]
@@ -74,7 +74,7 @@ class LazySequence(Sequence[Value]):
 
 @dataclass(frozen=True, slots=True)
 class Phase:
-    """A stretch of time spent in one mode, times in s from the record's first sample."""
+    """Time interval spent in one mode; times in s after the record's first sample."""
 
     name: str
     start_s: float
@@ -87,21 +87,20 @@ class Phase:
 
 
 def make_phases(edges: FloatArray, modes: IntArray, name: Callable[[int], str]) -> Sequence[Phase]:
-    """Return stretches of time that follow each other.
+    """Return consecutive phases.
 
     Parameters
     ----------
     edges : (n + 1,) array, s
-        From the record's first sample.
+        Limits of the phases, after the record's first sample.
     modes : (n,) array of int
     name : callable
-        Of a mode.
+        Function that returns the name of a mode.
     """
     return LazySequence(modes.size, partial(_phases, edges, modes, name))
 
 
 def _phases(edges: FloatArray, modes: IntArray, name: Callable[[int], str], part: slice) -> list[Phase]:
-    """Return some of the stretches."""
     return [
         Phase(name(mode), start, end)
         for mode, start, end in zip(modes[part].tolist(), edges[:-1][part].tolist(), edges[1:][part].tolist(), strict=True)
@@ -110,14 +109,14 @@ def _phases(edges: FloatArray, modes: IntArray, name: Callable[[int], str], part
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Event:
-    """A change of mode, with the state on both sides of it.
+    """Event at which the mode changes, with the state before and after it.
 
     Parameters
     ----------
     name : str
-        What happened (``impact``, ``slip start``...).
+        Name of the event (``impact``, ``slip start``...).
     time_s : float, s
-        Time from the record's first sample.
+        Time after the record's first sample.
     before, after : (n_state,) array
         State just before and just after, in the model's order and units.
     """
@@ -133,34 +132,33 @@ def make_events(event_log: EventLog, start_s: float, name: Callable[[GuardEvent]
 
     Parameters
     ----------
-    event_log : Changes
+    event_log : EventLog
     start_s : float, s
-        When the motion begins, from the record's first sample.
+        Start of the motion after the record's first sample.
     name : callable
-        Of a change.
+        Function that returns the name of an event.
     """
     return LazySequence(len(event_log), partial(_events, event_log, start_s, name))
 
 
 def _events(event_log: EventLog, start_s: float, name: Callable[[GuardEvent], str], part: slice) -> list[Event]:
-    """Return some of the events."""
     return [Event(name(guard_event), start_s + guard_event.time, guard_event.before, guard_event.after) for guard_event in event_log[part]]
 
 
 @dataclass(frozen=True, eq=False)
 class Channel:
-    """One quantity against time.
+    """Time history of one quantity.
 
     Parameters
     ----------
     name : str
         Identifier (``rotation``), also the column's name in files together with the unit.
     unit : str
-        SI unit, ``1`` when it has none.
+        SI unit, ``1`` for a dimensionless quantity.
     values : (n,) array, in `unit`
         One value per entry of the response's time axis.
     symbol : str
-        The paper's letter, for axis labels.
+        Symbol used in the paper, for axis labels.
     """
 
     name: str
@@ -171,12 +169,12 @@ class Channel:
 
 @dataclass(frozen=True, eq=False)
 class Histories:
-    """Quantities on one time axis.
+    """Time histories on one time axis.
 
     Parameters
     ----------
     time : (n,) array, s
-        From the record's first sample.
+        Times after the record's first sample.
     channels : tuple of Channel
     """
 
@@ -185,39 +183,39 @@ class Histories:
 
 
 def constant_histories(histories: Histories) -> Histories:
-    """Return curves that were made already: those of an answer that came from another process."""
+    """Return the histories unchanged; replaces ``make_histories`` in a response pickled by another process."""
     return histories
 
 
 def no_histories() -> Histories:
-    """Return the curves of an answer that has none."""
+    """Return empty histories."""
     return Histories(np.empty(0))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(PlotMixin, Generic[Outcome]):
-    """The answer of a solver to one motion.
+    """Response of a body to one motion, computed by one solver.
 
     Parameters
     ----------
     model : str
         Name of the solver.
     outcome : dataclass
-        The numbers a user asks for; its fields are the keys of the JSON document.
+        Scalar results; its fields are the keys of the JSON document.
     motion, body : Motion, object
-        What shook, and what stood there.
+        Input motion and model of the body.
     make_histories : callable
-        Makes :attr:`time` and :attr:`channels`, which are made when one of them is first asked for: a verdict needs neither.
+        Function that computes :attr:`time` and :attr:`channels` on first access; the outcome needs neither.
     phases, events : sequence
-        In the order of time.
+        In chronological order.
     options : mapping
-        Everything else that determines the answer, SI.
+        All other input parameters, SI.
     status : Status
-        How the integration ended.
+        Status of the integration.
     warnings : tuple of str
-        What the user should know before believing the numbers.
+        Limits of validity and doubts about the result.
     citations : tuple of str
-        Keys of the papers relied on.
+        Keys of the papers used.
     """
 
     model: str
@@ -234,32 +232,32 @@ class Response(PlotMixin, Generic[Outcome]):
 
     @cached_property
     def histories(self) -> Histories:
-        """The time axis and the quantities on it."""
+        """Time axis and channels, computed on first access."""
         return self.make_histories()
 
     @property
     def time(self) -> FloatArray:
-        """Times from the record's first sample, (n,), s: the samples, and both sides of each event where the model logs them."""
+        """Times after the record's first sample, (n,), s: samples and, where the model logs events, both sides of each event."""
         return self.histories.time
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Quantities on that axis; displacements are relative to the ground unless the name says otherwise."""
+        """Time histories on that axis; displacements are relative to the ground unless the name states otherwise."""
         return self.histories.channels
 
     def __repr__(self) -> str:
-        """Return what it is in a line, without curves and lists."""
+        """Return a one-line summary without time histories."""
         body = getattr(self.body, "name", "") or type(self.body).__name__
         label = f"Response {self.model} of {body} under {self.motion.name or 'x'}"
         return summary_repr(label, self.outcome, self.status.name.lower())
 
     def __getstate__(self) -> dict[str, Any]:
-        """Return what is pickled: the curves themselves stand for what makes them, which belongs to this process."""
+        """Return the state to pickle, with computed histories in place of the function that computes them."""
         state = {name: value for name, value in self.__dict__.items() if name != "histories"}
         return {**state, "make_histories": partial(constant_histories, self.histories)}
 
     def __getitem__(self, name: str) -> FloatArray:
-        """Return the values of a channel by name."""
+        """Return the values of the channel of that name, (n,)."""
         for channel in self.channels:
             if channel.name == name:
                 return channel.values
@@ -268,22 +266,23 @@ class Response(PlotMixin, Generic[Outcome]):
     def phase_of_row(self) -> IntArray:
         """Return, for each entry of the time axis, the index of its phase, (n,).
 
-        Where an event stands twice, the first of the pair belongs to the phase it ends.
+        Of the two entries of an event, the first belongs to the phase that ends there.
         """
         if not self.phases:
             return np.zeros(self.time.size, dtype=np.int64)
         starts = np.array([phase.start_s for phase in self.phases])
         index = np.clip(np.searchsorted(starts, self.time, side="right") - 1, 0, None)
+        # an event is logged twice at the same time, before and after
         first_of_pair = np.append(self.time[1:] == self.time[:-1], False)
         ends_one = first_of_pair & (self.time == starts[index]) & (index > 0)
         return (index - ends_one).astype(np.int64)
 
     def summary(self) -> dict[str, Any]:
-        """Return the outcome as a plain dictionary, with the component first."""
+        """Return the outcome as a dictionary that begins with the component."""
         return {"component": self.motion.name, **asdict(self.outcome)}  # type: ignore[call-overload]
 
     def to_columns(self) -> dict[str, FloatArray]:
-        """Return the time axis and every channel as columns named ``name_unit``, for tables and files."""
+        """Return the time axis and all channels as columns named ``name_unit``."""
         columns = {"time_s": self.time}
         for channel in self.channels:
             suffix = "" if channel.unit == "1" else "_" + channel.unit.replace("/", "_").replace("^", "")

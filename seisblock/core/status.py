@@ -1,4 +1,4 @@
-"""How an integration ended: the one list of statuses, for kernels (integers) and for answers (an enumeration)."""
+"""Status codes of an integration: integers for kernels, an enumeration for results."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from seisblock.core.i18n import N_
 
 
 class Status(IntEnum):
-    """How an integration ended; every compiled kernel returns one of these, never an exception."""
+    """Status code of an integration; compiled kernels return one of these and never raise."""
 
     RECORD_ENDED = 0
     STOPPED = 1
@@ -20,12 +20,12 @@ class Status(IntEnum):
 
 
 RECORD_ENDED, STOPPED, TOO_MANY_EVENTS, CHATTERING, NOT_FINITE, STEP_TOO_SMALL, PAUSED = map(int, Status)
-"""The same as plain integers. PAUSED is no end: the allowance of steps is used up, and the kernel wants to be called again."""
+"""Status codes as plain integers. PAUSED: the allotted steps are used up; the kernel is to be called again."""
 
 FAILURES = {
-    TOO_MANY_EVENTS: N_("it changes its mode without end"),
-    CHATTERING: N_("two modes return to each other at one instant"),
-    NOT_FINITE: N_("its state overflows"),
-    STEP_TOO_SMALL: N_("its power series does not converge on any step"),
+    TOO_MANY_EVENTS: N_("too many mode changes"),
+    CHATTERING: N_("chattering between two modes"),
+    NOT_FINITE: N_("the state is not finite"),
+    STEP_TOO_SMALL: N_("the power series does not converge at the minimum step size"),
 }
-"""Statuses that are no answer, in words."""
+"""Causes of failure, by status; none of these statuses is a valid result."""

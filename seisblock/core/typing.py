@@ -1,4 +1,4 @@
-"""Names for the types that travel through the whole package."""
+"""Type aliases used throughout the package."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ IntArray: TypeAlias = NDArray[np.int64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
 Progress: TypeAlias = Callable[[int, int], None]
-"""Told now and then how many runs, or pictures, are done, and how many there are in all."""
+"""Progress callback: called with the number of completed runs or frames, and the total."""
 
 TimeWindow: TypeAlias = tuple[float | None, float | None]
-"""A stretch of time, s after the record's first sample; an end left out is that of the record."""
+"""Start and end of a time window, s after the record's first sample; None stands for the end of the record."""
 
 __all__ = ["ArrayLike", "BoolArray", "ComplexArray", "FloatArray", "IntArray", "Progress", "TimeWindow"]

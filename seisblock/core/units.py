@@ -1,4 +1,4 @@
-"""Units at the border: SI inside, and one place that knows what the others are worth."""
+"""Unit conversion and parsing of quantities; all internal values are SI."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ BU = SUN / 10
 """One bu in m, a tenth of a sun."""
 
 MAX_UNITLESS_LENGTH = 20.0
-"""A length beyond this, m, that comes without a unit is taken for one whose unit was forgotten."""
+"""Maximum length accepted without a unit, m; a larger number was probably meant in cm or mm."""
 
 ACCELERATION_UNITS = {
     "gal": GAL,
@@ -56,7 +56,7 @@ VELOCITY_UNITS = {"m/s": 1.0, "cm/s": KINE, "kine": KINE, "mm/s": 1e-3, "in/s": 
 
 
 class FigureSize(NamedTuple):
-    """Width and height of a picture, m, and the unit in which one speaks of them."""
+    """Width and height of a figure, m, and the unit in which they are displayed."""
 
     width: float
     height: float
@@ -81,10 +81,10 @@ LENGTH_UNITS = {
 MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
 
 MAX_QUANTITY_LENGTH = 200
-"""No number with its unit is longer."""
+"""Maximum length of the text of a number with its unit, characters."""
 
 WIDE_DECOMPOSITIONS = ("<wide>", "<square>")
-"""What Unicode calls letters as wide as a Chinese one, and units that stand in the room of one."""
+"""Unicode decomposition types of full-width characters and of units in a single character cell."""
 
 _QUANTITY_TERM = re.compile(r"\s*+((?<!\d)\d++(?:\.\d*+)?|\.\d++)\s*+([^\d\s.+-]++)")
 _QUANTITY = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(.*\S|)\s*\Z")
@@ -110,16 +110,16 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
     Parameters
     ----------
     text : str or float
-        A bare number is in metres, up to 20; larger ones need their unit. Several units add up, each smaller than the one before.
+        A number without a unit is in metres and at most 20. Several units in descending order add up.
     quantity : str
-        What the length is, for the message.
+        Name of the length in messages.
 
     Raises
     ------
     UnitError
-        If the unit is unknown, or missing where it was probably forgotten.
+        If the unit is unknown, or missing for a number above 20.
     ParameterError
-        If the text holds no number.
+        If the text is not a number with a unit.
 
     Examples
     --------
@@ -130,13 +130,14 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
         text = to_halfwidth(text)
         pieces = _QUANTITY_TERM.findall(text) if len(text) <= MAX_QUANTITY_LENGTH else []
         units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
+        # several terms with known, descending units and nothing between them
         if len(pieces) > 1 and not _QUANTITY_TERM.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
+            # rounding removes binary round-off such as 0.24240000000000003
             return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
     value = _parse(text, LENGTH_UNITS, "m", quantity)
     if abs(value) > MAX_UNITLESS_LENGTH and (not isinstance(text, str) or is_unitless(text)):
         raise UnitError(
-            "{what} of {value:g} m? without a unit a length is in metres: "
-            "write {value:g}cm or {value:g}mm, or {value:g}m if it is so large",
+            "{what} {value:g} has no unit and exceeds 20 m: write {value:g}cm, {value:g}mm or {value:g}m",
             what=quantity,
             value=value,
         )
@@ -144,9 +145,9 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
 
 
 def to_halfwidth(text: str) -> str:
-    """Return a text whose full-width letters, digits and signs of units are those of a keyboard; what is longer than a number stays.
+    """Return a text with full-width letters, digits and unit signs replaced by ASCII.
 
-    Raised digits and fractions stay, too: ten to the second is not 102.
+    Superscripts and fractions are kept (``10²`` is not 102), and so are texts longer than a number with its unit.
 
     Examples
     --------
@@ -162,21 +163,21 @@ def to_halfwidth(text: str) -> str:
 
 
 def warn_large_lengths(name: str, depth: int = 3, /, **lengths: float | None) -> None:
-    """Warn of lengths, m, that a program gives and the command line would refuse without their unit.
+    """Warn of lengths above 20 m passed from external code, where cm or mm were probably meant.
 
     Parameters
     ----------
     name : str
-        Of the body.
+        Name of the body.
     depth : int
-        How far away the program is, see :func:`~seisblock.core._warnings.called_externally`: from the check of a dataclass three calls.
+        Number of stack frames to the caller, see :func:`~seisblock.core._warnings.called_externally`; three from ``__post_init__``.
     lengths : float or None, m
-        By their names; None where not given.
+        Lengths by name; None if not specified.
     """
     large = {quantity: value for quantity, value in lengths.items() if value is not None and value > MAX_UNITLESS_LENGTH}
     if large and called_externally(depth):
         text = lazy_gettext(
-            "{name}: {lengths}? lengths are in m here: {value:g} cm are {metres:g}",
+            "{name}: {lengths} (above 20 m); lengths are in m, {value:g} cm = {metres:g} m",
             name=name,
             lengths=[f"{quantity} = {value:g} m" for quantity, value in large.items()],
             value=next(iter(large.values())),
@@ -186,22 +187,22 @@ def warn_large_lengths(name: str, depth: int = 3, /, **lengths: float | None) ->
 
 
 def parse_quantity(text: str | float, units: Mapping[str, float], *, quantity: str) -> tuple[float, bool]:
-    """Return a number in SI from a text with a unit or without one, and whether it had one.
+    """Return a number in SI and whether the text had a unit.
 
     Parameters
     ----------
     text : str or float
     units : mapping of str to float
-        What a unit may be, and its value in SI.
+        Admissible units and their values in SI.
     quantity : str
-        What the number is, for the message.
+        Name of the number in messages.
 
     Raises
     ------
     UnitError
         If the unit is unknown.
     ParameterError
-        If the text holds no number.
+        If the text is not a number with a unit.
 
     Examples
     --------
@@ -223,16 +224,16 @@ def parse_acceleration(text: str, *, quantity: str = "acceleration") -> float:
     Parameters
     ----------
     text : str
-        A number with a unit: a bare number could be gal as well as m/s^2, a factor of 100 apart.
+        A number with a unit, which is required: gal and m/s^2 differ by a factor of 100.
     quantity : str
-        What the acceleration is, for the message.
+        Name of the acceleration in messages.
 
     Raises
     ------
     UnitError
         If the unit is missing or unknown.
     ParameterError
-        If the text holds no number.
+        If the text is not a number with a unit.
 
     Examples
     --------
@@ -242,7 +243,7 @@ def parse_acceleration(text: str, *, quantity: str = "acceleration") -> float:
     match = _match_quantity(text)
     if match is None:
         raise ParameterError(
-            "{what} {text!r} is not a number with a unit: write for example 245gal, 2.45m/s2 or 0.25g", what=quantity, text=text
+            "{what} {text!r} is not a number with a unit: write, for example, 245gal, 2.45m/s2 or 0.25g", what=quantity, text=text
         )
     if not match[2]:
         raise UnitError(
@@ -252,36 +253,36 @@ def parse_acceleration(text: str, *, quantity: str = "acceleration") -> float:
 
 
 def _match_quantity(text: str) -> re.Match[str] | None:
-    """Return a number and its unit, or None: a text that is too long for them is not even looked at."""
+    """Match a number and its unit; overlong texts are rejected first to bound the time of the regular expression."""
     return _QUANTITY.match(to_halfwidth(text)) if len(text) <= MAX_QUANTITY_LENGTH else None
 
 
 def is_unitless(text: str) -> bool:
-    """Return whether a text is a number alone."""
+    """Return True if a text is a number without a unit."""
     match = _match_quantity(text)
     return match is not None and not match[2]
 
 
 def _parse(text: str | float, table: Mapping[str, float], default: str, quantity: str) -> float:
-    """Read a number with an optional unit from `table`."""
+    """Return a number in SI, its unit looked up in `table`."""
     if not isinstance(text, str):
         value, unit = checks.finite(quantity, text), ""
     else:
         match = _match_quantity(text)
         if match is None:
             raise ParameterError(
-                "{what} {text!r} is not a number with a unit: write for example 0.24, 24cm or 8sun", what=quantity, text=text
+                "{what} {text!r} is not a number with a unit: write, for example, 0.24, 24cm or 8sun", what=quantity, text=text
             )
         value, unit = float(match[1]), match[2]
     factor = table.get(unit or default)
     if factor is None:
         raise UnitError(
-            "{what} {text!r} has the unknown unit {unit!r}: use one of {known}",
+            "{what} {text!r}: unknown unit {unit!r}; use one of {known}",
             what=quantity,
             text=text,
             unit=unit,
             known=[name for name in table if name],
         )
     if not math.isfinite(value):
-        raise ParameterError("{what} must be finite, not {text!r}", what=quantity, text=text)
+        raise ParameterError("{what} must be finite, found {text!r}", what=quantity, text=text)
     return round(value * factor, 15) if unit else value

@@ -1,4 +1,4 @@
-"""Closed forms: each a cited formula."""
+"""Closed-form criteria of overturning, sliding and uplift, each with its source."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""All criteria of overturning side by side for one block and one motion."""
+"""Comparison of all overturning criteria for one block and one motion."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio, o
 ACCELERATION, VELOCITY = "m/s^2", "m/s"
 
 PREFERRED_FREQUENCY = "pga_pgv"
-"""The equivalent frequency for which the criterion of gravestones was tried on records ([Furukawa2009]_ section 3(5)e)."""
+"""Equivalent frequency for which the gravestone criterion was verified with records ([Furukawa2009]_ section 3(5)e)."""
 
 
 @dataclass(frozen=True)
 class CriterionResult:
-    """One criterion beside its demand.
+    """Threshold of one criterion and demand of the motion.
 
     Parameters
     ----------
     criterion : str
-        Its name.
+        Name of the criterion.
     where : str
-        Paper and locator.
+        Paper and equation.
     unit : str
-        ``m/s^2`` or ``m/s``, of threshold and demand.
+        Unit of threshold and demand, ``m/s^2`` or ``m/s``.
     frequency : str or None
-        Which equivalent frequency it was given; None when it needs none.
+        Name of the equivalent frequency used; None if the criterion does not depend on frequency.
     frequency_hz : float or None
     threshold, demand : float
-        The block overturns, says the criterion, when the demand exceeds the threshold.
+        The criterion predicts overturning if the demand exceeds the threshold.
     overturns : bool
     """
 
@@ -61,26 +61,26 @@ class CriterionResult:
 def overturning_card(
     block: Block, pga: float, pgv: float, frequencies: Mapping[str, float | None], gravity: float = STANDARD_GRAVITY
 ) -> tuple[CriterionResult, ...]:
-    """Return every criterion of this package for a block and the peaks of a motion.
+    """Return the results of all criteria for a block and the peaks of a motion.
 
-    The sizes B and H that a formula wants are twice the arm and twice the height of the centre of gravity (gravestone fits: the overall
-    height over width). The rectangular pulse has the impulse of half a sine of the equivalent frequency, t = 1/(pi f)
-    ([Tsutsui]_ eq. (3)). [Ishiyama1982]_ asks for both its acceleration and its velocity. Not here for want of a source that could be
-    read: the overturning ratios of Kaneko and Hayashi (2000).
+    B and H of the formulas are twice the lever arm and twice the height of the centre of gravity (gravestone fits: overall width and
+    height). The rectangular pulse has the impulse of a half sine of the equivalent frequency, t = 1/(pi f)
+    ([Tsutsui]_ eq. (3)). [Ishiyama1982]_ requires both its acceleration and its velocity to be exceeded. The overturning ratios of
+    Kaneko and Hayashi (2000) are not included, because the paper was not available.
 
     Parameters
     ----------
     block : Block
     pga, pgv : float, m/s^2 and m/s
-        Peak ground acceleration and velocity along the block's motion.
+        Peak ground acceleration and velocity in the direction of rocking.
     frequencies : mapping of name to Hz
-        Equivalent frequencies; None for one that is not defined.
+        Equivalent frequencies; None if undefined.
     gravity : float, m/s^2
 
     Raises
     ------
     ParameterError
-        If a peak is negative or not a number.
+        If a peak is negative or NaN.
 
     Examples
     --------
@@ -91,6 +91,7 @@ def overturning_card(
     checks.instance(block, Block)
     checks.non_negative("the PGA", pga, "m/s^2")
     checks.non_negative("the PGV", pgv, "m/s")
+    # the shorter arm governs for an asymmetric block
     width, height = 2 * min(block.arms), 2 * block.centre
     alpha, p = block.slenderness, block.frequency_parameter(gravity)
     rows = [
@@ -124,14 +125,14 @@ def overturning_card(
 
 
 def unique_criteria(rows: Sequence[CriterionResult], frequency: str = PREFERRED_FREQUENCY) -> tuple[CriterionResult, ...]:
-    """Return one row for each criterion: where it was given several frequencies that of one definition, else its first.
+    """Return one row per criterion: that of the preferred equivalent frequency, or the first.
 
     Parameters
     ----------
-    rows : sequence of Row
-        Of :func:`overturning_card`.
+    rows : sequence of CriterionResult
+        Result of :func:`overturning_card`.
     frequency : str
-        PGA/(2 pi PGV) by default, the choice of [Furukawa2009]_ section 3(5)e.
+        Preferred equivalent frequency; PGA/(2 pi PGV) by default, as in [Furukawa2009]_ section 3(5)e.
     """
     by_criterion: dict[str, CriterionResult] = {}
     for row in rows:
@@ -143,5 +144,4 @@ def unique_criteria(rows: Sequence[CriterionResult], frequency: str = PREFERRED_
 def _make_result(
     criterion: str, reference: str, unit: str, threshold: float, demand: float, frequency: str | None = None, hz: float | None = None
 ) -> CriterionResult:
-    """Return a row with its verdict."""
     return CriterionResult(criterion, reference, unit, frequency, hz, threshold, demand, demand > threshold)

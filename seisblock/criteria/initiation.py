@@ -1,10 +1,11 @@
-"""Which motion begins from rest: closed forms for a rigid block on Coulomb friction, derived here for any block ([Shenton1996]_).
+"""Initiation of motion of a rigid block: rest, sliding, rocking, slide-rocking; derived here ([Shenton1996]_).
 
-Let A be the ground's horizontal acceleration over the weight per unit mass, g + a_y; b the distance, to the side, from the centre of
-gravity to the corner about which the block would turn; h the centre's height and k its radius of gyration. The block rests while A <= mu
-and A <= b/h. If A reaches one of these slowly, the block slides where mu < b/h and rocks where not. If A comes as a jump, it rocks without
-slip only where friction holds the corner: its angular acceleration is g q, its centre moves away from the push with h g q and up with
-b g q, so that the corner needs the friction (A - h q)/(1 + b q); with less it slides where mu < b/h and slides while it rocks where not.
+Coulomb friction. Let A be the horizontal ground acceleration over the weight per unit mass, g + a_y; b the horizontal distance from
+the centre of gravity to the corner of rotation; h the height of the centre and k the radius of gyration. The block is at rest while A <= mu
+and A <= b/h. If A reaches one of these limits slowly, the block slides for mu < b/h and rocks otherwise. If A is applied suddenly, it
+rocks without slip only if friction holds the corner: with the angular acceleration g q, the centre accelerates by h g q horizontally and
+b g q upwards, so that the corner needs the friction (A - h q)/(1 + b q). With less friction it slides for mu < b/h and slide-rocks
+otherwise.
 """
 
 from __future__ import annotations
@@ -21,20 +22,20 @@ from seisblock.records import Motion
 from seisblock.records._validation import Gain, vertical_gain
 
 REST, SLIDE, ROCK, SLIDE_ROCK = N_("rest"), N_("slide"), N_("rock"), N_("slide-rock")
-"""Modes that begin from rest."""
+"""Modes at the initiation of motion."""
 
 
 def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
-    """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s (derived here, as in [Shenton1996]_).
+    """Return the maximum of A = abs(a)/(g + a_y) of a motion, 1, and its time, s (derived here, as in [Shenton1996]_).
 
-    A block rests throughout if, and only if, neither mu nor b/h is below it: between samples both sides of the conditions of rest
-    are straight lines. Infinite where the ground falls faster than gravity.
+    A block remains at rest if and only if neither mu nor b/h is below this maximum, because both sides of the conditions of rest
+    are linear between samples. Infinite if the ground accelerates downwards faster than gravity.
 
     Parameters
     ----------
     motion : Motion
     vertical : bool, float or None
-        Whether its vertical component acts, or a factor on it; None: where the record has one.
+        Apply the vertical component, or a factor on it; None: apply it if the record has one.
     gravity : float, m/s^2
 
     Examples
@@ -43,6 +44,7 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
     (0.5, 0.2)
     """
     checks.gravity(gravity)
+    # without weight on the base (downward acceleration above g) the ratio is infinite
     weight = gravity + motion.vertical * vertical_gain(motion, vertical)
     with np.errstate(divide="ignore"):
         ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)
@@ -51,15 +53,16 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
 
 
 def friction_to_rock(block: Block, ratio: float) -> float | None:
-    """Return the friction that a corner needs under a jump to A, 1, None where the block would not rock ([Shenton1996]_).
+    """Return the friction needed to rock without slip under a sudden A, 1; None if the block does not rock ([Shenton1996]_).
 
-    Derived here: (A - h q)/(1 + b q) with q = (h A - b)/(k^2 + h^2 + b^2), for the nearer corner; it rises from b/h to (k^2 + b^2)/(b h).
+    Derived here: (A - h q)/(1 + b q) with q = (h A - b)/(k^2 + h^2 + b^2), for the nearer corner; it increases from b/h to
+    (k^2 + b^2)/(b h).
 
     Parameters
     ----------
     block : Block
     ratio : float
-        A, 1.
+        Acceleration ratio A, 1.
 
     Examples
     --------
@@ -67,7 +70,7 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
     >>> friction_to_rock(block, 0.2), round(friction_to_rock(block, 0.6), 4)
     (None, 0.3706)
     """
-    ratio = checks.non_negative("the ratio of accelerations A", ratio)
+    ratio = checks.non_negative("the acceleration ratio A", ratio)
     b, h = min(block.arms), block.centre
     if ratio <= b / h:
         return None
@@ -76,9 +79,9 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
 
 
 def first_mode(block: Block, mu: float, ratio: float) -> str:
-    """Return the mode that begins when A jumps from zero: rest, slide, rock or slide-rock ([Shenton1996]_).
+    """Return the mode initiated by a sudden A: rest, slide, rock or slide-rock ([Shenton1996]_).
 
-    Static and kinetic friction are the same.
+    Static and kinetic friction are equal.
 
     Parameters
     ----------
@@ -86,7 +89,7 @@ def first_mode(block: Block, mu: float, ratio: float) -> str:
     mu : float
         Friction coefficient, 0 or more.
     ratio : float
-        A, 1.
+        Acceleration ratio A, 1.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""JMA intensity from a peak velocity, for shaking of which nothing else is known."""
+"""Empirical relation of JMA intensity and peak ground velocity."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from seisblock.core import checks
 from seisblock.core.units import KINE
 
 SCATTER = 0.21
-"""Standard deviation of the intensity about the relation ([Midorikawa1999]_)."""
+"""Standard deviation of the intensity ([Midorikawa1999]_)."""
 
 FITTED_INTENSITY = (4.0, 7.0)
-"""Intensities behind the relation ([Midorikawa1999]_)."""
+"""Range of intensities of the data ([Midorikawa1999]_)."""
 
 
 def intensity_from_velocity(pgv: float) -> float:
-    """Return the instrumental JMA intensity that goes with a peak ground velocity, I = 2.68 + 1.72 log10 PGV ([Midorikawa1999]_ relation).
+    """Return the instrumental JMA intensity I = 2.68 + 1.72 log10 PGV ([Midorikawa1999]_ relation).
 
-    PGV in kine, I from 4 to 7, standard deviation 0.21.
+    PGV in cm/s (kine), I from 4 to 7, standard deviation 0.21.
 
     Parameters
     ----------
     pgv : float, m/s
-        Peak of the horizontal velocity, positive.
+        Peak horizontal ground velocity, positive.
 
     Returns
     -------

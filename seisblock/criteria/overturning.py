@@ -1,4 +1,4 @@
-"""Criteria of overturning in closed form: accelerations and velocities at which a block is said to fall."""
+"""Closed-form overturning criteria: threshold accelerations and velocities of a rigid block."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from seisblock.core.units import STANDARD_GRAVITY
 
 
 def static_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return g B/H, m/s^2: West's acceleration, at which rocking begins ([Furukawa2009]_ eq. (2)).
+    """Return g B/H, m/s^2: West's acceleration, the rocking threshold ([Furukawa2009]_ eq. (2)).
 
-    Necessary for overturning, not sufficient.
+    Exceeding it is necessary for overturning, but not sufficient.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def static_acceleration(width: float, height: float, gravity: float = STANDARD_G
 def housner_acceleration(slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
     """Return g alpha sqrt(1 + (omega/p)^2), m/s^2: the first form of [Furukawa2009]_ eq. (6), where 4 R/(3 g) = 1/p^2.
 
-    Differs from the true threshold of a half-sine pulse (:func:`~seisblock.criteria.pulses.half_sine_ratio`): it asks that alpha be
-    reached when the pulse ends, and neglects what the block does afterwards; up to 55 % too high at omega = 5 p.
+    Differs from the exact threshold of a half-sine pulse (:func:`~seisblock.criteria.pulses.half_sine_ratio`): it requires that alpha is
+    reached at the end of the pulse and neglects the free rocking afterwards; up to 55 % too high at omega = 5 p.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ def housner_acceleration(slenderness: float, frequency_parameter: float, frequen
     frequency_parameter : float, rad/s
         p; sqrt(3 g/(4 R)) of a rectangle.
     frequency : float, Hz
-        Of the sine.
+        Frequency of the sine.
     gravity : float, m/s^2
 
     Raises
     ------
     ParameterError
-        If something is not positive.
+        If a parameter is not positive.
     """
     _check_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, frequency=frequency, gravity=gravity)
     return gravity * slenderness * math.hypot(1.0, 2 * math.pi * frequency / frequency_parameter)
@@ -63,7 +63,7 @@ def housner_acceleration(slenderness: float, frequency_parameter: float, frequen
 def housner_acceleration_as_printed(width: float, height: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
     """Return g atan(B/H) sqrt(1 + sqrt(B^2 + H^2) omega^2/(3 g)), m/s^2: the second form of [Furukawa2009]_ eq. (6), as printed.
 
-    Differs from the first form: with R = sqrt(B^2 + H^2)/2 there should be 2 sqrt(B^2 + H^2) omega^2/(3 g) under the root.
+    Differs from the first form: with R = sqrt(B^2 + H^2)/2 the term under the root should be 2 sqrt(B^2 + H^2) omega^2/(3 g).
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def housner_acceleration_as_printed(width: float, height: float, frequency: floa
     Raises
     ------
     ParameterError
-        If something is not positive.
+        If a parameter is not positive.
     """
     _check_sizes(width, height, gravity)
     _check_positive(frequency=frequency)
@@ -85,8 +85,8 @@ def housner_acceleration_as_printed(width: float, height: float, frequency: floa
 def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAVITY, *, cosine: bool = False) -> float:
     """Return the overturning velocity sqrt(b lambda g), m/s, lambda = b/h ([Tsutsui]_ eq. (2)).
 
-    With the restoring force falling like a cosine, sqrt(b lambda g 2/pi) ([Tsutsui]_ eq. (4), 4 to 8 % below the exact value for a
-    velocity step).
+    With a restoring force that decreases as a cosine: sqrt(b lambda g 2/pi) ([Tsutsui]_ eq. (4), 4 to 8 % below the exact value for
+    a velocity step).
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAV
         b and h.
     gravity : float, m/s^2
     cosine : bool
-        Whether to return eq. (4).
+        True for eq. (4).
 
     Raises
     ------
@@ -111,7 +111,7 @@ def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAV
 
 
 def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
-    """Return a/(pi f), m/s: the velocity that half a sine gives ([Tsutsui]_ eq. (3)).
+    """Return a/(pi f), m/s: the velocity of a half-sine pulse ([Tsutsui]_ eq. (3)).
 
     Parameters
     ----------
@@ -121,18 +121,18 @@ def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
     Raises
     ------
     ParameterError
-        If one is not positive.
+        If a parameter is not positive.
     """
     _check_positive(acceleration=acceleration, frequency=frequency)
     return acceleration / (math.pi * frequency)
 
 
 def velocity_step(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return the sudden ground velocity that just overturns a block, m/s: exact, nonlinear.
+    """Return the minimum sudden ground velocity that overturns a block, m/s (nonlinear, exact).
 
-    The step gives the angular velocity m v h/I_O, which must reach the barrier p^2 (1 - cos(alpha)):
-    v = (g/p) sqrt(2 (1 - cos(alpha)))/cos(alpha); for a rectangle sqrt((8/3) g R (1 - cos(alpha)))/cos(alpha). The exact form of
-    what [Tsutsui]_ eqs. (2) and (4) approximate.
+    The step gives the angular velocity m v h/I_O, whose energy must reach the barrier p^2 (1 - cos(alpha)):
+    v = (g/p) sqrt(2 (1 - cos(alpha)))/cos(alpha); for a rectangle sqrt((8/3) g R (1 - cos(alpha)))/cos(alpha). [Tsutsui]_
+    eqs. (2) and (4) approximate this value.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
     Raises
     ------
     ParameterError
-        If something is out of range.
+        If a parameter is out of range.
 
     Examples
     --------
@@ -160,9 +160,9 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
 
 
 def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return g B/H, m/s^2: the acceleration that must be exceeded, together with the velocity ([Ishiyama1982]_ criterion).
+    """Return g B/H, m/s^2, to be exceeded together with the velocity limit ([Ishiyama1982]_ criterion).
 
-    Parameters and errors as :func:`static_acceleration`.
+    Parameters and errors as in :func:`static_acceleration`.
     """
     return static_acceleration(width, height, gravity)
 
@@ -170,7 +170,7 @@ def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD
 def ishiyama_velocity(width: float, height: float) -> float:
     """Return 10 B/sqrt(H) cm/s with B and H in cm, that is B/sqrt(H) m/s with B and H in m ([Ishiyama1982]_ criterion).
 
-    A lower limit from experiments and simulations: about 0.4 times the velocity step of a slender block at g = 980 cm/s^2.
+    Lower limit from experiments and simulations, about 0.4 times the velocity step of a slender block at g = 980 cm/s^2.
 
     Parameters
     ----------
@@ -202,12 +202,10 @@ _QUANTITIES = {
 
 
 def _check_sizes(width: float, height: float, gravity: float) -> None:
-    """Refuse sizes and a gravity that are not positive."""
     _check_positive(width=width, height=height, gravity=gravity)
 
 
 def _check_positive(**values: float) -> None:
-    """Refuse what is not a positive number."""
     for name, value in values.items():
         quantity, unit = _QUANTITIES[name]
         checks.positive(quantity, value, unit)

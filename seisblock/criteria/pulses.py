@@ -1,9 +1,10 @@
-"""Pulses that just overturn a block: half sine, one sine and rectangle by the linear equation, and the half sine by the exact one.
+"""Minimum overturning acceleration of half-sine, full-sine and rectangular pulses.
 
-The ratios follow from the linear equation, which is that of slender blocks, theta'' = p^2 (theta - alpha + a/g): a pulse overturns,
-without an impact before, when the growing part of what it leaves behind, alpha - theta - theta'/p, is negative (as in [Housner1963]_;
-derived here, and checked against the solver). Sizes enter through X = a/(alpha g) and W = omega/p, so that each criterion is one curve. The
-exact equation has no closed form; its half sine takes 4 to 5 % more for a stone of .24 x .63 m.
+Half sine, full sine and rectangle by the linear equation, half sine also by the nonlinear one.
+The ratios follow from the linear equation of slender blocks, theta'' = p^2 (theta - alpha + a/g): a pulse overturns the block without a
+previous impact if the coefficient of the growing exponential after the pulse, alpha - theta - theta'/p, is negative (as in
+[Housner1963]_; derived here, and verified with the solver). Size enters through X = a/(alpha g) and W = omega/p, so that each criterion
+is one curve. The nonlinear equation has no closed form; its half-sine threshold is 4 to 5 % higher for a stone of 0.24 x 0.63 m.
 """
 
 from __future__ import annotations
@@ -17,15 +18,15 @@ from seisblock.core.units import STANDARD_GRAVITY
 
 
 def half_sine_ratio(w: float) -> float:
-    """Return the least X = a/(alpha g) of a half-sine pulse that overturns a slender block, by the linear equation.
+    """Return the minimum X = a/(alpha g) of a half-sine pulse that overturns a slender block (linear equation).
 
-    The root of sqrt(X^2 - 1) + X exp(-(pi - asin(1/X))/W) = W. It is what [Furukawa2009]_ eq. (5) is meant to give and eq. (6) does not:
-    1.3224, 1.8007, 3.2891 at W = 1, 2, 5, where (6) gives 1.414, 2.236, 5.099.
+    Root of sqrt(X^2 - 1) + X exp(-(pi - asin(1/X))/W) = W, the exact solution of the problem of [Furukawa2009]_ eqs. (5) and (6):
+    1.3224, 1.8007, 3.2891 at W = 1, 2, 5, where eq. (6) gives 1.414, 2.236, 5.099.
 
     Parameters
     ----------
     w : float
-        W = omega/p, positive: circular frequency of the sine over the frequency parameter of the block.
+        W = omega/p, positive: circular frequency of the sine over the frequency parameter.
 
     Returns
     -------
@@ -50,10 +51,10 @@ def half_sine_ratio(w: float) -> float:
 
 
 def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return the least amplitude, m/s^2, of a half-sine pulse that overturns a block, by the exact equation of rocking.
+    """Return the minimum amplitude, m/s^2, of a half-sine pulse that overturns a block (nonlinear equation).
 
-    Unlike :func:`half_sine_ratio` it leaves sin and cos as they are: theta'' = p^2 (a/g cos(alpha - theta) - sin(alpha - theta)) from where
-    a = g tan(alpha); the block falls when the pulse leaves it with the energy of the barrier, theta'^2/2 + p^2 cos(alpha - theta) = p^2
+    Nonlinear form of :func:`half_sine_ratio`: theta'' = p^2 (a/g cos(alpha - theta) - sin(alpha - theta)), starting at
+    a = g tan(alpha). The block overturns if its energy after the pulse reaches the barrier, theta'^2/2 + p^2 cos(alpha - theta) = p^2
     (derived here).
 
     Parameters
@@ -63,13 +64,13 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
     frequency_parameter : float, rad/s
         p.
     frequency : float, Hz
-        Of the sine of which the pulse is half a period.
+        Frequency of the sine.
     gravity : float, m/s^2
 
     Raises
     ------
     ParameterError
-        If something is not positive, or alpha not below pi/2.
+        If a parameter is not positive, or alpha is not below pi/2.
 
     References
     ----------
@@ -98,9 +99,10 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
             return y[1], p * p * (acceleration_ratio * math.sin(omega * t) * math.cos(angle) - math.sin(angle))
 
         theta, speed = solve_ivp(rate, (start, end), (0.0, 0.0), method="DOP853", rtol=1e-10, atol=1e-13 * alpha).y[:, -1]
-        # the growing part of what is left, as in the linear equation; the same sign as the surplus of energy while the block rises
+        # same sign as the energy surplus while the angle increases, and smooth at the root
         return speed - 2 * p * math.sin((alpha - theta) / 2)
 
+    # Housner's linear estimate as the upper end of the bracket, enlarged until the block overturns
     high = max(math.hypot(1.0, omega / p), 1.0 + 1e-9)
     while surplus(high) <= 0.0:
         high *= 1.5
@@ -108,10 +110,10 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
 
 
 def one_sine_ratio(w: float) -> float:
-    """Return the X of a full sine pulse above which the block overturns without any impact ([Zhang2001]_ mode 2).
+    """Return the minimum X of a full-sine pulse that overturns a block without impact ([Zhang2001]_ mode 2).
 
-    The root of sqrt(X^2 - 1) - X exp(-(2 pi - asin(1/X))/W) = W. Below it, after one impact, there may be another window of overturning
-    that no closed form bounds.
+    Root of sqrt(X^2 - 1) - X exp(-(2 pi - asin(1/X))/W) = W. Below it, overturning after one impact is possible; there is no closed form
+    for its range.
 
     Parameters
     ----------
@@ -132,7 +134,7 @@ def one_sine_ratio(w: float) -> float:
 
 
 def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
-    """Return the X = a/(alpha g) of a rectangular pulse that just overturns, 1/(1 - exp(-p t)) (derived here).
+    """Return the minimum X = a/(alpha g) of a rectangular pulse that overturns a block, 1/(1 - exp(-p t)) (derived here).
 
     Parameters
     ----------
@@ -144,7 +146,7 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
     Raises
     ------
     ParameterError
-        If one is not positive.
+        If a parameter is not positive.
 
     Examples
     --------
@@ -162,6 +164,7 @@ def _root(w: float, end: float, sign: float) -> float:
     def surplus(x: float) -> float:
         return math.sqrt(x * x - 1.0) + sign * x * math.exp(-(end - math.asin(1.0 / x)) / w) - w
 
+    # X = 1 never overturns; hypot(1, W) is Housner's estimate, an upper bound for the half sine
     low = 1.0
     high = math.hypot(1.0, w)
     while surplus(high) <= 0.0:

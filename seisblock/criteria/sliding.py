@@ -1,4 +1,4 @@
-"""Closed forms of sliding: when an object starts to slip, whether it stops again, and how far it goes in two simple motions."""
+"""Closed forms of sliding: slip threshold, arrest on a slope, slip under a rectangular pulse and under harmonic motion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.core.units import STANDARD_GRAVITY
 
 
 def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY) -> FloatArray:
-    """Return the horizontal ground acceleration beyond which an object on a level base slips ([Fujino1978]_ eqs. (1), (5)).
+    """Return the sliding threshold of an object on a level base ([Fujino1978]_ eqs. (1), (5)).
 
     Parameters
     ----------
@@ -25,11 +25,11 @@ def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = 
     Returns
     -------
     array, m/s^2
-        mu (g + y''); at equality it still sticks. Zero where the base falls away (y'' < -g).
+        Horizontal ground acceleration mu (g + y''); the object sticks at equality. Zero if the base loses contact (y'' < -g).
 
     References
     ----------
-    [Fujino1978]_ eqs. (1), (5); (1) prints <= and (5) <: equality sticks here.
+    [Fujino1978]_ eqs. (1), (5); (1) is printed with <= and (5) with <: equality means sticking here.
 
     Examples
     --------
@@ -42,12 +42,12 @@ def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = 
 def slip_limits(
     slope_deg: float, mu: float, *, normal: ArrayLike = 0.0, gravity: float = STANDARD_GRAVITY
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the accelerations along a slope between which static friction holds ([Fujino1978]_ eqs. (9), (10)).
+    """Return the sliding thresholds on a slope, downhill and uphill ([Fujino1978]_ eqs. (9), (10)).
 
     Parameters
     ----------
     slope_deg : float, degrees
-        Positive falls towards the positive direction.
+        Slope, positive if it descends in the positive direction.
     mu : float
         Static friction coefficient.
     normal : array, m/s^2
@@ -57,8 +57,8 @@ def slip_limits(
     Returns
     -------
     downhill, uphill : arrays, m/s^2
-        Ground acceleration along the slope (downhill positive) below which the object slips downhill, eq. (10), and above which it
-        slips uphill, eq. (9).
+        Ground acceleration along the slope (downhill positive): below the first limit the object slips downhill, eq. (10), above the
+        second one uphill, eq. (9).
 
     References
     ----------
@@ -77,7 +77,7 @@ def slip_limits(
 
 
 def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
-    """Return the static friction at or below which an object once in motion slides down a slope for ever ([Fujino1978]_ eq. (14)).
+    """Return the static friction at or below which a sliding object does not stop on a slope ([Fujino1978]_ eq. (14)).
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
     Returns
     -------
     float
-        tan(th) / kappa; the object holds at rest only where mu >= tan(th).
+        tan(th) / kappa; the object can be at rest only for mu >= tan(th).
 
     References
     ----------
@@ -104,24 +104,24 @@ def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
 
 
 def min_friction_to_hold(slope_deg: float, horizontal: ArrayLike, vertical: ArrayLike = 0.0) -> FloatArray:
-    """Return the static friction below which ground acceleration sets an object in motion down a slope ([Fujino1978]_ eq. (15)).
+    """Return the static friction below which ground acceleration makes an object slip down a slope ([Fujino1978]_ eq. (15)).
 
     Parameters
     ----------
     slope_deg : float, degrees
     horizontal : array
-        Horizontal ground acceleration over gravity, the paper's alpha, positive in the direction that points downhill.
+        Horizontal ground acceleration over gravity, alpha in the paper, positive downhill.
     vertical : array
-        Vertical ground acceleration over gravity, upwards positive: the paper's alpha times mu.
+        Vertical ground acceleration over gravity, upwards positive: alpha times mu in the paper.
 
     Returns
     -------
     array
-        tan(th - atan(alpha / (1 + alpha mu))), identical to eq. (15) as printed; the largest value along a record decides.
+        tan(th - atan(alpha / (1 + alpha mu))), identical to eq. (15) as printed; the maximum over a record governs.
 
     References
     ----------
-    [Fujino1978]_ eq. (15); the text calls for the smallest left side where it should say the largest right side.
+    [Fujino1978]_ eq. (15); the text asks for the smallest left side instead of the largest right side.
 
     Examples
     --------
@@ -138,15 +138,15 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
     Parameters
     ----------
     acceleration : float, m/s^2
-        Height of the pulse, against the direction of slip.
+        Height of the pulse, opposite to the direction of slip.
     duration : float, s
     yield_acceleration : float, m/s^2
-        Acceleration at which the object slips, mu g on a level base; kinetic equals static friction.
+        Sliding threshold, mu g on a level base; kinetic and static friction are equal.
 
     Returns
     -------
     float, m
-        V^2 / (2 a_y) (1 - a_y / a) with V = a T; zero when the pulse does not exceed a_y.
+        V^2 / (2 a_y) (1 - a_y / a) with V = a T; zero if the pulse does not exceed a_y.
 
     References
     ----------
@@ -164,7 +164,7 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
 
 
 def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float = 1.0, gravity: float = STANDARD_GRAVITY) -> float | None:
-    """Return the slip per half cycle of what slides without rest on a base in harmonic motion ([WestermoUdwadia1983]_ steady sliding).
+    """Return the slip per half cycle under harmonic motion without sticking ([WestermoUdwadia1983]_ steady sliding).
 
     Parameters
     ----------
@@ -180,13 +180,13 @@ def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float =
     Returns
     -------
     float or None, m
-        Distance between the two turning points of the relative displacement, 2 (A/w^2) sqrt(1 - (pi mu_k g / 2 A)^2); None when
-        the object sticks in each half cycle: with kappa = 1 that is where mu g / A > (1 + pi^2/4)^(-1/2) = 0.5370.
+        Distance of the two extrema of the relative displacement, 2 (A/w^2) sqrt(1 - (pi mu_k g / 2 A)^2); None if
+        the object sticks in each half cycle, which for kappa = 1 is the case for mu g / A > (1 + pi^2/4)^(-1/2) = 0.5370.
 
     Notes
     -----
-    In steady sliding the object's velocity is a triangle of slope mu_k g, antisymmetric in half a period. The relative velocity
-    vanishes where the ground's acceleration is A sqrt(1 - (pi mu_k g / 2 A)^2); if that exceeds mu g, it turns without a rest.
+    In steady sliding the velocity of the object is a triangular wave of slope mu_k g, antisymmetric over half a period. The relative
+    velocity vanishes at the ground acceleration A sqrt(1 - (pi mu_k g / 2 A)^2); if that exceeds mu g, the slip reverses without sticking.
 
     References
     ----------

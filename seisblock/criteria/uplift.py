@@ -1,7 +1,7 @@
-"""When a block on corner springs lifts off under harmonic shaking: the paper's closed forms, for a square base.
+"""Uplift of a block on corner springs under harmonic shaking: closed forms of [Okumura1987]_ for a square base.
 
-Square base (gamma = 1), equal horizontal springs, equal modal damping, small rotations, steady state. The general
-base is solved by :mod:`seisblock.models.uplift.harmonic`, which these formulas check and are checked by.
+Square base (gamma = 1), equal horizontal springs, equal modal damping, small rotations, steady state. Bases of any
+shape are solved by :mod:`seisblock.models.uplift.harmonic`; the two are verified against each other.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.typing import ArrayLike, FloatArray
 
 UNDAMPED_RESONANCE = 1e-150
-"""Stands for zero in the denominator of an undamped resonance, so that a mode that takes no part stays out."""
+"""Replacement of zero in the denominator of an undamped resonance, so that a mode that is not excited contributes nothing."""
 
 
 @dataclass(frozen=True)
 class SquareBaseModes:
-    """The natural modes of a block on a square base, frequencies over omega_V ([Okumura1987]_ eqs. (7)-(9), (22)).
+    """Natural modes of a block on a square base, frequencies over omega_V ([Okumura1987]_ eqs. (7)-(9), (22)).
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class SquareBaseModes:
 
     @property
     def frequency_ratios(self) -> tuple[float, float, float, float, float, float]:
-        """Frequencies omega_1 to omega_6 over omega_V, in the paper's order."""
+        """Frequencies omega_1 to omega_6 over omega_V, in the order of [Okumura1987]_ eqs. (7)-(9)."""
         return self.c1, self.c1, 1.0, self.torsion, self.c2, self.c2
 
 
@@ -56,7 +56,7 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
     Parameters
     ----------
     alpha : float
-        Height over side, H/b, positive.
+        Height over side length, H/b, positive.
     beta : float
         Horizontal over vertical circular frequency, positive.
 
@@ -71,9 +71,9 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
 
     Notes
     -----
-    [Okumura1987]_ eqs. (7), (8), (9) and (22). Differs: (22a) holds D2 squared; (22b) is M3 = 1. The smaller root of (8) and D2 are
-    written without the paper's differences of nearly equal numbers: C1^2 C2^2 = 3 beta^2 / (1 + alpha^2), and
-    orthogonality of modes 1 and 5 gives D2 = -12 D1 / (1 + alpha^2).
+    [Okumura1987]_ eqs. (7), (8), (9) and (22). Differs: (22a) contains D2 squared; (22b) is M3 = 1. The smaller root of (8) and D2 are
+    computed without the cancellation of the printed forms: C1^2 C2^2 = 3 beta^2 / (1 + alpha^2), and
+    the orthogonality of modes 1 and 5 gives D2 = -12 D1 / (1 + alpha^2).
 
     Examples
     --------
@@ -85,6 +85,7 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
     a2, b2 = alpha**2, beta**2
     s = 4.0 * a2 * b2 + b2 + 3.0
     root = math.sqrt(16.0 * a2**2 * b2**2 + b2**2 + 8.0 * a2 * b2**2 + 12.0 * a2 * b2 - 6.0 * b2 + 9.0)
+    # c1 from the product of the roots: their printed difference cancels
     c2_squared = (s + root) / (2.0 * (1.0 + a2))
     c1_squared = 6.0 * b2 / (s + root)
     d1 = -alpha * b2 / (2.0 * (b2 - c2_squared))
@@ -105,35 +106,35 @@ def harmonic_uplift_ratio(
     rho_deg: float = 90.0,
     corner: int | None = None,
 ) -> FloatArray:
-    """Return the least A/g that lifts a corner of a square base in the steady state.
+    """Return the minimum A/g that lifts a corner of a square base in the steady state.
 
     Parameters
     ----------
     frequency_ratio : (n,) array
         Frequency of the shaking over the first rocking frequency, theta/omega_1.
     alpha, beta : float
-        Height over side; horizontal over vertical circular frequency.
+        Height over side length; horizontal over vertical circular frequency.
     damping : float
         Modal damping ratio h, the same in each mode.
     phi_deg, rho_deg : float, degrees
         Direction of the shaking: azimuth from x towards y, and angle from the vertical.
     corner : int or None
-        Corner 1 to 4; None takes the least over the four. The paper uses corner 4 alone, which with a vertical part
-        (0 < rho < 90) is up to nine times too high.
+        Corner 1 to 4; None for the minimum over all corners. The paper uses corner 4 only, which under a vertical component
+        (0 < rho < 90) gives up to nine times the minimum.
 
     Returns
     -------
     (n,) array
-        A/g; infinite where no amplitude lifts the corner.
+        A/g; infinite if no amplitude lifts the corner.
 
     Raises
     ------
     ParameterError
-        If a ratio is not positive, or there is no such corner.
+        If a ratio is not positive, or the corner does not exist.
 
     Notes
     -----
-    [Okumura1987]_ eq. (27), derived again from (23), (25) and (26). With s = sin(rho) (-/+ cos(phi) -/+ sin(phi)), the signs those of the
+    [Okumura1987]_ eq. (27), derived again from (23), (25) and (26). With s = sin(rho) (-/+ cos(phi) -/+ sin(phi)) with the signs of the
     corner, e_j = C_j^2 - (C_1 r)^2, d_j = 2 h C_j C_1 r and P_jk = (e_j e_k + d_j d_k) / (N_j N_k), N_j = e_j^2 + d_j^2:
 
     (g/A)^2 = s^2/4 [(D2/M1)^2 P_11 + 2 D1 D2/(M1 M5) P_15 + (D1/M5)^2 P_55]
@@ -155,6 +156,7 @@ def harmonic_uplift_ratio(
     e = c**2 - forcing_squared
     d = 2.0 * damping * c * np.sqrt(forcing_squared)
     e = np.where((e == 0.0) & (d == 0.0), UNDAMPED_RESONANCE, e)
+    # normalised transfer functions: products of u and v stay finite near an undamped resonance
     with np.errstate(divide="ignore"):
         scale = 1.0 / np.hypot(e, d)
         u, v = e * scale, d * scale
@@ -166,6 +168,7 @@ def harmonic_uplift_ratio(
         for sx, sy in _corner_signs(corner):
             s = -sindg(rho_deg) * (sx * cosdg(phi_deg) + sy * sindg(phi_deg))
             gain_squared = 0.25 * s**2 * (w1**2 + 2.0 * w1 * w5 * p15 + w5**2)
+            # horizontal shaking: skip the vertical terms, which may be infinite times zero
             if vertical != 0.0:
                 gain_squared = gain_squared - s * vertical * w3 * (w1 * p13 + w5 * p53) + (vertical * w3) ** 2
             thresholds.append(np.where(gain_squared > 1.0 / UNDAMPED_RESONANCE, 0.0, 1.0 / np.sqrt(np.maximum(gain_squared, 0.0))))
@@ -174,9 +177,9 @@ def harmonic_uplift_ratio(
 
 
 def _corner_signs(corner: int | None) -> tuple[tuple[int, int], ...]:
-    """Return the signs of one corner, or of all."""
+    """Return the signs of the coordinates of one corner, or of all."""
     if corner is None:
         return CORNER_SIGNS
     if corner not in (1, 2, 3, 4):
-        raise ParameterError("there are corners 1 to 4, found {corner}", corner=corner)
+        raise ParameterError("`corner` must be 1, 2, 3 or 4, found {corner}", corner=corner)
     return (CORNER_SIGNS[corner - 1],)

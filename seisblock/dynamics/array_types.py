@@ -1,4 +1,4 @@
-"""Numba's names of the arrays that kernels take: C-contiguous, 64 bit."""
+"""Numba types of the arrays passed to kernels: C-contiguous, 64 bit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the engine's loop is given and what it leaves behind, as named tuples of arrays."""
+"""Input, state and output of the integration loop as named tuples of arrays."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _t = types()
 
 
 class Forcing(NamedTuple):
-    """What shakes.
+    """Ground motion of one trajectory.
 
     Parameters
     ----------
     acceleration : (rows, n) array, m/s^2
-        Ground acceleration at the samples of the motion, or of a stretch of it, linear between them.
+        Ground acceleration at the samples of the motion or of a segment of it, linear in between.
     gains : (rows,) array
-        Factor on each row, so that scaling a record copies nothing; a zero leaves the row unread.
+        Factor on each row, so that a record is scaled without a copy; rows with a zero factor are not read.
     dt : float, s
     """
 
@@ -29,7 +29,7 @@ class Forcing(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """How large a model is: rows of scratch, guards, tracked states, order, 1 where parameters end in floors, sharp guards."""
+    """Sizes of a model: scratch rows, guards, tracked states, order, 1 if parameters end in size floors, exact guards."""
 
     scratch: int
     guards: int
@@ -40,15 +40,15 @@ class Shape(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a trajectory is; the loop moves it on, and goes on from it when it is called again.
+    """Current state of a trajectory, updated in place by the loop, which continues from it at the next call.
 
     Parameters
     ----------
     counters : (10,) array of int
-        See ``SAMPLE`` to ``LOGGED``.
+        See ``SAMPLE`` to ``N_FLUSHED``.
     clock : (3,) array, s
-        ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it. ``SINCE``: that of the last
-        event, or of the start.
+        ``TAU``: time after the current sample. ``FIRST_EVENT_TIME``: time of the first event after sample 0, NaN before it.
+        ``MODE_START``: time of the last event or of the start.
     state : (n_states,) array
     """
 
@@ -58,29 +58,29 @@ class State(NamedTuple):
 
 
 SAMPLE, MODE, N_EVENTS, N_SIMULTANEOUS, AT_REST, HAS_STARTED, STEPS_LEFT, SEGMENT_START, SAMPLES_AFTER, N_FLUSHED = range(10)
-"""A cursor's integers: sample, mode, events so far, events since time last moved, whether the state does not move, whether the
-trajectory has begun, how many steps may be taken before the loop pauses; of the motion's samples, which one the ground given begins with,
-and how many follow after it; how many events were taken out of the tables, which begin with the next."""
+"""Integer counters of a state: current sample; mode; number of events; events at the current instant; 1 if the state is constant; 1 if the
+trajectory has started; steps left before the loop pauses; first sample of the current segment; number of samples after the segment;
+events already moved out of the output tables."""
 
 TAU, FIRST_EVENT_TIME, MODE_START = range(3)
 
 
 class Output(NamedTuple):
-    """What a trajectory leaves behind; what has no rows is not kept.
+    """Output of a trajectory; arrays without rows are not written.
 
     Parameters
     ----------
     path, modes : (n, n_states), (n,) arrays
-        State and mode at each sample reached, counted from the first of the stretch.
+        State and mode at each sample of the segment.
     events, times, limits : (m, 4), (m,), (m, 2, n_states) arrays
-        The events, see :class:`~seisblock.dynamics.events.EventLog`: sample, guard, mode before and after; seconds after that sample; both
-        limits of the state. The loop pauses when they are half full. With no rows events are counted, without a bound.
+        Events, see :class:`~seisblock.dynamics.events.EventLog`: sample, guard, mode before and after; time after that sample, s; state
+        before and after. The loop pauses when the tables are half full. Without rows, events are counted only, without a limit.
     extrema : (n_tracked, 4) array
-        Highest value, its time, lowest value, its time (s after sample 0), of the first states.
+        Maximum, its time, minimum, its time (s after sample 0) of the first states.
     transition_counts : (n_guards, n_modes) array of int
-        How often each guard led to each mode; negative modes are counted from the end.
+        Number of transitions by guard and next mode; negative modes index from the end.
     dwell_times : (n_modes, 2) array, s
-        How long it was in each mode, in all and at the longest stretch between two events (``TOTAL``, ``LONGEST``).
+        Time spent in each mode: total, and longest interval between two events (``TOTAL``, ``LONGEST``).
     """
 
     path: FloatArray
@@ -97,7 +97,7 @@ TOTAL, LONGEST = range(2)
 
 
 class Scratch(NamedTuple):
-    """Room for one step: series of states and guards, ground motion (value, slope), and three polynomials."""
+    """Work arrays of one step: series of states and guards, ground motion (value, slope), and three polynomials."""
 
     c: FloatArray
     g: FloatArray
@@ -108,7 +108,7 @@ class Scratch(NamedTuple):
 
 
 class BatchForcing(NamedTuple):
-    """What shakes many: a motion or a stretch of it, (rows, n), m/s^2, with factors of each one's own, (m, rows), every dt seconds."""
+    """Ground motion of many trajectories: acceleration (rows, n), m/s^2, gains (m, rows), sampling interval, s."""
 
     acceleration: FloatArray
     gains: FloatArray
@@ -116,7 +116,7 @@ class BatchForcing(NamedTuple):
 
 
 class BatchState(NamedTuple):
-    """Where each of many trajectories is, and what it leaves: first axis m; else as in a cursor, and in what is kept of a single one."""
+    """State and output of many trajectories: the arrays of :class:`State` and :class:`Output` with a first axis of length m."""
 
     counters: IntArray
     clocks: FloatArray

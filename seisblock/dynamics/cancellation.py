@@ -1,4 +1,4 @@
-"""What happens between the slices of compiled code: a run learns that nobody waits for it any more, and tells how far it is."""
+"""Cancellation and progress of compiled loops, checked between slices of steps."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from seisblock.core.typing import Progress
 
-_cancel_events: ContextVar[tuple[Event, ...]] = ContextVar("what halts the runs of this thread", default=())
-_progress_callback: ContextVar[Progress | None] = ContextVar("who hears how far the run of this thread is", default=None)
+_cancel_events: ContextVar[tuple[Event, ...]] = ContextVar("cancel_events", default=())
+_progress_callback: ContextVar[Progress | None] = ContextVar("progress_callback", default=None)
 
 
 def current_events() -> tuple[Event, ...]:
-    """Return the events that halt what runs here, for the threads that it starts in its turn."""
+    """Return the cancellation events of the current context, to be passed on to worker threads."""
     return _cancel_events.get()
 
 
 @contextmanager
 def cancel_scope(events: tuple[Event, ...]) -> Iterator[None]:
-    """Let runs inside the block, one of many, end when one of these events is set; nobody hears how far each of them is."""
+    """Cancel runs inside the block when one of the events is set; progress of single runs is not reported."""
     events_token, progress_token = _cancel_events.set(events), _progress_callback.set(None)
     try:
         yield
@@ -34,7 +34,7 @@ def cancel_scope(events: tuple[Event, ...]) -> Iterator[None]:
 
 @contextmanager
 def progress_scope(callback: Progress) -> Iterator[None]:
-    """Let a run inside the block tell the intervals of the motion that it has passed, and those in all."""
+    """Report the number of completed and of all sample intervals of the motion to a callback inside the block."""
     token = _progress_callback.set(callback)
     try:
         yield
@@ -43,19 +43,19 @@ def progress_scope(callback: Progress) -> Iterator[None]:
 
 
 def check_cancelled() -> None:
-    """End here if whoever started this run has gone.
+    """Raise CancelledError if the run was cancelled.
 
     Raises
     ------
     CancelledError
-        If an event is set.
+        If a cancellation event is set.
     """
     if any(event.is_set() for event in _cancel_events.get()):
         raise CancelledError
 
 
 def report_progress(completed: int, total: int) -> None:
-    """Tell whoever hears it how many intervals between the samples of a motion are passed."""
+    """Pass the number of completed sample intervals to the progress callback, if any."""
     callback = _progress_callback.get()
     if callback is not None:
         callback(completed, total)

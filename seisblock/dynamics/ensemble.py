@@ -1,6 +1,6 @@
-"""Many trajectories of one model through one motion: parameters and gains change, the record is shared, nothing is kept but the end.
+"""Batch integration of one model under one motion for many sets of parameters and gains; only final states are stored.
 
-One row costs no Python, and the loop holds no GIL: callers split the rows among threads.
+The loop over the rows is compiled and releases the GIL, so that callers can split the rows among threads.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _IS_FAILURE = np.array([status in FAILURES for status in Status])
 
 @kernel(_t.int64(*MODEL_POINTERS, BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, _t.int64, _t.int64), allocates=True)
 def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_row, steps):
-    """Follow one trajectory per row of `parameters` from row `first_row` on, for so many steps in all; return the row to go on with."""
+    """Integrate one trajectory per row of `parameters` from `first_row` on, for `steps` steps in total; return the next row."""
     n_states = rows.states.shape[1]
     path = np.empty((0, n_states))
     modes = np.empty(0, np.int64)
@@ -60,7 +60,7 @@ def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_
     row = first_row
     while row < parameters.shape[0] and steps > 0:
         if rows.statuses[row] != PAUSED:
-            # it ended in an earlier stretch of the motion
+            # the trajectory ended in an earlier segment of the motion
             row += 1
             continue
         counters = rows.counters[row]
@@ -76,6 +76,7 @@ def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_
             Output(path, modes, events, times, limits, rows.extrema[row], rows.transition_counts[row], rows.dwell_times[row]),
             scratch,
         )
+        # one step is charged for the call itself, so that rows at rest use up the allowance, too
         steps = counters[STEPS_LEFT] - 1
         segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= forcing.acceleration.shape[1] - 1
         if rows.statuses[row] != PAUSED or segment_done:
@@ -85,26 +86,26 @@ def integrate_rows(series, reset, skip, forcing, shape, parameters, rows, first_
 
 @dataclass(frozen=True, eq=False)
 class Ensemble:
-    """The ends of many trajectories, one per row.
+    """Final states of many trajectories, one per row.
 
     Parameters
     ----------
     model : Model
     dt : float, s
     final : (m, n_states) array
-        State at the end.
+        State at the end of the integration.
     final_mode, n_events : (m,) arrays of int
     end : Instants
     first_event_time : (m,) array, s after sample 0
-        Time of the first event, NaN where there was none.
+        Time of the first event, NaN without events.
     extrema : (m, n_tracked, 4) array
-        Highest value, its time, lowest value, its time; s after sample 0.
+        Maximum, its time, minimum, its time; times in s after sample 0.
     transition_counts : (m, n_guards, n_modes) array of int
-        How often each guard led to each mode.
+        Number of transitions by guard and next mode.
     dwell_times : (m, n_modes, 2) array, s
-        How long it was in each mode, in all and at the longest stretch between two events.
+        Time spent in each mode: total, and longest interval between two events.
     failed : (m,) array of bool
-        Rows that were given up: what stands in them is the state in which that happened, and no answer.
+        Rows whose integration failed; they hold the state at the failure, which is not a valid result.
     """
 
     model: Model
@@ -121,7 +122,7 @@ class Ensemble:
 
     @property
     def end_time(self) -> FloatArray:
-        """Times at which the integrations ended, (m,), s after sample 0."""
+        """End times of the integrations, (m,), s after sample 0."""
         return self.end.sample * self.dt + self.end.tau
 
 
@@ -137,27 +138,27 @@ def integrate_many(
     row_ids: IntArray | None = None,
     allow_failures: bool = False,
 ) -> Ensemble:
-    """Follow a model through a motion once per row of parameters, without the GIL.
+    """Integrate a model under a motion once per row of parameters, without the GIL.
 
     Parameters
     ----------
     model : Model
     motion : Motion
-        Piecewise linear between its samples; not copied, but for a stretch of a long one at a time.
+        Acceleration, linear between samples. Not copied, except for one segment at a time of a long motion.
     parameters : (m, n_parameters) array
         In the model's order and units.
     initial : (n_states,) or (m, n_states) array
-        State at `start`.
+        Initial state at `start`.
     mode : int or (m,) array of int
-        Mode at `start`.
+        Initial mode at `start`.
     gains : (3,) or (m, 3) array
-        Factors on the rows along, across, up; zero leaves a row out.
+        Factors on the longitudinal, transverse and vertical acceleration; rows with a zero factor are not read.
     start : Instant or Instants
-        Where to begin, all of them or each.
+        Start of the integration, common or per row.
     row_ids : (m,) array of int
-        The numbers by which an error names the rows, where they are some of many.
+        Row numbers in error messages, if the rows are a subset.
     allow_failures : bool
-        Whether rows that had to be given up are marked in the answer instead of ending all of them in an error.
+        True to mark failed rows in the result instead of raising an error.
 
     Returns
     -------
@@ -166,13 +167,13 @@ def integrate_many(
     Raises
     ------
     ParameterError
-        If the shapes do not fit.
+        If the shapes do not match.
     SolverError
-        If one of the integrations had to be given up and failures are not allowed.
+        If an integration fails and failures are not allowed.
     """
     p = np.array(parameters, dtype=np.float64, order="C")
     if p.ndim != 2:
-        raise ParameterError("an ensemble needs one row of parameters per trajectory, found shape {shape}", shape=str(p.shape))
+        raise ParameterError("`parameters` must have one row per trajectory, found shape {shape}", shape=str(p.shape))
     m, n_states = p.shape[0], len(model.states)
     states, scale = np.empty((m, n_states)), np.empty((m, 3))
     states[:], scale[:] = initial, gains
@@ -187,6 +188,7 @@ def integrate_many(
         np.full(m, PAUSED, dtype=np.int64),
     )
     rows.counters[:, MODE], rows.counters[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
+    # all rows pass one segment before the next is read, so that one segment is in memory
     for segment in motion.segments((scale != 0.0).any(axis=0).tolist()):
         forcing = BatchForcing(segment.acceleration, scale, motion.dt)
         rows.counters[:, SEGMENT_START], rows.counters[:, SAMPLES_AFTER] = segment.first, segment.samples_after
@@ -201,7 +203,7 @@ def integrate_many(
     failed: BoolArray = _IS_FAILURE[rows.statuses]
     for row in () if allow_failures else np.flatnonzero(failed)[:1]:
         raise SolverError(
-            "{name}, row {row}: given up at {at:.6f} s, where {failure}",
+            "{name}, row {row}: integration stopped at {at:.6f} s: {failure}",
             name=model.name,
             row=row if row_ids is None else row_ids[row],
             at=motion.start_s + end.sample[row] * motion.dt + end.tau[row],
@@ -223,7 +225,7 @@ def integrate_many(
 
 
 def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows: BatchState) -> None:
-    """Follow all rows to the end of a motion, or of a stretch of it, in lanes."""
+    """Integrate all rows to the end of a motion or segment, side by side in lanes."""
     lane_rows, needs_engine = np.full(N_LANES, -1), np.ones(N_LANES, dtype=np.int64)
     lane_state, n_states = np.zeros(LANE_FIELDS * N_LANES), rows.states.shape[1]
     path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)

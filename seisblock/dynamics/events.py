@@ -1,7 +1,6 @@
-"""The events of a trajectory: a column for each thing that is known of them, and a value for whoever looks at one.
+"""Events of a trajectory, stored in columns and returned as objects on access.
 
-Strong noise changes the mode of a sliding object in every second sample; a column holds an event in a few bytes where an object takes
-hundreds.
+Under strong noise a sliding body changes its mode in every second sample; columns need a few bytes per event, objects hundreds.
 """
 
 from __future__ import annotations
@@ -15,15 +14,15 @@ import numpy as np
 from seisblock.core.typing import FloatArray, IntArray
 
 CHUNK_SIZE = 2**12
-"""Events that are made at a time for whoever goes through them."""
+"""Number of events built at a time during iteration."""
 
 
 EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
-"""Columns of a log of events."""
+"""Columns of the event log."""
 
 
 class Instant(NamedTuple):
-    """A time of a sampled motion, exact to the sample: `tau` seconds after sample number `sample`."""
+    """Instant of a sampled motion: `tau` seconds after sample number `sample`, so that precision does not decrease with time."""
 
     sample: int = 0
     tau: float = 0.0
@@ -34,14 +33,14 @@ BEGINNING = Instant()
 
 
 class Instants(NamedTuple):
-    """Times of many, one each: `tau` seconds after sample number `sample`, (m,) arrays."""
+    """Instants of many trajectories: `tau` seconds after sample number `sample`, (m,) arrays."""
 
     sample: IntArray
     tau: FloatArray
 
 
 class GuardEvent(NamedTuple):
-    """An event as the engine logs it; times in s after sample 0 of the motion."""
+    """Event logged by the engine; times in s after sample 0 of the motion."""
 
     at: Instant
     time: float
@@ -54,16 +53,16 @@ class GuardEvent(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class EventLog(Sequence[GuardEvent]):
-    """Events in the order of time; one of them, or a part, is made when it is looked at.
+    """Events in chronological order; items are built on access.
 
     Parameters
     ----------
     log : (n, 4) array of int
-        Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``), as the loop writes them.
+        Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``), as written by the loop.
     tau, time : (n,) arrays, s
-        After that sample, and after sample 0 of the motion.
+        Time after that sample, and after sample 0 of the motion.
     limits : (n, 2, n_states) array
-        Both limits of the state.
+        State before and after the event.
     """
 
     log: IntArray
@@ -73,32 +72,32 @@ class EventLog(Sequence[GuardEvent]):
 
     @property
     def sample(self) -> IntArray:
-        """The samples after which they are, (n,)."""
+        """Sample before each event, (n,)."""
         return self.log[:, EVENT_SAMPLE]
 
     @property
     def guard(self) -> IntArray:
-        """Which guards fired, (n,)."""
+        """Guard that fired, (n,)."""
         return self.log[:, EVENT_GUARD]
 
     @property
     def source(self) -> IntArray:
-        """The modes before, (n,)."""
+        """Mode before each event, (n,)."""
         return self.log[:, EVENT_FROM]
 
     @property
     def target(self) -> IntArray:
-        """The modes after, (n,)."""
+        """Mode after each event, (n,)."""
         return self.log[:, EVENT_TO]
 
     @property
     def before(self) -> FloatArray:
-        """The states before, (n, n_states)."""
+        """State before each event, (n, n_states)."""
         return self.limits[:, 0]
 
     @property
     def after(self) -> FloatArray:
-        """The states after, (n, n_states)."""
+        """State after each event, (n, n_states)."""
         return self.limits[:, 1]
 
     def __len__(self) -> int:
@@ -125,34 +124,35 @@ class EventLog(Sequence[GuardEvent]):
             yield from map(GuardEvent._make, zip(*columns, strict=True))
 
     def __add__(self, other: EventLog) -> EventLog:
-        """Return these and those that follow them."""
+        """Return the concatenation with a later log."""
         return concatenate_events([self, other]) if len(other) else self
 
     def shift_time(self, samples: int, seconds: float) -> EventLog:
-        """Return the same on a clock that started so many samples, and seconds, earlier."""
+        """Return the log with `samples` added to the sample numbers and `seconds` to the times."""
         log = self.log.copy()
         log[:, EVENT_SAMPLE] += samples
         return replace(self, log=log, time=self.time + seconds)
 
 
 def bytes_per_event(n_states: int) -> int:
-    """Return what an event of a model with so many states takes."""
+    """Return the memory of one event of a model with `n_states` states, bytes."""
     return 8 * (4 + 1 + 1 + 2 * n_states)
 
 
 def allocate_events(count: int, n_states: int) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return the loop's tables for so many events."""
+    """Return empty output tables for `count` events: log, times, limits."""
     return np.empty((count, 4), dtype=np.int64), np.empty(count), np.empty((count, 2, n_states))
 
 
 def concatenate_events(logs: Sequence[EventLog]) -> EventLog:
-    """Return the events of some parts that follow each other; a list is emptied meanwhile, so that nothing is held twice."""
+    """Return the concatenation of consecutive logs; a list is emptied on the way, so that memory is not needed twice."""
     if len(logs) == 1:
         return logs[0]
     remaining = logs if isinstance(logs, list) else list(logs)
     count, n_states = sum(map(len, remaining)), remaining[0].limits.shape[2]
     log, tau, limits = allocate_events(count, n_states)
     result = EventLog(log, tau, np.empty(count), limits)
+    # parts are popped from the end and released one by one after copying
     remaining.reverse()
     begin = 0
     while remaining:

@@ -1,4 +1,4 @@
-"""The exact extrema of a state over one step, from the zeros of its polynomial's derivative."""
+"""Exact extrema of the states within a step, from the zeros of the derivative of their polynomials."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from seisblock.dynamics.polynomial import evaluate_row, first_crossing
 _t = types()
 
 HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME = range(4)
-"""Columns of a table of extrema, one row a state."""
+"""Columns of the table of extrema, which has one row per state."""
 
 
 @kernel(_t.void(MATRIX, _t.int64, VECTOR, _t.float64), inline=True)
 def init_extrema(extrema, n_tracked, y, time):
-    """Let the extrema of the first states begin at what these are."""
+    """Initialise the extrema of the tracked states with their current values."""
     for i in range(n_tracked):
         extrema[i, HIGHEST] = y[i]
         extrema[i, HIGHEST_TIME] = time
@@ -24,7 +24,7 @@ def init_extrema(extrema, n_tracked, y, time):
 
 @kernel(_t.void(MATRIX, _t.int64, _t.float64, _t.float64), inline=True)
 def update_extrema(extrema, i, value, time):
-    """Widen the extrema of state `i` to hold a value."""
+    """Update the extrema of state `i` with a value."""
     if value > extrema[i, HIGHEST]:
         extrema[i, HIGHEST] = value
         extrema[i, HIGHEST_TIME] = time
@@ -35,7 +35,8 @@ def update_extrema(extrema, i, value, time):
 
 @kernel(_t.boolean(MATRIX, _t.int64, _t.int64, _t.float64, MATRIX), inline=True)
 def may_exceed_extrema(c, i, degree, h, extrema):
-    """Whether state `i` may reach a new extremum inside a step; False is certain."""
+    """Return False only if state `i` certainly reaches no new extremum inside a step."""
+    # monotone over the step if the linear term dominates: the end value is checked by the caller
     curvature = 0.0
     power = 1.0
     for k in range(2, degree + 1):
@@ -49,7 +50,8 @@ def may_exceed_extrema(c, i, degree, h, extrema):
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
 def update_interior_extrema(c, i, degree, h, start_time, extrema, rate, q, d):
-    """Widen the extrema of state `i` by its first maximum and first minimum inside a step."""
+    """Update the extrema of state `i` with its first maximum and first minimum inside a step."""
+    # derivative with the sign for which it is positive before a maximum (first pass) or minimum (second pass)
     for sign in (1.0, -1.0):
         for k in range(degree):
             rate[k] = sign * (k + 1) * c[i, k + 1]

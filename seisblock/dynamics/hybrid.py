@@ -1,32 +1,32 @@
-"""The engine: a state that follows a power series inside one mode, and guards that end the mode.
+"""Integration loop for hybrid systems: Taylor series within a mode, guards that end the mode, resets.
 
-Ground acceleration is piecewise linear between samples. Within one sample and one mode the state is a power
-series in time whose coefficients a model writes by recurrence, together with the series of its guards. The
-engine never steps across a sample, watches the guards on the half-open interval (t0, t0 + h], locates the first
-crossing on the guard's own polynomial, lets the model reset the state, and logs both limits.
+Ground acceleration is piecewise linear between samples. Within one sample interval and one mode the state is a power
+series in time whose coefficients the model computes by recurrence, together with the series of its guards. The
+engine never steps across a sample, checks the guards on the half-open interval (t0, t0 + h], locates the first
+zero crossing on the polynomial of the guard, calls the reset of the model, and logs the state before and after.
 
 Order and step
-    A series shorter than ``order`` ends by itself (rest, sliding, flight) and is exact over the whole sample. A series of full
-    ``order`` is cut where its last two terms fall below ``TRUNCATION`` of the state's own size; at 100 Hz and
-    order 12 rocking never needs a cut, so one sample is one step. A model may name floors, sizes below which a state counts as that
-    large: a motion that dies away among larger ones is noise, which has no convergent series.
+    A series shorter than ``order`` is finite (rest, sliding, flight) and exact over the whole interval. For a series of full
+    ``order`` the step is reduced until its last two terms are below ``TRUNCATION`` times the size of the state; at 100 Hz and
+    order 12 rocking needs no reduction, so that one interval is one step. A model may define floors, minimum sizes of its states for
+    this test: a motion that decays to round-off beside larger ones has no convergent series.
 Events
-    A guard fires at the first time in (t0, t0 + h] from which it is negative. Touching zero is no event; a guard that a reset
-    leaves at zero is judged by its first coefficient that is more than round-off. Of guards that cross
-    together, the first in the model's order fires.
+    A guard fires at the first time in (t0, t0 + h] from which it is negative. Grazing zero is not an event; a guard that a reset
+    leaves at zero is judged by its first coefficient above round-off. Of guards that cross
+    simultaneously, the first in the model's order fires.
 Ties
-    A guard is a difference of larger numbers. Where the input turns exactly at a threshold, it may lie below zero by the round-off of
-    those numbers, which its own coefficients do not show, and fires. A reset that knows the tolerance of the model's conditions then
-    returns the mode and the state that were there: the limit was touched. That is no event, and up to the next step the guard
-    starts from zero, so that its slope decides; firing again from the same state would lead to the same answer without end.
+    A guard is a difference of larger numbers. Where the input turns exactly at a threshold, the guard may be negative by the round-off
+    of those numbers, which its coefficients do not show, and fires. A reset that applies the tolerance of the model's conditions then
+    returns the mode and the state unchanged: the guard grazes zero. This is not an event. Until the next step the guard
+    starts from zero, so that its slope decides; otherwise it would fire again from the same state endlessly.
 Slices
-    Compiled code hears no interruption. The loop pauses after so many steps, between two samples, and goes on from there when it is
-    called again: the answer does not depend on where it paused. No sample may take more than ``MOST_STEPS``.
-Stretches
-    A long motion is given stretch by stretch, the last sample of one being the first of the next. The loop pauses at the end of each but
-    the last; times and events are those of the whole.
+    Compiled code cannot be interrupted. The loop therefore pauses after a number of steps, between two samples, and continues
+    at the next call; the result does not depend on the pauses. A sample interval takes at most ``MAX_STEPS_PER_SAMPLE`` steps.
+Segments
+    A long motion is passed in segments; the last sample of one is the first sample of the next. The loop pauses at the end of each
+    segment but the last; times and sample numbers are those of the whole motion.
 Extrema
-    Maxima and minima of the tracked states come from the zeros of the derivative's polynomial, not from samples.
+    Maxima and minima of the tracked states are found at the zeros of the derivative of the polynomial, not at samples only.
 """
 
 from __future__ import annotations
@@ -67,20 +67,20 @@ from seisblock.dynamics.step import advance_state, first_guard_crossing, read_fo
 _t = types()
 
 MAX_SIMULTANEOUS_EVENTS = 16
-"""More events than this at one instant are chattering."""
+"""Number of events at one instant above which the status is CHATTERING."""
 
 MAX_STEPS_PER_SAMPLE = 1 << 18
-"""More steps than this in one sample lead nowhere."""
+"""Number of steps within one sample interval above which the integration fails."""
 
 SKIPPED_PER_STEP = 64
-"""So many samples passed over cost about as much as a step."""
+"""Number of skipped samples that cost about as much as one step."""
 
 MODEL_POINTERS = _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP)
-"""Types of a model's three functions."""
+"""Types of the three functions of a model."""
 
 
 def allocate_scratch(shape, n_states, rows):
-    """Return room for one step of a model with so many states, under a motion of so many rows."""
+    """Return the work arrays of one step for a model with `n_states` states under a motion with `rows` rows."""
     terms = shape.order + 1
     return Scratch(
         np.zeros((n_states + shape.scratch, terms)),
@@ -93,12 +93,11 @@ def allocate_scratch(shape, n_states, rows):
 
 
 allocate_scratch_kernel = kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)(allocate_scratch)
-"""The same for kernels."""
+"""Compiled version of :func:`allocate_scratch`."""
 
 
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.int64), inline=True)
 def _store_sample(output, sample, y, mode):
-    """Keep state and mode at a sample."""
     for i in range(y.size):
         output.path[sample, i] = y[i]
     output.modes[sample] = mode
@@ -106,14 +105,14 @@ def _store_sample(output, sample, y, mode):
 
 @kernel(_t.void(OUTPUT, _t.int64, _t.int64, VECTOR), inline=True)
 def _store_limit(output, event, side, y):
-    """Keep the state on one side of an event."""
+    """Store the state before (side 0) or after (side 1) an event."""
     for i in range(y.size):
         output.limits[event, side, i] = y[i]
 
 
 @kernel(_t.void(OUTPUT, _t.int64, VECTOR, _t.float64), inline=True)
 def _store_dwell_time(output, mode, clock, time):
-    """Keep how long a stay in a mode was that ends now, and begin the next."""
+    """Add the time since the last event to the dwell times of a mode and restart the clock."""
     if output.dwell_times.shape[0] > 0:
         dwell_time = time - clock[MODE_START]
         output.dwell_times[mode, TOTAL] += dwell_time
@@ -122,16 +121,16 @@ def _store_dwell_time(output, mode, clock, time):
 
 
 @kernel(_t.void(_t.int64, MATRIX), inline=True)
-def _lift_touched(touched, g):
-    """Set touched guards, the bits of `touched`, that start below zero to start from zero."""
+def _clamp_grazing(grazing, g):
+    """Set to zero the initial value of negative guards whose bits are set in `grazing`."""
     for k in range(min(g.shape[0], 63)):
-        if (touched >> k) & 1 and g[k, 0] < 0.0:
+        if (grazing >> k) & 1 and g[k, 0] < 0.0:
             g[k, 0] = 0.0
 
 
 @kernel(_t.boolean(VECTOR, MATRIX), inline=True)
 def _is_unchanged(y, c):
-    """Return whether a state is that in the first column of `c`."""
+    """Return True if a state equals the first column of `c`, bit by bit."""
     differing = 0
     for i in range(y.size):
         differing += y[i] != c[i, 0]
@@ -140,16 +139,16 @@ def _is_unchanged(y, c):
 
 @kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT, SCRATCH))
 def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
-    """Follow one trajectory on from its cursor; return a status.
+    """Advance one trajectory from its current state; return a status code.
 
     Parameters
     ----------
     series, reset, skip : function pointers
-        The model; see ``SERIES``, ``RESET`` and ``SKIP``.
+        Functions of the model; see ``SERIES``, ``RESET`` and ``SKIP``.
     forcing, shape, state, output, scratch : named tuples
         See :mod:`seisblock.dynamics.buffers`.
     p : array
-        The model's parameters.
+        Parameters of the model.
     """
     acceleration, gains, dt = forcing
     counters, clock, y = state
@@ -171,9 +170,10 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
     )
     at_rest = counters[AT_REST] != 0
     tau = clock[TAU]
-    # a row that is left out stays zero, whatever the trajectory before this one read
+    # models read all rows of f, but rows with a zero gain are not written: clear the values of an earlier trajectory
     for row in range(f.shape[0]):
         f[row, 0] = f[row, 1] = 0.0
+    # first call for this trajectory, not a continuation after a pause
     if counters[HAS_STARTED] == 0:
         counters[HAS_STARTED] = 1
         clock[FIRST_EVENT_TIME] = np.nan
@@ -183,9 +183,11 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             _store_sample(output, sample, y, mode)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
+        # pause between samples only, so that the result does not depend on the pauses
         if steps_left <= 0 or (stores_events and 2 * (n_events - n_flushed) > times.size):
             status = PAUSED
             break
+        # at rest: let the model look ahead for the first sample at which the motion can begin
         if tau == 0.0 and at_rest:
             next_sample = skip(mode, acceleration, gains, sample, p)
             if next_sample > sample:
@@ -198,13 +200,14 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
         read_forcing(forcing, sample, tau, f)
         min_steps_left = steps_left - MAX_STEPS_PER_SAMPLE
         n_events_before = n_events
-        touched = 0
+        grazing = 0
         while True:
             degree = series(mode, y, f, p, order, c, g)
-            if touched != 0:
-                _lift_touched(touched, g)
+            if grazing != 0:
+                _clamp_grazing(grazing, g)
             at_rest = degree == CONSTANT
             remaining = dt - tau
+            # only a series of full order is truncated and may need a shorter step
             h = remaining
             if degree >= order:
                 h = step_length(c, y.size, order, remaining, p, floors)
@@ -218,28 +221,32 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 ):
                     status = NOT_FINITE
                     break
+                # time has advanced: chattering and grazing concern events at one instant only
                 if tau + h > tau:
                     n_simultaneous = 0
-                    touched = 0
+                    grazing = 0
             at_sample = h == remaining
             tau += h
+            # resets and the next series need the ground motion at the end of the step
             if not at_sample or guard >= 0:
                 for row in range(f.shape[0]):
                     f[row, 0] += f[row, 1] * h
             if guard >= 0:
                 if stores_events:
                     if n_events - n_flushed >= times.size:
+                        # the tables are full within one sample interval; the caller starts again with larger ones
                         status = TOO_MANY_EVENTS
                         break
                     _store_limit(output, n_events - n_flushed, 0, y)
                 below = h == 0.0 and g[guard, 0] < 0.0
                 if below:
-                    # no step was made, so that the series has room for the state
+                    # no step was made: column 0 of the series is free for a copy of the state
                     for i in range(y.size):
                         c[i, 0] = y[i]
                 next_mode = reset(mode, guard, y, f, p)
+                # grazing: the reset found no violation beyond its tolerance (see "Ties")
                 if below and next_mode == mode and _is_unchanged(y, c):
-                    touched |= 1 << guard
+                    grazing |= 1 << guard
                     n_simultaneous += 1
                     if n_simultaneous > MAX_SIMULTANEOUS_EVENTS:
                         status = CHATTERING
@@ -253,6 +260,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                     events[row, EVENT_TO] = next_mode
                     times[row] = tau
                     _store_limit(output, row, 1, y)
+                # a reset may set a state beyond the extrema of the step
                 for i in range(shape.tracked):
                     update_extrema(extrema, i, y[i], (segment_start + sample) * dt + tau)
                 if n_events == 0:
@@ -269,6 +277,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 if n_simultaneous > MAX_SIMULTANEOUS_EVENTS:
                     status = CHATTERING
                     break
+            # a remainder below round-off counts as the sample, to avoid a step of length zero
             if at_sample or dt - tau <= 1e-15 * dt:
                 break
             steps_left -= 1
@@ -281,6 +290,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
             tau = 0.0
             if stores_path:
                 _store_sample(output, sample, y, mode)
+    # end of a segment, not of the motion
     if status == RECORD_ENDED and counters[SAMPLES_AFTER] > 0:
         status = PAUSED
     if status == RECORD_ENDED:
@@ -299,7 +309,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
 
 @kernel(_t.int64(*MODEL_POINTERS, FORCING, SHAPE, VECTOR, STATE, OUTPUT), allocates=True)
 def integrate_kernel(series, reset, skip, forcing, shape, p, state, output):
-    """Follow one trajectory on from its cursor, as :func:`advance` does, in room of its own; return a status."""
+    """Advance one trajectory as :func:`advance` does, with its own work arrays; return a status code."""
     scratch = allocate_scratch_kernel(shape, state.state.size, forcing.acceleration.shape[0])
     return advance(series, reset, skip, forcing, shape, p, state, output, scratch)
 

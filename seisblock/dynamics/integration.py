@@ -1,7 +1,7 @@
-"""Following a model through a motion gives a trajectory.
+"""Integration of a model under a motion.
 
-Room for the path is taken only where the motion is short. A long one is followed stretch by stretch, and its path, where somebody asks for
-it, by following it again.
+The path (state and mode at each sample) is stored for short motions only. Long motions are integrated in segments; their path, if
+requested, is computed by a second integration, to the same bits.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ from seisblock.dynamics.trajectory import Path, Trajectory
 from seisblock.records.motion import Motion, MotionSegment
 
 STEPS_PER_SLICE = 1 << 16
-"""Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
+"""Steps per call of compiled code, 10 to 150 ms, after which Python can be interrupted; the overhead of a call is below 1e-3."""
 
 _INITIAL_EVENT_CAPACITY = 1 << 12
 _MAX_EVENT_CAPACITY = 1 << 18
-"""Events for which the tables have room, half of them in a single interval between two samples: at first, and at the most."""
+"""Initial and maximum capacity of the event tables; half of it is available for a single sample interval."""
 
 _MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE = 1 << 24, 4
-"""Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
+"""Maximum number of events, and for long motions of events per sample; beyond both the status is TOO_MANY_EVENTS."""
 
 RowArray = TypeVar("RowArray", FloatArray, IntArray)
 
@@ -65,13 +65,13 @@ def integrate(
     keep_path: bool = True,
     keep_events: bool = True,
 ) -> Trajectory:
-    """Follow a model through a motion.
+    """Integrate a model under a motion.
 
     Parameters
     ----------
     model : Model
     motion : Motion
-        Piecewise linear between its samples.
+        Acceleration, linear between samples.
     parameters : (n_parameters,) array
         In the model's order and units.
     initial : (n_states,) array
@@ -79,12 +79,11 @@ def integrate(
     mode : int
         Mode at `start`.
     gains : three floats
-        Factors on the rows along, across, up; zero leaves a row out.
+        Factors on the longitudinal, transverse and vertical acceleration; rows with a zero factor are not read.
     start : Instant
-        Where to begin.
+        Start of the integration.
     keep_path, keep_events : bool
-        Whether states at samples, and events, are kept on the way. A path that was not kept, as that through a long motion never is, is
-        followed again when it is asked for.
+        True to store states at samples, and events. A path that is not stored (never for long motions) is recomputed on access.
 
     Returns
     -------
@@ -93,7 +92,7 @@ def integrate(
     Raises
     ------
     SolverError
-        If the integration had to be given up.
+        If the integration fails.
     """
     integration = _Integration(model, motion, np.array(parameters, dtype=np.float64), np.array(gains, dtype=np.float64))
     n_states = len(model.states)
@@ -109,6 +108,7 @@ def integrate(
             status = integration.advance(segment, state, output, logs)
             if status != PAUSED:
                 break
+        # the tables overflowed within one sample interval: start again with larger ones
         if not (status == TOO_MANY_EVENTS and state.counters[N_EVENTS] - state.counters[N_FLUSHED] == capacity < _MAX_EVENT_CAPACITY):
             break
         capacity *= 8
@@ -117,12 +117,13 @@ def integrate(
     if status in FAILURES:
         time = motion.start_s + end.sample * motion.dt + end.tau
         raise SolverError(
-            "{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=time, failure=lazy_gettext(FAILURES[status])
+            "{name}: integration stopped at {at:.6f} s: {failure}", name=model.name, at=time, failure=lazy_gettext(FAILURES[status])
         )
     if keep_events:
         check_event_memory(n_events, bytes_per_event(n_states))
         logs.append(_flush_events(output, state, motion.dt))
     events = concatenate_events(logs) if logs else _empty_events(n_states)
+    # a stored path is one piece; otherwise the pieces are recomputed on access
     if stores_path:
         samples = slice(_first_stored_sample(start), end.sample + 1)
         full_path = Path(motion.dt, samples.start, _trim(path, samples), _trim(modes, samples), events)
@@ -133,14 +134,14 @@ def integrate(
 
 
 def initial_state(start: Instant, mode: int, state: FloatArray) -> State:
-    """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
-    # sample, mode, events, events at one instant, still, not started, steps, first sample given, samples beyond, events taken
+    """Return the initial state of a trajectory; the array `state` is updated in place by the integration."""
+    # the counters in the order of SAMPLE to N_FLUSHED
     return State(np.array([start.sample, mode, 0, 0, 1, 0, 0, 0, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
 
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """What determines a trajectory but where it begins."""
+    """Model, motion, parameters and gains of a trajectory."""
 
     model: Model
     motion: Motion
@@ -148,13 +149,13 @@ class _Integration:
     gains: FloatArray
 
     def segments(self, first_sample: int) -> Iterator[MotionSegment]:
-        """Return the stretches of the motion from a sample on."""
+        """Yield the segments of the motion from a sample on."""
         return self.motion.segments((self.gains != 0.0).tolist(), first_sample)
 
     def advance(self, segment: MotionSegment, state: State, output: Output, logs: list[EventLog]) -> int:
-        """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status.
+        """Advance a trajectory through a segment in interruptible slices; return the status.
 
-        Events are taken out of their tables when these are half full; the rest of them stays there.
+        Events are moved from the output tables to `logs` whenever the tables are half full; the last ones stay in the tables.
         """
         forcing = Forcing(segment.acceleration, self.gains, self.motion.dt)
         state.counters[SEGMENT_START], state.counters[SAMPLES_AFTER] = segment.first, segment.samples_after
@@ -164,6 +165,7 @@ class _Integration:
             check_cancelled()
             state.counters[STEPS_LEFT] = STEPS_PER_SLICE
             status = hybrid.integrate_kernel(*self.model.pointers, forcing, self.model.shape, self.p, state, output)
+            # paused because of half-full tables, not because of the steps
             if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
                 if state.counters[N_EVENTS] > max(_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
@@ -174,7 +176,7 @@ class _Integration:
         return int(status)
 
     def iter_paths(self, start: Instant, mode: int, initial: FloatArray, events: EventLog) -> Iterator[Path]:
-        """Yield the path that leads through some changes, piece by piece, as it is followed again."""
+        """Yield the path piece by piece by a second integration, with the events of the first one."""
         state, first_sample, first_event = initial_state(start, mode, initial.copy()), _first_stored_sample(start), 0
         extrema = np.zeros((self.model.tracked, 4))
         for segment in self.segments(start.sample):
@@ -185,6 +187,7 @@ class _Integration:
             )
             last_sample = int(state.counters[SAMPLE])
             rows = slice(first_sample - segment.first, last_sample + 1 - segment.first)
+            # events in the interval after last_sample belong to the next piece
             end_event = int(np.searchsorted(events.sample, last_sample)) if status == PAUSED else len(events)
             yield Path(self.motion.dt, first_sample, path[rows], modes[rows], events[first_event:end_event])
             first_sample, first_event = last_sample + 1, end_event
@@ -193,29 +196,27 @@ class _Integration:
 
 
 def _first_stored_sample(start: Instant) -> int:
-    """Return the first sample at which a trajectory has a state."""
+    """Return the first sample at or after the start."""
     return start.sample if start.tau == 0.0 else start.sample + 1
 
 
 def _empty_path(n_states: int) -> tuple[FloatArray, IntArray]:
-    """Return room for no path."""
     return np.empty((0, n_states)), np.empty(0, dtype=np.int64)
 
 
 def _empty_events(n_states: int) -> EventLog:
-    """Return no events."""
     log, tau, limits = allocate_events(0, n_states)
     return EventLog(log, tau, tau, limits)
 
 
 def _flush_events(output: Output, state: State, dt: float) -> EventLog:
-    """Return the events in the loop's tables, whose room may then be used again."""
+    """Return a copy of the events in the output tables, which can then be reused."""
     count = int(state.counters[N_EVENTS] - state.counters[N_FLUSHED])
     log, tau = output.events[:count].copy(), output.times[:count].copy()
     return EventLog(log, tau, log[:, EVENT_SAMPLE] * dt + tau, output.limits[:count].copy())
 
 
 def _trim(rows: RowArray, selection: slice) -> RowArray:
-    """Return the rows that were reached, without the room for the others where these are the most of it."""
+    """Return the selected rows; as a copy if they are less than half, so that the memory of the rest is released."""
     view = rows[selection]
     return view if 2 * len(view) > len(rows) else view.copy()

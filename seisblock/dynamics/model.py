@@ -1,4 +1,4 @@
-"""A model is three tables of names and two functions."""
+"""Definition of a hybrid model: names of states, guards and modes, and compiled functions."""
 
 from __future__ import annotations
 
@@ -13,35 +13,35 @@ from seisblock.dynamics.buffers import Shape
 from seisblock.dynamics.model_api import STRIDE
 
 ORDER = 12
-"""Terms of the power series; at 100 Hz the thirteenth is below round-off."""
+"""Order of the power series; at 100 Hz the next term is below round-off."""
 
 
 @dataclass(frozen=True)
 class Model:
-    """What the engine needs to know of a model.
+    """Hybrid model for the engine.
 
     Parameters
     ----------
     name : str
     series, reset : compiled functions
-        Signatures ``SERIES`` and ``RESET`` of :mod:`seisblock.dynamics.hybrid`.
+        Functions with the signatures ``SERIES`` and ``RESET`` of :mod:`seisblock.dynamics.model_api`.
     states, guards, modes : tuple of str
-        Names, in the order of the model's named integers. Negative modes end the integration and are named from the end:
+        Names, in the order of the model's integer constants. Negative modes end the integration and are counted from the end:
         mode -1 is ``modes[-1]``.
     scratch : int
-        Rows that ``series`` needs beside the states.
+        Number of work rows of ``series`` beside the states.
     tracked : int
-        How many of the first states have their exact extrema kept.
+        Number of leading states whose exact extrema are recorded.
     order : int
-        Terms of a series that does not end by itself.
+        Order of infinite series.
     skip : compiled function
-        Signature ``SKIP``: the short cut through samples at which nothing happens.
+        Function with the signature ``SKIP`` that passes over samples without motion or events.
     has_floors : bool
-        Whether the parameters end in one size per state below which it counts as that large, for the step's length.
+        True if the parameters end in one minimum size per state for the step length control.
     sharp : int
-        How many of the first guards are states set to exact values: however small they start, they are not taken for zero.
+        Number of leading guards that are states set to exact values; small initial values of these are not treated as round-off.
     stride : compiled function or None
-        Signature ``STRIDE`` of :mod:`seisblock.dynamics.model_api`: moves many trajectories at once where nothing happens to them.
+        Function with the signature ``STRIDE`` that advances many trajectories in parallel between events.
     """
 
     name: str
@@ -60,7 +60,7 @@ class Model:
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any]:
-        """Series, reset and skip, as compiled loops take them."""
+        """Function pointers of series, reset and skip."""
         return (
             function_pointer(self.series, hybrid.SERIES),
             function_pointer(self.reset, hybrid.RESET),
@@ -69,11 +69,11 @@ class Model:
 
     @cached_property
     def stride_pointer(self) -> Any:
-        """The stride, as compiled loops take it."""
+        """Function pointer of the stride."""
         assert self.stride is not None
         return function_pointer(self.stride, STRIDE)
 
     @cached_property
     def shape(self) -> Shape:
-        """Sizes that the engine needs."""
+        """Sizes of the model for the engine."""
         return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.has_floors), self.sharp)

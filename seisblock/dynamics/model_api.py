@@ -1,4 +1,4 @@
-"""What a model gives the engine: three pure functions, as compiled function pointers, and the values that mean something special."""
+"""Interface of a model to the engine: signatures of its compiled functions and special values."""
 
 from __future__ import annotations
 
@@ -11,37 +11,37 @@ _t = types()
 SERIES = _t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
 """series(mode, y, f, p, order, c, g) -> degree.
 
-Writes, from the state ``y`` and the ground motion ``f[row] = (value, slope)``, the coefficients ``c[i, 0:degree + 1]`` of state i
-and ``g[k, 0:degree + 1]`` of guard k (``OFF`` in ``g[k, 0]`` skips a guard, in ``c[i, 1]`` a state that does not move and is not
-tracked). Rows of c after the states are scratch. ``CONSTANT`` says that no state moves: c is not read then, and guards are straight
-lines, ``g[k, 0:2]``."""
+Computes from the state ``y`` and the ground motion ``f[row] = (value, slope)`` the coefficients ``c[i, 0:degree + 1]`` of state i
+and ``g[k, 0:degree + 1]`` of guard k. ``OFF`` in ``g[k, 0]`` disables a guard, in ``c[i, 1]`` it marks a state that is constant and not
+tracked. Rows of c after the states are work space. Degree ``CONSTANT``: all states are constant, c is not read, and guards are linear,
+``g[k, 0:2]``."""
 
 RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 """reset(mode, guard, y, f, p) -> next mode; changes ``y`` in place. A negative mode ends the integration."""
 
 CONSTANT = 0
-"""Degree of a state that does not move."""
+"""Degree of a constant state."""
 
 SKIP = _t.int64(_t.int64, READ_ONLY_MATRIX, VECTOR, _t.int64, VECTOR)
-"""skip(mode, acceleration, gains, sample, p) -> a later sample, up to which the state stays as it is and no guard fires."""
+"""skip(mode, acceleration, gains, sample, p) -> later sample up to which the state is constant and no guard fires."""
 
 
 @kernel(SKIP)
 def no_skip(mode, acceleration, gains, sample, p):
-    """Skip nothing: the model has no rest, or none worth a short cut."""
+    """Return the sample unchanged, for models without a state of rest."""
     return sample
 
 
 STRIDE = _t.int64(BATCH_FORCING, MATRIX, BATCH_STATE, INTEGERS, INTEGERS, VECTOR, _t.int64)
-"""stride(grounds, parameters, rows, chosen, waits, lanes, most) -> samples passed, by all lanes together.
+"""stride(forcing, parameters, rows, lane_rows, needs_engine, lane_state, max_samples) -> samples passed, summed over the lanes.
 
-Moves the trajectories ``chosen`` (numbers of rows, -1 for none) on from the samples at which they stand, side by side, until one of them
-cannot go on so, or for ``most`` samples: by the operations of ``series`` and of the engine's step, in their order. A lane is marked in
-``waits`` where it is new, on the way in, and where it waits for the engine, on the way out: then place and state are written back.
-``lanes`` is room that is kept between the calls, ``FIELDS`` numbers a lane."""
+Advances the trajectories ``lane_rows`` (row numbers, -1 for none) in parallel from their current samples until one of them needs the
+engine, or for ``max_samples`` samples, by the same operations in the same order as ``series`` and the engine's step. On entry,
+``needs_engine`` marks lanes with a new trajectory; on return, lanes that need the engine, whose sample and state are then written back.
+``lane_state`` is work space kept between calls, ``LANE_FIELDS`` numbers per lane."""
 
 N_LANES, LANE_FIELDS = 16, 24
-"""Trajectories side by side: two vectors of a processor with registers of 512 bits, four of one with 256."""
+"""Number of lanes (two vectors of 512 bits or four of 256 bits) and numbers of work space per lane."""
 
 OFF = float("inf")
-"""Value of a guard that is not watched in this mode."""
+"""Value of a guard that is disabled in this mode."""

@@ -1,8 +1,8 @@
-"""Polynomials in time: value, shift, and the first crossing that cannot be missed.
+"""Polynomials in time: evaluation, Taylor shift, and guaranteed detection of the first zero crossing.
 
-Coefficients stand in ascending order, ``c[k]`` multiplies ``t**k``. A guard (a slack, positive while a mode is
-admissible) is such a polynomial, so whether it stays positive over a step is decided by bounds on its
-coefficients, not by looking at a few instants.
+Coefficients are in ascending order, ``c[k]`` multiplies ``t**k``. A guard (a slack, positive while a mode is
+admissible) is such a polynomial. Bounds on its coefficients decide whether it stays positive over a step; sampling at
+a few instants could miss a crossing.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from seisblock.dynamics.array_types import MATRIX, VECTOR
 _t = types()
 
 ROUND_OFF = 1e-14
-"""A polynomial is taken as zero where it is below this share of the sum of its terms."""
+"""Round-off relative to the sum of the absolute terms of a polynomial; smaller values count as zero."""
 
 NEWTON_TOLERANCE = 1e-9
-"""A Newton step below this share of the root is followed by none that matters."""
+"""Relative Newton step below which the iteration ends; the remaining error is of the order of its square."""
 
 NO_CROSSING = -1.0
-"""Answer of :func:`first_crossing` when there is none."""
+"""Return value of :func:`first_crossing` without a crossing."""
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64), inline=True)
@@ -43,7 +43,7 @@ def shift(c, degree, t):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64), inline=True)
 def lower_bound(c, degree, h):
-    """Return a lower bound of a polynomial on [0, h]: its chord's lower end less all higher terms."""
+    """Return a lower bound of a polynomial on [0, h]: the lower end of its linear part minus the absolute higher terms."""
     if degree == 0:
         return c[0]
     bound = min(c[0], c[0] + c[1] * h)
@@ -56,9 +56,9 @@ def lower_bound(c, degree, h):
 
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def evaluate_row(c, i, degree, t):
-    """Return the value at `t` of the polynomial in row `i`; a slice ``c[i]`` would cost reference counting."""
+    """Return the value at `t` of the polynomial in row `i`, without a slice ``c[i]``, which would be slower."""
     if degree == 3:
-        # sliding and flight: no loop where nearly all steps are cubics
+        # sliding and flight: nearly all steps are cubic, so that the unrolled form pays
         return c[i, 0] + t * (c[i, 1] + t * (c[i, 2] + t * c[i, 3]))
     value = c[i, degree]
     for k in range(degree - 1, -1, -1):
@@ -83,12 +83,13 @@ def lower_bound_of_row(c, i, degree, h):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
 def _bracketed_root(c, degree, high):
-    """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket).
+    """Return the root in [0, high] of a polynomial that changes from positive to negative there.
 
-    It begins at the root of the parabola that the first terms are. A step below ``NEAR`` is the last: the error is of its square.
+    Safeguarded Newton iteration. It starts from the root of the quadratic part and ends at a relative step below ``NEWTON_TOLERANCE``.
     """
     if c[0] <= 0.0:
         return 0.0
+    # start from the root of the quadratic part, in the form without cancellation
     low = 0.0
     t = high
     if degree > 1:
@@ -98,6 +99,7 @@ def _bracketed_root(c, degree, high):
             if 0.0 < guess < high:
                 t = guess
     for _ in range(100):
+        # value and slope in one Horner scheme
         value = c[degree]
         slope = 0.0
         for k in range(degree - 1, -1, -1):
@@ -110,6 +112,7 @@ def _bracketed_root(c, degree, high):
         next_t = t - value / slope if slope != 0.0 else t
         if value == 0.0 or (slope != 0.0 and abs(next_t - t) <= NEWTON_TOLERANCE * t):
             return min(max(next_t, low), high)
+        # Newton left the bracket: bisect
         if not (low < next_t < high):
             next_t = 0.5 * (low + high)
             if high - low <= 2.3e-16 * high:
@@ -120,11 +123,11 @@ def _bracketed_root(c, degree, high):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64, _t.float64, VECTOR, VECTOR))
 def first_negative(g, degree, h, round_off, q, d):
-    """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
+    """Return the first time in [0, h] from which a polynomial is negative, or ``NO_CROSSING``.
 
-    A zero that is only touched, or passed by less than `round_off` of the sum of the terms, is no crossing. A guard that a reset has
-    just left at zero is therefore judged by where it goes, which is the half-open rule (t0, t0 + h]. Zero is returned when the
-    polynomial is negative, or becomes negative, at once.
+    Grazing zero, or passing it by less than `round_off` times the sum of the terms, is not a crossing. A guard that a reset has
+    just left at zero is therefore judged by its direction, which is the half-open rule (t0, t0 + h]. Zero is returned if the
+    polynomial is negative, or becomes negative, immediately.
 
     Parameters
     ----------
@@ -134,12 +137,13 @@ def first_negative(g, degree, h, round_off, q, d):
     h : float
         Length of the step, positive.
     round_off : float
-        Zero for a polynomial whose every coefficient is meant, however small beside what it grows to within the step.
+        Relative round-off of the coefficients; zero for a polynomial whose coefficients are exact.
     q, d : (>= degree + 1,) arrays
         Scratch.
     """
     if lower_bound(g, degree, h) > 0.0:
         return NO_CROSSING
+    # sum of the absolute terms over the step: the scale of round-off
     total = 0.0
     power = 1.0
     for k in range(degree + 1):
@@ -148,6 +152,7 @@ def first_negative(g, degree, h, round_off, q, d):
     if not total < np.inf:
         return NO_CROSSING
     noise = round_off * total
+    # first coefficient above round-off: it decides the sign just after the start
     leading = 0
     power = 1.0
     while leading <= degree and abs(g[leading]) * power <= noise:
@@ -158,19 +163,20 @@ def first_negative(g, degree, h, round_off, q, d):
     if g[0] < -noise:
         return 0.0
     if g[leading] < 0.0:
-        # it may dip by less than round-off and come back, so nothing is divided out
+        # it may dip by less than round-off and return: do not divide out the leading power
         leading = 0
         power = 1.0
     n = degree - leading
     for k in range(n + 1):
         q[k] = g[leading + k]
-    # march over [0, h], halving where the bounds cannot tell
+    # march over [0, h], halving the interval while the bounds are inconclusive
     noise = round_off * total / power
     start = 0.0
     width = h
     smallest = 1e-14 * h
     while start < h:
         if lower_bound(q, n, width) <= -noise:
+            # the derivative does not change sign: at most one root, so that the end value decides
             for k in range(n):
                 d[k] = -(k + 1) * q[k + 1]
             monotone = n > 0 and lower_bound(d, n - 1, width) >= 0.0
@@ -189,5 +195,5 @@ def first_negative(g, degree, h, round_off, q, d):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64, VECTOR, VECTOR), inline=True)
 def first_crossing(g, degree, h, q, d):
-    """Return :func:`first_negative` of a polynomial whose coefficients carry round-off."""
+    """Return :func:`first_negative` with the tolerance ``ROUND_OFF``."""
     return first_negative(g, degree, h, ROUND_OFF, q, d)

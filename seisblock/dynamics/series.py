@@ -1,4 +1,4 @@
-"""Products and trigonometric functions of power series: one coefficient at a time, from those below it."""
+"""Recurrences for products, quotients and sine/cosine of power series, one coefficient at a time."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def sine_cosine(f, s, c, k):
 
 @kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.int64), inline=True)
 def quotient(u, v, w, k):
-    """Return coefficient `k` of w = u / v, when those of w below `k` are known."""
+    """Return coefficient `k` of w = u / v from the coefficients of w below `k`."""
     value = u[k]
     for j in range(1, k + 1):
         value -= v[j] * w[k - j]

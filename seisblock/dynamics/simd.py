@@ -1,9 +1,9 @@
-"""Many trajectories of one model side by side, each in a lane of its own: they move on together where nothing happens to them.
+"""SIMD integration: many trajectories of one model advance in parallel lanes between events.
 
-One step of a power series is a chain of operations, each of which waits for the one before it; a processor does many such chains in the
-time of one. A model may therefore bring a ``stride``, which moves some trajectories at once from sample to sample, by the very operations
-of its ``series``, in their order: the same bits. Whatever is more than that, an event, a new extremum, a series that needs another step,
-is left to the engine, one trajectory after another.
+The recurrence of a power series is a chain of dependent operations; a vector unit computes many such chains in the time of
+one. A model may therefore define a ``stride``, which advances several trajectories from sample to sample by the same operations in the
+same order as its ``series``, so that results agree to the last bit. Everything else (events, new extrema, shorter steps) is
+left to the engine, one trajectory after another.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ from seisblock.dynamics.model_api import STRIDE
 _t = types()
 
 LANE_ARGUMENTS = BATCH_FORCING, SHAPE, MATRIX, BATCH_STATE, INTEGERS, INTEGERS, VECTOR, OUTPUT, SCRATCH, _t.int64, _t.int64
-"""What the loop is given beside its functions."""
+"""Types of the arguments of the loop after the functions."""
 
 
 @kernel(_t.int64(*MODEL_POINTERS, _t.FunctionType(STRIDE), *LANE_ARGUMENTS))
 def integrate_in_lanes(
     series, reset, skip, stride, forcing, shape, parameters, rows, lane_rows, needs_engine, lane_state, no_output, scratch, first_row, steps
 ):
-    """Follow one trajectory per row of `parameters`, from row `first_row` on, for so many steps in all; return the first that no lane has.
+    """Integrate one trajectory per row from `first_row` on for `steps` steps in total; return the next unassigned row.
 
-    It is called again, with the lanes as they are, until all of them are empty. Of a single trajectory `no_output` is kept; it makes no
-    room of its own, whose counting of references would be the larger part of its machine code.
+    The caller repeats the call until all lanes are empty. `no_output` holds empty path and event arrays; the kernel allocates
+    nothing itself, because reference counting would dominate its machine code.
     """
     last = forcing.acceleration.shape[1] - 1
     next_row = first_row
@@ -50,17 +50,19 @@ def integrate_in_lanes(
     while running and steps > 0:
         running = False
         for lane in range(lane_rows.size):
+            # still advancing in the stride: nothing to do for the engine
             if needs_engine[lane] == 0:
                 running = True
                 continue
             while steps > 0:
-                # what ended in an earlier stretch of the motion has its lane no more
+                # fill the lane with the next trajectory that has not ended in an earlier segment
                 while lane_rows[lane] < 0 and next_row < parameters.shape[0]:
                     lane_rows[lane] = next_row if rows.statuses[next_row] == PAUSED else -1
                     next_row += 1
                 lane_row = lane_rows[lane]
                 if lane_row < 0:
                     break
+                # one sample interval by the engine, then back to the stride
                 counters = rows.counters[lane_row]
                 counters[STEPS_LEFT] = 1
                 rows.statuses[lane_row] = advance(
@@ -87,6 +89,7 @@ def integrate_in_lanes(
                 segment_done = counters[SAMPLES_AFTER] > 0 and counters[SAMPLE] - counters[SEGMENT_START] >= last
                 if rows.statuses[lane_row] != PAUSED or segment_done:
                     lane_rows[lane] = -1
+                # a trajectory at rest stays with the engine, whose skip passes many samples at once
                 elif counters[AT_REST] == 0:
                     running = True
                     break

@@ -1,4 +1,4 @@
-"""One step of the engine: the ground motion over it, how long it may be, which guard ends it, and the state at its end."""
+"""Parts of one integration step: ground motion, step length, first guard crossing, state at the end."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from seisblock.dynamics.polynomial import NO_CROSSING, ROUND_OFF, evaluate_row, 
 _t = types()
 
 TRUNCATION = 1.1e-16
-"""Largest last term of a full series, relative to the state."""
+"""Maximum last term of a series of full order, relative to the state."""
 
 
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
 def step_length(c, n_states, order, h, p, floors):
-    """Return the part of `h` over which a full series is converged to round-off; `floors` says where they stand in `p`, or -1."""
+    """Return the step length up to `h` at which the series has converged; `floors` is the index of the floors in `p`, or -1."""
+    # h^(order - 1), scales the last two terms
     top = 1.0
     for _ in range(order - 1):
         top *= h
@@ -29,12 +30,13 @@ def step_length(c, n_states, order, h, p, floors):
             size = max(size, p[floors + i])
         tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
         if tail > TRUNCATION * size:
-            # a state that starts from zero has its size in its later terms
+            # a state that starts from zero gets its size from the higher terms
             power = h**3
             for k in range(4, order - 1):
                 power *= h
                 size += abs(c[i, k]) * power
         if tail > TRUNCATION * size:
+            # the tail scales with h^(order - 1); factor 0.9 for safety
             reduced_h = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
             top *= (reduced_h / h) ** (order - 1)
             h = reduced_h
@@ -43,7 +45,7 @@ def step_length(c, n_states, order, h, p, floors):
 
 @kernel(_t.void(FORCING, _t.int64, _t.float64, MATRIX), inline=True)
 def read_forcing(forcing, sample, tau, f):
-    """Write the ground motion, value and slope, `tau` after a sample."""
+    """Write value and slope of the ground motion `tau` seconds after a sample to `f`."""
     acceleration, gains = forcing.acceleration, forcing.gains
     per_dt = 1.0 / forcing.dt
     for row in range(acceleration.shape[0]):
@@ -55,13 +57,14 @@ def read_forcing(forcing, sample, tau, f):
 
 @kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, SHAPE, _t.int64, _t.float64), inline=True)
 def first_guard_crossing(scratch, shape, degree, h):
-    """Return the guard that fires first within a step, -1 for none, and when: the end of the step."""
+    """Return the first guard that fires within a step (-1 for none) and its time, which ends the step."""
     g = scratch.g
     guard = -1
     for k in range(shape.guards):
         if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
             continue
         crossing = first_negative(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
+        # the step is shortened to the earliest crossing; of simultaneous ones the first guard is kept
         if crossing != NO_CROSSING and (guard < 0 or crossing < h):
             guard = k
             h = crossing
@@ -72,8 +75,9 @@ def first_guard_crossing(scratch, shape, degree, h):
 
 @kernel(_t.boolean(SCRATCH, _t.int64, _t.float64, _t.float64, _t.int64, VECTOR, MATRIX), inline=True)
 def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
-    """Move the state on by a step that begins at `start_time`, and its extrema with it; return whether it stays finite."""
+    """Advance the state and its extrema by a step that begins at `start_time`; return True if the state is finite."""
     c = scratch.c
+    # extrema inside the step; its end point follows below
     for i in range(n_tracked):
         if may_exceed_extrema(c, i, degree, h, extrema):
             update_interior_extrema(c, i, degree, h, start_time, extrema, scratch.rate, scratch.q, scratch.d)
@@ -85,4 +89,5 @@ def advance_state(scratch, degree, h, start_time, n_tracked, y, extrema):
         size += abs(y[i])
     for i in range(n_tracked):
         update_extrema(extrema, i, y[i], start_time + h)
+    # False for infinite and NaN sums
     return size < OFF

@@ -1,4 +1,4 @@
-"""What the engine found: the end, the changes on the way, and the path, which a long trajectory follows again when it is asked for."""
+"""Result of an integration: final state, events, extrema, and the path, which is recomputed on access for long motions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.core.typing import FloatArray, IntArray
 from seisblock.dynamics.events import EventLog, Instant, concatenate_events
 
 EXTRA_CURVES = 6
-"""Curves that are no states: time, mode, ground motion, and what else is drawn."""
+"""Number of time histories beside the states (time, mode, ground motion and derived channels), for the memory limit."""
 
 if TYPE_CHECKING:
     from seisblock.dynamics.model import Model
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Where a trajectory is at samples that follow each other, and what happens before each of them.
+    """States and modes at consecutive samples, and the events between them.
 
     Parameters
     ----------
@@ -31,8 +31,8 @@ class Path:
         Number of the first sample.
     states, modes : (n, n_states), (n,) arrays
         State and mode at each sample.
-    events : Changes
-        Since the sample before the first; and those after the last one where the trajectory ends there.
+    events : EventLog
+        Events after the sample before the first one; also those after the last sample if the trajectory ends there.
     """
 
     dt: float
@@ -42,12 +42,12 @@ class Path:
     events: EventLog
 
     def table(self, samples: IntArray | None = None) -> tuple[FloatArray, FloatArray, IntArray]:
-        """Return times, states and modes at the samples and at both limits of every event, in order.
+        """Return times, states and modes at the samples and on both sides of every event, in order.
 
         Parameters
         ----------
         samples : (k,) array of int or None
-            Which samples of the path are wanted, in rising order; all when left out.
+            Indices of samples of the path, ascending; None for all.
 
         Returns
         -------
@@ -62,7 +62,7 @@ class Path:
         return time, _insert_rows(states, self._insert_positions(samples), self.events.limits.reshape(-1, states.shape[1])), modes
 
     def times_and_modes(self, samples: IntArray | None = None) -> tuple[FloatArray, IntArray]:
-        """Return the times and modes of :meth:`table` alone, (m,) each."""
+        """Return times and modes of :meth:`table` without the states, (m,) each."""
         time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
         modes = self.modes
         if samples is not None:
@@ -73,9 +73,10 @@ class Path:
         return np.insert(time, positions, np.repeat(self.events.time, 2)), np.insert(modes, positions, event_modes)
 
     def row_indices(self, samples: IntArray) -> IntArray:
-        """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
+        """Return the indices, in the whole table, of the rows that :meth:`table` returns for some samples, (m,)."""
         if not self.events:
             return samples
+        # rows of the whole table: each sample is preceded by the inserted rows of earlier events
         positions = self._event_positions
         at_samples = samples + np.searchsorted(positions, samples, side="right")
         return np.insert(at_samples, self._insert_positions(samples), positions + np.arange(positions.size))
@@ -88,30 +89,31 @@ class Path:
         return np.insert(at_samples, self._insert_positions(), self.events.limits[:, :, state].ravel())
 
     def interpolate(self, values: FloatArray, samples: IntArray | None = None) -> FloatArray:
-        """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
+        """Return a sampled input, interpolated linearly, at the times of :meth:`table`, (m,)."""
         part = values[self.first : self.first + self.modes.size]
         if samples is not None:
             part = part[samples]
         if not self.events:
             return part
+        # the input is continuous: both sides of an event have the same value
         indices, fraction = self.events.sample, self.events.tau / self.dt
         at_events = values[indices] + fraction * (values[np.minimum(indices + 1, values.size - 1)] - values[indices])
         return np.insert(part, self._insert_positions(samples), np.repeat(at_events, 2))
 
     @cached_property
     def _event_positions(self) -> IntArray:
-        """Return before which sample of the path each limit of each event stands."""
+        """Index of the sample of the path before which each side of each event is inserted, (2 k,)."""
         samples = self.events.sample + 1 - self.first
         return np.clip(np.repeat(samples, 2), 0, self.modes.size)
 
     def _insert_positions(self, samples: IntArray | None = None) -> IntArray:
-        """Return before which of the samples chosen each limit of each event stands."""
+        """Return the same indices relative to a selection of samples."""
         positions = self._event_positions
         return positions if samples is None else np.searchsorted(samples, positions)
 
 
 def _insert_rows(rows: FloatArray, positions: IntArray, inserts: FloatArray) -> FloatArray:
-    """Return rows with others in rising order among them; numpy's insert does so six times slower, a row at a time."""
+    """Return rows with others inserted at ascending positions; six times faster than ``numpy.insert``."""
     result = np.empty((len(rows) + len(inserts), rows.shape[1]))
     insert_rows = positions + np.arange(len(inserts))
     is_original = np.ones(len(result), dtype=bool)
@@ -123,7 +125,7 @@ def _insert_rows(rows: FloatArray, positions: IntArray, inserts: FloatArray) -> 
 
 
 def concatenate_paths(paths: Iterable[Path]) -> Path:
-    """Return one path from some that follow each other."""
+    """Return the concatenation of consecutive paths."""
     pieces = list(paths)
     if len(pieces) == 1:
         return pieces[0]
@@ -134,20 +136,20 @@ def concatenate_paths(paths: Iterable[Path]) -> Path:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """What the engine found.
+    """Result of an integration.
 
     Parameters
     ----------
     model, dt, status : Model, float, int
-    events : Changes
+    events : EventLog
     n_events : int
-        How many there were, kept or not.
+        Number of events, stored or not.
     extrema : (n_tracked, 4) array
-        Highest value, its time, lowest value, its time; s after sample 0.
+        Maximum, its time, minimum, its time; times in s after sample 0.
     end : Instant
     final, final_mode : (n_states,) array, int
     iter_paths : callable
-        Yields the path piece by piece: all of it where it was kept, else as it is followed again, to the same bits.
+        Function that yields the path piece by piece: stored, or recomputed to the same bits.
     """
 
     model: Model
@@ -163,33 +165,33 @@ class Trajectory:
 
     @cached_property
     def path(self) -> Path:
-        """All of the path.
+        """Whole path.
 
         Raises
         ------
         ParameterError
-            If it, and the curves made of it, would take more memory than they may.
+            If the path and the time histories derived from it exceed the memory limit.
         """
         check_curve_memory(self.end.sample, 2 * self.final.size + EXTRA_CURVES)
         return concatenate_paths(self.iter_paths())
 
     @property
     def states(self) -> FloatArray:
-        """States at the samples reached, (n, n_states), from the first one on."""
+        """States at the samples, (n, n_states)."""
         return self.path.states
 
     @property
     def modes(self) -> IntArray:
-        """Modes at the samples reached, (n,)."""
+        """Modes at the samples, (n,)."""
         return self.path.modes
 
     @property
     def end_time(self) -> float:
-        """Time at which the integration ended, s after sample 0."""
+        """End time of the integration, s after sample 0."""
         return self.end.sample * self.dt + self.end.tau
 
     def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
-        """Return times, states and modes of all of the path, see :meth:`Path.table`."""
+        """Return times, states and modes of the whole path, see :meth:`Path.table`."""
         return self.path.table()
 
     def interpolate(self, values: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""One number per record: peaks, equivalent frequencies, durations, intensities, spectra."""
+"""Ground motion measures: peaks, equivalent frequencies, durations, intensities, spectra."""
 
 from seisblock.measures.baseline import GroundHistory, ground_history
 from seisblock.measures.duration import Duration, block_threshold, duration_above, intervals_above

@@ -1,4 +1,4 @@
-"""Durations above a threshold: how long, how long at a stretch, how often."""
+"""Duration above an acceleration threshold: total, longest interval, number of intervals."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Duration:
     Parameters
     ----------
     threshold_m_s2 : float, m/s^2
-        What had to be exceeded.
+        Threshold.
     total_s, longest_s : float, s
-        Sum of all stretches, and the longest single one.
+        Sum of all intervals, and the longest one.
     count : int
-        Number of stretches.
+        Number of intervals.
     """
 
     threshold_m_s2: float
@@ -36,14 +36,13 @@ class Duration:
 
 
 def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return the horizontal acceleration beyond which a rectangular block rocks, g B/H ([Furukawa2009]_ eq. (2)).
+    """Return the rocking threshold of a rectangular block, g B/H ([Furukawa2009]_ eq. (2)).
 
     Parameters
     ----------
     width, height : float, m
         B and H, positive.
     gravity : float, m/s^2
-        g.
 
     Returns
     -------
@@ -60,10 +59,10 @@ def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GR
 
 
 def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> FloatArray:
-    """Return the stretches of time during which the acceleration exceeds a threshold, crossings interpolated.
+    """Return the time intervals in which the acceleration exceeds a threshold, with interpolated crossings.
 
-    Exact for samples joined by straight lines, the motion that the solvers integrate too. [Sugimoto2017]_ figs. 12, 13 and section 4.2 find
-    that this duration above the rocking threshold, more than the peak, decides how far a block jumps.
+    Exact for linear interpolation between samples, which the solvers use, too. According to [Sugimoto2017]_ figs. 12, 13 and
+    section 4.2, the duration above the rocking threshold has more influence on the jump of a block than the peak.
 
     Parameters
     ----------
@@ -74,12 +73,12 @@ def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     threshold : float, m/s^2
         Positive.
     side : "both", "positive" or "negative"
-        Exceeded by the absolute value, by the acceleration, or by its opposite.
+        Compare the absolute value, the acceleration, or its negative.
 
     Returns
     -------
     (k, 2) array, s
-        Start and end of each, from the first sample, in the order of time.
+        Start and end of each interval after the first sample, in chronological order.
 
     Raises
     ------
@@ -89,15 +88,15 @@ def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     checks.positive("the threshold", threshold, "m/s^2")
     signs = {"both": (1.0, -1.0), "positive": (1.0,), "negative": (-1.0,)}.get(side)
     if signs is None:
-        raise ParameterError("side must be both, positive or negative, found {side!r}", side=side)
-    # the two sides cannot touch: a stretch of one sign ends before the other begins
+        raise ParameterError("`side` must be both, positive or negative, found {side!r}", side=side)
+    # intervals of opposite sign cannot overlap, because the threshold is positive
     intervals = np.concatenate([_intervals_one_sided(sign * acceleration, dt, threshold) for sign in signs])
     result: FloatArray = intervals[intervals[:, 0].argsort()]
     return result
 
 
 def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> Duration:
-    """Return the total, the longest and the number of stretches above a threshold ([Sugimoto2017]_ section 4.2).
+    """Return total duration, longest interval and number of intervals above a threshold ([Sugimoto2017]_ section 4.2).
 
     Parameters
     ----------
@@ -124,13 +123,15 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
 
 
 def _intervals_one_sided(values: FloatArray, dt: float, threshold: float) -> FloatArray:
-    """Return the stretches, (k, 2) in s, where the piecewise linear values are at or above the threshold; touches do not count."""
+    """Return the intervals, (k, 2), s, in which piecewise linear values reach the threshold; intervals of length zero are dropped."""
     excess = values - threshold
     is_above = excess >= 0
     rises = np.flatnonzero(~is_above[:-1] & is_above[1:])
     falls = np.flatnonzero(is_above[:-1] & ~is_above[1:])
+    # zeros of the linear interpolant
     starts = dt * (rises + excess[rises] / (excess[rises] - excess[rises + 1]))
     ends = dt * (falls + excess[falls] / (excess[falls] - excess[falls + 1]))
+    # intervals cut by the ends of the record
     if is_above[0]:
         starts = np.concatenate(([0.0], starts))
     if is_above[-1]:

@@ -1,4 +1,4 @@
-"""A filter without delay over the frequencies of a whole record, whose end goes on into its beginning; long ones in little memory."""
+"""Zero-phase frequency-domain filter of a whole record (periodic), with bounded memory for long records."""
 
 from __future__ import annotations
 
@@ -11,60 +11,62 @@ from seisblock.core.limits import CHUNK_SIZE, MIB
 from seisblock.core.typing import FloatArray
 
 LONG_TRANSFORM = 2**20
-"""Samples beyond which a transform is made of shorter ones."""
+"""Number of samples above which the transform is split (two-dimensional FFT)."""
 
 BYTES_PER_FILTERED_SAMPLE = 44
-"""Of a sample of a long record: its three components, the spectrum of one, the weights and the sum of squares."""
+"""Memory per sample of a long record: three components, the spectrum of one, the weights and the sum of squares."""
 
 BYTES_PER_CONVOLVED_SAMPLE = 140
-"""Of a sample of a column with a large prime among the divisors of its length, whose transform is a convolution four times as long."""
+"""Memory per sample of a column whose length has a large prime factor (Bluestein's algorithm, about four times as long)."""
 
 LARGE_PRIME = 1000
-"""A divisor from which on it is."""
+"""Smallest prime factor that counts as large."""
 
 
 def filter_weights(samples: int, dt: float, gain: Callable[[FloatArray], FloatArray]) -> FloatArray:
-    """Return the factors of a filter at the frequencies of so many samples, in the order in which :func:`add_filtered_square` meets them.
+    """Return the gains of a filter at the FFT frequencies, in the order used by :func:`add_filtered_square`.
 
     Parameters
     ----------
     samples : int
-        Of the whole record.
+        Number of samples of the record.
     dt : float, s
         Sampling interval.
     gain : callable
-        Factors at an array of frequencies in Hz, none negative.
+        Gain at an array of non-negative frequencies, Hz.
     """
     width = _table_width(samples)
     height = samples // width
     weights = np.empty((height // 2 + 1, width))
     for lines in _blocks(len(weights), width):
+        # frequency index at [row, column] after both transforms; indices above the half are negative frequencies
         number = np.arange(len(weights))[lines, None] + height * np.arange(width)
         weights[lines] = gain(np.minimum(number, samples - number) / (samples * dt))
     return weights
 
 
 def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatArray) -> None:
-    """Add to a row, in its place, the squares of samples that were weighed frequency by frequency.
+    """Filter samples in the frequency domain and add their squares to an array, in place.
 
-    A long row is read as a table, line after line: its transform is made of those of the columns, turned, and those of the lines. The
-    weights come in the order in which the frequencies then lie, so that nothing is sorted. Where the number of samples has no divisor
-    (or the row is short) the table has one column, whose transform is that of the whole.
+    The samples of a long record are arranged in a table (Cooley-Tukey decomposition): FFT of the columns, multiplication by twiddle
+    factors, FFT of the rows. The weights are in the resulting order of frequencies, so that nothing is sorted. The table has one column
+    if the record is short or its number of samples is prime.
 
     Parameters
     ----------
     total : (n,) array
-        Contiguous; changed.
+        Sum of squares, contiguous; changed in place.
     samples : (n,) array
-        To be filtered.
+        Samples to be filtered.
     weights : array
-        From :func:`filter_weights`.
+        Gains from :func:`filter_weights`.
     """
     width = weights.shape[1]
     table, sums = samples.reshape(-1, width), total.reshape(-1, width)
     spectrum = np.empty(weights.shape, dtype=np.complex128)
     for columns in _blocks(width, len(table)):
         spectrum[:, columns] = np.fft.rfft(table[:, columns], axis=0)
+    # rows: twiddle, transform, filter and inverse transform while a block is in the cache
     for lines in _blocks(len(spectrum), width):
         if width == 1:
             spectrum[lines] *= weights[lines]
@@ -73,6 +75,7 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
         weighted_block = np.fft.fft(spectrum[lines] * twiddle, axis=1)
         weighted_block *= weights[lines]
         np.multiply(np.fft.ifft(weighted_block, axis=1), np.conj(twiddle, out=twiddle), out=spectrum[lines])
+    # inverse transform of the columns, block by block, added to the sum of squares
     for columns in _blocks(width, len(table)):
         filtered_block = np.fft.irfft(spectrum[:, columns], len(table), axis=0)
         filtered_block *= filtered_block
@@ -80,12 +83,12 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
 
 
 def transform_mib(samples: int) -> int:
-    """Return what a long record and its filter take, MiB, where the number of samples has a large prime divisor; else 0: little enough.
+    """Return the memory of filtering a long record, MiB, if its length has a large prime factor; else 0 (no limit applies).
 
     Parameters
     ----------
     samples : int
-        Of the whole record.
+        Number of samples of the record.
 
     Examples
     --------
@@ -99,7 +102,7 @@ def transform_mib(samples: int) -> int:
 
 
 def _largest_prime(number: int) -> int:
-    """Return the largest prime divisor of a whole number."""
+    """Return the largest prime factor of an integer."""
     divisor = 2
     while divisor * divisor <= number:
         if number % divisor == 0:
@@ -110,12 +113,12 @@ def _largest_prime(number: int) -> int:
 
 
 def _table_width(samples: int) -> int:
-    """Return the largest divisor up to the root of a long row's length; 1 of a short one."""
+    """Return the largest divisor of `samples` up to its square root; 1 for short records."""
     return next(k for k in range(math.isqrt(samples), 0, -1) if samples % k == 0) if samples > LONG_TRANSFORM else 1
 
 
 def _blocks(count: int, length: int) -> Iterator[slice]:
-    """Yield so many lines or columns of a length that a block of samples is in them."""
+    """Yield slices of rows or columns that hold about ``CHUNK_SIZE`` samples."""
     step = max(CHUNK_SIZE // length, 1)
     for begin in range(0, count, step):
         yield slice(begin, begin + step)

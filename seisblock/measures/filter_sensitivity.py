@@ -1,4 +1,4 @@
-"""How far PGV, and the frequency that rests on it, move with the high-passes that are usual."""
+"""Sensitivity of PGV and PGA/(2 pi PGV) to the choice of the high-pass filter."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from seisblock.measures.peaks import peak_velocity
 from seisblock.records.filters import causal_highpass_samples, highpass_samples
 
 USUAL_HIGHPASS_HZ = (0.05, 0.1)
-"""Corners that agencies use for strong motion, Hz; each may act with and without delay."""
+"""Corner frequencies commonly used for strong motion, Hz; each applied causally and with zero phase."""
 
 REPORTING_THRESHOLD = 0.05
-"""Relative change beyond which the choice of the filter is told."""
+"""Relative change above which the range is reported."""
 
 
 @dataclass(frozen=True)
 class FilterRange:
-    """PGV and PGA/(2 pi PGV) of one component under the usual high-passes, the least and the largest of each.
+    """Minimum and maximum of PGV and PGA/(2 pi PGV) of one component for common high-pass filters.
 
     Parameters
     ----------
     highpass_hz : tuple of float, Hz
-        The corners; each with zero phase (forwards and backwards) and causal (forwards only).
+        Corner frequencies; each with zero phase (forwards and backwards) and causal (forwards only).
     pgv_m_s : two floats, m/s
     pga_pgv_hz : two floats, Hz
-        With the PGA of the record as given.
+        With the PGA of the unfiltered record.
     """
 
     highpass_hz: tuple[float, ...]
@@ -36,7 +36,7 @@ class FilterRange:
 
 
 def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) -> FilterRange | None:
-    """Return how far PGV and f move with the usual filters, None when by no more than 5 % ([Furukawa2009]_ section 3(5)e leaves it open).
+    """Return the range of PGV and PGA/(2 pi PGV) for common filters, None if within 5 % ([Furukawa2009]_ section 3(5)e).
 
     Parameters
     ----------
@@ -45,12 +45,12 @@ def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) ->
     dt : float, s
         Sampling interval.
     pga, pgv : float, m/s^2 and m/s
-        Peaks of the component as stated, on its own baseline.
+        Peaks of the component on the baseline of :mod:`seisblock.measures.baseline`.
 
     Returns
     -------
     FilterRange or None
-        None also where there is no motion, or where the corners lie beyond half the sampling rate.
+        None also for a record without motion, or if a corner is above the Nyquist frequency.
     """
     if not (pga > 0.0 and pgv > 0.0 and max(USUAL_HIGHPASS_HZ) * dt < 0.5):
         return None

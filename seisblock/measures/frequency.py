@@ -1,4 +1,4 @@
-"""The frequency of the sine that a record is taken for: three definitions of the equivalent frequency."""
+"""Equivalent frequency of a record: PGA/(2 pi PGV), dominant Fourier frequency, width of the peak pulse."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from seisblock.measures.peaks import peak_acceleration
 from seisblock.measures.spectra import SMOOTHING_HZ, fourier_amplitude
 
 FOURIER_BAND_HZ = (0.1, 25.0)
-"""Default band in which the dominant Fourier frequency is looked for, Hz; cut at half the sampling rate."""
+"""Default band of the dominant Fourier frequency, Hz; cut at the Nyquist frequency."""
 
 
 @dataclass(frozen=True)
 class EquivalentFrequency:
-    """The three equivalent frequencies of one component ([Furukawa2009]_ section 3(5)e), Hz; None where one is not defined.
+    """Equivalent frequencies of one component ([Furukawa2009]_ section 3(5)e), Hz; None if undefined.
 
     Parameters
     ----------
     pga_pgv : float or None
         Method 1, the paper's choice: PGA / (2 pi PGV).
     fourier : float or None
-        Method 2: where the smoothed Fourier amplitude is largest.
+        Method 2: frequency of the largest smoothed Fourier amplitude.
     pulse_width : float or None
-        Method 3: 1 / T, with T/2 the width of the pulse that holds the PGA.
+        Method 3: 1 / T, with T/2 the width of the pulse that contains the PGA.
     """
 
     pga_pgv: float | None
@@ -38,16 +38,16 @@ class EquivalentFrequency:
 
 @dataclass(frozen=True)
 class Pulse:
-    """The pulse that holds the PGA, between the zero crossings before and after it.
+    """Pulse that contains the PGA, between the zero crossings before and after it.
 
     Parameters
     ----------
     frequency_hz : float, Hz
-        One over twice its width.
+        Inverse of twice the width.
     start_s, end_s : float, s
-        Its ends, from the first sample.
+        Start and end of the pulse after the first sample.
     ambiguous : bool
-        The record begins or ends within the pulse: the frequency is an upper bound.
+        True if the record begins or ends within the pulse: the frequency is an upper bound.
     """
 
     frequency_hz: float
@@ -57,10 +57,10 @@ class Pulse:
 
 
 def pga_pgv_frequency(pga: float, pgv: float) -> float | None:
-    """Return PGA / (2 pi PGV), the equivalent frequency by method 1 of [Furukawa2009]_ section 3(5)e.
+    """Return the equivalent frequency PGA / (2 pi PGV), method 1 of [Furukawa2009]_ section 3(5)e.
 
-    Exact for a sine; 1.16582 f0 for a Ricker wavelet. It depends on the component and on the filter behind the PGV: take
-    both from one component, and state the filter.
+    Exact for a sine; 1.16582 f0 for a Ricker wavelet. The value depends on the high-pass filter used for PGV, which is to be
+    stated; both peaks must be from the same component.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def pga_pgv_frequency(pga: float, pgv: float) -> float | None:
     Returns
     -------
     float or None, Hz
-        None when either is zero.
+        None if a peak is zero.
     """
     return pga / (2.0 * math.pi * pgv) if pga > 0 and pgv > 0 else None
 
@@ -78,10 +78,10 @@ def pga_pgv_frequency(pga: float, pgv: float) -> float | None:
 def dominant_frequency(
     acceleration: FloatArray, dt: float, *, band_hz: tuple[float, float] = FOURIER_BAND_HZ, smoothing_hz: float = SMOOTHING_HZ
 ) -> float | None:
-    """Return where the smoothed Fourier amplitude is largest, method 2 of [Furukawa2009]_ section 3(5)e.
+    """Return the frequency of the largest smoothed Fourier amplitude, method 2 of [Furukawa2009]_ section 3(5)e.
 
-    The paper states neither smoothing nor band. Here: mean removed, energy smoothed by a Parzen window of 0.2 Hz, band 0.1
-    to 25 Hz, the maximum interpolated by a parabola.
+    The paper states neither smoothing nor band. Here the mean is removed, the energy smoothed by a Parzen window of 0.2 Hz, the
+    band is 0.1 to 25 Hz, and the maximum is interpolated by a parabola.
 
     Parameters
     ----------
@@ -90,14 +90,14 @@ def dominant_frequency(
     dt : float, s
         Sampling interval.
     band_hz : two floats, Hz
-        Where to look; cut at half the sampling rate.
+        Frequency band; cut at the Nyquist frequency.
     smoothing_hz : float, Hz
         Bandwidth of the Parzen window.
 
     Returns
     -------
     float or None, Hz
-        None when the amplitude is largest at an edge of the band: no frequency inside dominates.
+        None if the amplitude is largest at an edge of the band, that is, if no frequency inside it dominates.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def dominant_frequency(
     low, high = band_hz[0], min(band_hz[1], 0.5 / dt)
     if not 0 <= low < high:
         raise ParameterError(
-            "the band {low:g}-{high:g} Hz is empty below {nyquist:g} Hz, half the sampling rate",
+            "the band {low:g}-{high:g} Hz contains no frequency below the Nyquist frequency of {nyquist:g} Hz",
             low=band_hz[0],
             high=band_hz[1],
             nyquist=0.5 / dt,
@@ -121,17 +121,19 @@ def dominant_frequency(
         return None
     left_value, peak_value, right_value = amplitude[top - 1 : top + 2]
     if left_value > peak_value or right_value > peak_value:
-        return None  # still climbing across the edge of the band
+        # the amplitude still rises beyond the edge of the band
+        return None
+    # vertex of the parabola through the maximum and its neighbours
     curvature = left_value - 2.0 * peak_value + right_value
     shift = 0.5 * (left_value - right_value) / curvature if curvature < 0 else 0.0
     return float(frequency[top] + shift * frequency[1])
 
 
 def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
-    """Return the pulse that holds the PGA, method 3 of [Furukawa2009]_ section 3(5)e: its width is half a period.
+    """Return the pulse that contains the PGA, method 3 of [Furukawa2009]_ section 3(5)e: its width is half a period.
 
-    Zero crossings are interpolated. Exact for a sine; pi / (2 sqrt 2) f0 = 1.11072 f0 for a Ricker wavelet. Where the record
-    begins or ends inside the pulse its end is taken instead, and the pulse is marked ambiguous.
+    Zero crossings are interpolated. Exact for a sine; pi / (2 sqrt 2) f0 = 1.11072 f0 for a Ricker wavelet. If the record
+    begins or ends within the pulse, its first or last sample is used, and the pulse is marked ambiguous.
 
     Parameters
     ----------
@@ -143,7 +145,7 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
     Returns
     -------
     Pulse or None
-        None for a record that is zero throughout.
+        None if all samples are zero.
     """
     peak, top = peak_acceleration(acceleration)
     if peak == 0.0:
@@ -155,7 +157,7 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
 
 
 def _first_zero_crossing(row: FloatArray) -> float | None:
-    """Return where a row that begins with its peak first comes to zero, in samples and on straight lines between; None: nowhere."""
+    """Return the first zero crossing of a row that begins with its peak, in samples, interpolated linearly; None without one."""
     for begin in range(0, row.size, CHUNK_SIZE):
         crossings = np.flatnonzero(row[begin : begin + CHUNK_SIZE] * np.sign(row[0]) <= 0)
         if crossings.size:

@@ -1,4 +1,4 @@
-"""Intensities: Arias, the significant duration that goes with it, and the instrumental intensity of JMA."""
+"""Arias intensity, significant duration and JMA instrumental seismic intensity."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 
 JMA_EXCEEDANCE_S = 0.3
-"""Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
+"""Total time for which the filtered vector exceeds the amplitude that defines the intensity, s ([JMA1996]_)."""
 
 MIN_INTENSITY = -3.0
-"""An intensity below this is none: 0.01 gal, at the resolution of the instruments that the scale is made for ([JMA1996]_)."""
+"""Minimum intensity, which corresponds to 0.01 gal, the resolution of the seismometers of the scale ([JMA1996]_)."""
 
 SKEW_TOLERANCE = 1e-9
-"""Cosine of the angle between two horizontals above which they are resolved before their vector is formed."""
+"""Cosine of the angle between two horizontals above which they are orthogonalised first."""
 
 MIN_SINE = 1e-6
-"""Sine below which they are parallel and tell no other direction."""
+"""Sine of that angle below which the horizontals are parallel and cannot be orthogonalised."""
 
 TRANSFORM_LIMIT = "SEISBLOCK_TRANSFORM_MIB"
-"""The limit on the memory of a filter that cannot work in parts."""
+"""Environment variable of the memory limit of transforms that cannot be split."""
 
 _HALF_CLASSES = ((5.0, N_("5-")), (5.5, N_("5+")), (6.0, N_("6-")), (6.5, N_("6+")))
 _CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALF_CLASSES)
-"""Upper bounds of the classes of [JMA1996]_, beyond the last of which it is 7."""
+"""Upper bounds of the classes of [JMA1996]_; the class above the last bound is 7."""
 
 _HIGH_CUT = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)
 """Coefficients of the high-cut filter of [JMA1996]_ in powers of (f / 10 Hz)^2."""
@@ -41,7 +41,7 @@ _HIGH_CUT = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)
 def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STANDARD_GRAVITY) -> float:
     """Return the Arias intensity, pi / (2 g) times the integral of the squared acceleration ([Arias1970]_).
 
-    Exact for samples joined by straight lines.
+    Exact for linear interpolation between samples.
 
     Parameters
     ----------
@@ -50,7 +50,6 @@ def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STA
     dt : float, s
         Sampling interval.
     gravity : float, m/s^2
-        g.
 
     Returns
     -------
@@ -60,9 +59,10 @@ def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STA
 
 
 def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tuple[float, float] = (0.05, 0.95)) -> float:
-    """Return the time between two shares of the Arias intensity ([TrifunacBrady1975]_), 5 and 95 % by default.
+    """Return the time between two fractions of the Arias intensity, 5 and 95 % by default ([TrifunacBrady1975]_).
 
-    The squared straight line integrates to a cubic in time, which is inverted in closed form: no dependence on samples.
+    The integral of the squared piecewise linear acceleration is a cubic in time, inverted in closed form: the result does not depend on
+    the positions of the samples.
 
     Parameters
     ----------
@@ -71,12 +71,12 @@ def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tupl
     dt : float, s
         Sampling interval.
     fractions : two floats
-        Shares between 0 and 1.
+        Fractions between 0 and 1.
 
     Returns
     -------
     float, s
-        0 for a record that is zero throughout.
+        0 if all samples are zero.
     """
     cumulative = np.zeros(acceleration.size)
     cumulative[1:] = _square_integrals(acceleration, dt)
@@ -89,7 +89,7 @@ def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tupl
 
 
 def orthogonal_components(record: Record) -> list[FloatArray]:
-    """Return the components at right angles to each other: as they are, unless two known azimuths lie askew."""
+    """Return the components, with two horizontals of known oblique azimuths orthogonalised."""
     azimuths = [c.azimuth_deg for c in record.horizontals if c.azimuth_deg is not None]
     if len(azimuths) == 2:
         angle = math.radians(azimuths[1] - azimuths[0])
@@ -99,24 +99,23 @@ def orthogonal_components(record: Record) -> list[FloatArray]:
 
 
 def jma_intensity(record: Record) -> float | None:
-    """Return the instrumental seismic intensity of the Japan Meteorological Agency, not rounded ([JMA1996]_ method).
+    """Return the JMA instrumental seismic intensity, not rounded ([JMA1996]_ method).
 
     The three components are filtered in the frequency domain (period effect f^-1/2, high cut at 10 Hz, low cut at 0.5 Hz,
-    nothing at zero frequency), added as vectors, and I = 2 log10 a0 + 0.94, where a0 (gal) is the largest amplitude that is
-    reached for 0.3 s in all.
+    zero at zero frequency) and combined as a vector. I = 2 log10 a0 + 0.94, where a0 (gal) is the largest amplitude that is
+    exceeded for a total of 0.3 s.
 
     Parameters
     ----------
     record : Record
-        Two horizontals and the vertical; horizontals that are not perpendicular are resolved first, where their
-        azimuths are known (parallel ones are summed as they are).
+        Two horizontals and the vertical. Horizontals at an oblique angle are orthogonalised first if their azimuths are known;
+        parallel ones are used unchanged.
 
     Returns
     -------
     float or None
-        None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
-        nothing (below -3, 0.01 gal: an offset alone would give -26), or its filter would take more memory than it may.
-        :func:`missing_intensity_reason` tells which.
+        None if the intensity is undefined: a component is missing, the record is shorter than 0.3 s, the motion is too weak (intensity
+        below -3, 0.01 gal), or the filter exceeds the memory limit. :func:`missing_intensity_reason` returns the cause.
 
     Examples
     --------
@@ -134,6 +133,7 @@ def jma_intensity(record: Record) -> float | None:
     vector_squared = np.zeros(record.samples)
     for acceleration in orthogonal_components(record):
         add_filtered_square(vector_squared, acceleration, weights)
+    # a0 is the n-th largest amplitude, n = number of samples in 0.3 s
     vector_squared.partition(record.samples - n_exceeding)
     a0_squared = float(vector_squared[record.samples - n_exceeding]) / GAL**2
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
@@ -141,34 +141,35 @@ def jma_intensity(record: Record) -> float | None:
 
 
 def missing_intensity_reason(record: Record) -> str:
-    """Return the reason for which :func:`jma_intensity` is None ([JMA1996]_), a sentence that can be told in any language."""
+    """Return the reason why :func:`jma_intensity` is None ([JMA1996]_), as a translatable message."""
     if record.vertical is None or len(record.horizontals) != 2:
-        return lazy_gettext("it needs two horizontals and the vertical (UD); the record has {codes}", codes=record.codes)
+        return lazy_gettext("two horizontal components and the vertical (UD) are required; the record has {codes}", codes=record.codes)
     if _samples_needed(record) > record.samples:
         return lazy_gettext("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
     if (required_mib := transform_mib(record.samples)) > (max_mib := get_limit(TRANSFORM_LIMIT)):
         return lazy_gettext(
-            "{samples} samples cannot be filtered in parts, and together would take {found} MiB of {most}: cut a sample or two off the "
-            "record, or set {variable} to take more",
+            "filtering {samples} samples needs {found} MiB, more than the limit of {most} MiB: shorten the record by one or two samples "
+            "or raise {variable}",
             samples=record.samples,
             found=required_mib,
             most=max_mib,
             variable=TRANSFORM_LIMIT,
         )
     if not any(np.any(c.acceleration) for c in record.components):
-        return lazy_gettext("the record is zero throughout")
-    return lazy_gettext("the motion is too weak for the scale: filtered, it does not reach 0.01 gal for 0.3 s")
+        return lazy_gettext("all samples are zero")
+    return lazy_gettext("the motion is too weak: the filtered acceleration does not reach 0.01 gal for 0.3 s")
 
 
 def _samples_needed(record: Record) -> int:
-    """Return how many samples are 0.3 s."""
+    """Return the number of samples in 0.3 s."""
+    # the tolerance removes the round-off of the division, which could add a sample
     return math.ceil(JMA_EXCEEDANCE_S / record.dt - 1e-6)
 
 
 def jma_class(intensity: float) -> str:
-    """Return the class of the JMA scale, ``0`` to ``4``, ``5-``, ``5+``, ``6-``, ``6+`` or ``7`` ([JMA1996]_).
+    """Return the JMA seismic intensity class, ``0`` to ``4``, ``5-``, ``5+``, ``6-``, ``6+`` or ``7`` ([JMA1996]_).
 
-    As JMA does, the intensity is rounded to two decimals and cut to one before it is classed.
+    As JMA does, the intensity is first rounded to two decimals and truncated to one.
 
     Parameters
     ----------
@@ -185,12 +186,14 @@ def jma_class(intensity: float) -> str:
     ['0', '4', '5-', '5+', '7']
     """
     checks.finite("the intensity", intensity)
+    # the inner rounding to 6 digits removes the round-off of the multiplication before the floor
     reported_intensity = math.floor(round(round(intensity, 2) * 10, 6)) / 10
     return next((name for bound, name in _CLASSES if reported_intensity < bound), "7")
 
 
 def _jma_filter(frequency: FloatArray) -> FloatArray:
-    """Return the product of the three filters of JMA at frequencies in Hz; zero at zero."""
+    """Return the product of the three filters of [JMA1996]_ at frequencies in Hz; zero at zero frequency."""
+    # placeholder at zero frequency, where the weight is set to zero below
     f = np.where(frequency > 0, frequency, 1.0)
     y2 = (f / 10.0) ** 2
     high_cut = 1.0 / np.sqrt(np.polynomial.polynomial.polyval(y2, _HIGH_CUT))
@@ -200,7 +203,7 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
 
 
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
-    """Return the integral of the squared straight line over each interval, (n - 1,), m^2/s^3."""
+    """Return the integral of the squared linear acceleration over each sample interval, (n - 1,), m^2/s^3."""
     integrals = np.empty(acceleration.size - 1)
     for begin in range(0, integrals.size, CHUNK_SIZE):
         a, b = acceleration[begin : begin + CHUNK_SIZE], acceleration[begin + 1 : begin + 1 + CHUNK_SIZE]
@@ -217,7 +220,7 @@ def _time_of_energy(acceleration: FloatArray, dt: float, cumulative: FloatArray,
     a, b = float(acceleration[interval]), float(acceleration[interval + 1])
     remaining, interval_energy = energy - float(cumulative[interval]), float(cumulative[interval + 1] - cumulative[interval])
     slope = (b - a) / dt
-    # ((a + slope t)^3 - a^3) / (3 slope) = rest; where the line is nearly level the cubic root would cancel
+    # solve ((a + slope t)^3 - a^3) / (3 slope) = remaining; for a nearly constant acceleration the cube root would cancel
     if abs(b - a) <= 1e-6 * max(abs(a), abs(b)):
         return dt * (interval + remaining / interval_energy)
     return dt * interval + (math.cbrt(a**3 + 3.0 * slope * remaining) - a) / slope

@@ -1,4 +1,4 @@
-"""One damped oscillator on a ground that moves in straight lines from sample to sample, and the largest that it reaches."""
+"""Peak responses of a damped oscillator under piecewise linear ground acceleration."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from seisblock.core.typing import FloatArray
 from seisblock.records.oscillator import exact_step
 
 ACCELERATION, VELOCITY, DISPLACEMENT, FINAL_DISPLACEMENT, FINAL_VELOCITY = range(5)
-"""What is kept of an oscillator: the largest of three, and the two in which it is now."""
+"""Entries of the state array: three peak responses, and the current displacement and velocity."""
 
 FOUR_OVER_27 = 4.0 / 27.0
-"""A cubic rises above its ends by at most so much of the slopes there, times its length."""
+"""Bound of a cubic above the values at its ends, as a multiple of its length and the difference of its end slopes."""
 
 
 def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float) -> tuple[float, float, float]:
-    """Return the peak absolute acceleration, relative velocity and relative displacement of an oscillator, from rest to rest.
+    """Return the peak absolute acceleration, relative velocity and relative displacement of an oscillator.
 
-    The exact step over a straight line of ground acceleration ([NigamJennings1969]_ eq. (2.7)). Between points the maxima are those of the
-    cubics through values and slopes; after the last sample the ground is still and the oscillator swings on.
+    Exact step for linear ground acceleration ([NigamJennings1969]_ eq. (2.7)). Between samples, maxima are those of the
+    cubic Hermite interpolants; after the last sample the ground is at rest and the peak of the free vibration counts, too.
 
     Parameters
     ----------
@@ -54,11 +54,12 @@ def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float
 
 @kernel("void(float64[:, ::1], Array(float64, 1, 'C', readonly=True), float64, float64, float64, float64[::1])")
 def _update_peaks(step, ground, dt, omega, damping, peaks):
-    """Follow an oscillator over some samples, and keep the largest that it reaches."""
+    """Integrate an oscillator over some samples and update its peak responses."""
     damping_term, stiffness = 2.0 * damping * omega, omega**2
     u, v = peaks[FINAL_DISPLACEMENT], peaks[FINAL_VELOCITY]
     absolute = -(damping_term * v + stiffness * u)
     relative = absolute - ground[0]
+    # slope of the absolute acceleration, needed by its cubic interpolant
     jerk = -(damping_term * relative + stiffness * v)
     max_acceleration, max_velocity, max_displacement = (
         max(peaks[ACCELERATION], abs(absolute)),
@@ -87,21 +88,22 @@ def _update_peaks(step, ground, dt, omega, damping, peaks):
 
 @kernel("float64(float64, float64, float64, float64, float64, float64)", inline=True)
 def _peak_of_cubic(first, last, slope, slope_2, dt, top):
-    """Return the largest of `top` and the absolute value of the cubic through two values with two slopes, at its ends and between."""
+    """Return the maximum of `top` and the absolute value of the cubic Hermite interpolant of two values and slopes."""
     high = max(abs(first), abs(last))
+    # an interior extremum needs slopes of opposite sign; skip it if the bound cannot exceed the peak so far
     if slope * slope_2 < 0.0 and high + FOUR_OVER_27 * dt * abs(slope - slope_2) > top:
         slope_dt, slope_2_dt, rise = dt * slope, dt * slope_2, last - first
         square, cube = 3.0 * rise - 2.0 * slope_dt - slope_2_dt, slope_dt + slope_2_dt - 2.0 * rise
-        # the root of the derivative at which the curve turns, in the form that does not cancel
+        # root of the derivative at the extremum, in the form without cancellation
         place = slope_dt / (-square + math.copysign(math.sqrt(square**2 - 3.0 * cube * slope_dt), slope_dt))
         high = max(high, abs(first + place * (slope_dt + place * (square + place * cube))))
     return max(top, high)
 
 
 def _free_peak(value: float, rate: float, omega: float, damping: float) -> float:
-    """Return the largest absolute value of a damped free swing that begins with a value and a rate."""
+    """Return the maximum absolute value of a damped free vibration with given initial value and rate."""
     decay, swing = damping * omega, omega * math.sqrt(1.0 - damping**2)
-    # the swing is the real part of amplitude * exp(pole * t); it turns first where that of pole * amplitude * exp(pole * t) is zero
+    # x = Re(amplitude * exp(pole * t)); first extremum at Re(pole * amplitude * exp(pole * t)) = 0
     amplitude, pole = complex(value, -(rate + decay * value) / swing), complex(-decay, swing)
     turning_time = (0.5 * math.pi - cmath.phase(pole * amplitude)) % math.pi / swing
     return max(abs(value), abs((amplitude * cmath.exp(pole * turning_time)).real))

@@ -1,4 +1,4 @@
-"""Peaks: of acceleration, velocity and displacement, and of the horizontal vector over all azimuths."""
+"""Peak ground acceleration, velocity and displacement, and the peak of the horizontal vector over all azimuths."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from seisblock.records.record import Record
 
 @dataclass(frozen=True)
 class HorizontalPeak:
-    """The largest horizontal ground acceleration over all directions.
+    """Peak horizontal ground acceleration over all azimuths.
 
     Parameters
     ----------
     pga_m_s2 : float, m/s^2
         Length of the longest horizontal acceleration vector.
     azimuth_deg : float or None, degrees
-        Where it points, clockwise from north, 0 to 360; None when the azimuths of the components are unknown.
+        Direction of the vector, clockwise from north, 0 to 360; None if the azimuths of the components are unknown.
     time_s : float, s
-        When, from the record's first sample.
+        Time of the peak after the record's first sample.
     """
 
     pga_m_s2: float
@@ -40,14 +40,14 @@ def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
     Parameters
     ----------
     acceleration : (n,) array, m/s^2
-        Linear between samples, so that the peak lies on a sample.
+        Ground acceleration, linear between samples, so that the peak lies on a sample.
 
     Returns
     -------
     peak : float, m/s^2
-        Never negative.
+        Absolute value.
     index : int
-        First sample that has it.
+        First sample with that value.
     """
     highest, lowest = int(acceleration.argmax()), int(acceleration.argmin())
     maximum, minimum = float(acceleration[highest]), -float(acceleration[lowest])
@@ -56,9 +56,9 @@ def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
 
 
 def peak_velocity(history: GroundHistory, dt: float) -> float:
-    """Return the peak absolute velocity, between samples too ([Furukawa2009]_ table 4(b)).
+    """Return the peak absolute velocity, also between samples ([Furukawa2009]_ table 4(b)).
 
-    Velocity is a quadratic in each interval; its extremes lie at samples and where the acceleration crosses zero.
+    Velocity is quadratic in each interval; its extrema lie at samples and at zero crossings of the acceleration.
 
     Parameters
     ----------
@@ -74,6 +74,7 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     largest = 0.0
     for begin, v in velocities(history.acceleration, dt, history.initial_velocity):
         a = history.acceleration[begin : begin + v.size]
+        # velocity is extremal where the acceleration crosses zero
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
         at_crossings = v[crossing] + 0.5 * a[crossing] * until_zero
@@ -82,7 +83,7 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
 
 
 def peak_displacement(history: GroundHistory) -> float:
-    """Return the peak absolute displacement at the samples, m, from where the record starts ([Furukawa2009]_ section 3(5)e).
+    """Return the peak absolute displacement at the samples relative to the start, m ([Furukawa2009]_ section 3(5)e).
 
     Parameters
     ----------
@@ -98,21 +99,21 @@ def peak_displacement(history: GroundHistory) -> float:
 
 
 def peak_horizontal(record: Record) -> HorizontalPeak | None:
-    """Return the longest horizontal acceleration vector and the azimuth it points to: the worst direction of the record.
+    """Return the longest horizontal acceleration vector and its azimuth.
 
-    The peak towards an azimuth is the largest projection of the vectors on it, so that over all azimuths the longest
-    vector wins, exactly; on a straight line between samples its length is largest at an end. Take it as the direction in
-    which to apply a criterion of one component ([Furukawa2009]_ section 3(7) treats two components separately).
+    The peak along an azimuth is the largest projection of the vectors on it; its maximum over all azimuths is the length of the longest
+    vector, which lies at a sample because of the linear interpolation. A criterion of one component is most severe in this direction
+    ([Furukawa2009]_ section 3(7) treats two components separately).
 
     Parameters
     ----------
     record : Record
-        Two horizontals of known azimuth, or two of unknown azimuth that are taken as orthogonal.
+        Record with two horizontals; those of unknown azimuth are assumed to be orthogonal.
 
     Returns
     -------
     HorizontalPeak or None
-        None when the record has not two horizontals.
+        None without two horizontals.
     """
     if len(record.horizontals) < 2:
         return None

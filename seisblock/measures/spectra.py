@@ -1,4 +1,4 @@
-"""Spectra: response of oscillators, exact for the piecewise linear record, and smoothed Fourier amplitude."""
+"""Response spectra, exact for piecewise linear records, and smoothed Fourier amplitude spectra."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ SMOOTHING_HZ = 0.2
 """Default bandwidth of the Parzen window, Hz."""
 
 _POINTS_PER_PERIOD = 20
-"""Least points per period of the oscillator; a maximum of the cubics through values and slopes is then right to 1e-4."""
+"""Minimum number of points per period of the oscillator; maxima of the cubic interpolants are then accurate to 1e-4."""
 
 LONG_TRANSFORM = 2**20
-"""Samples (three hours at 100 Hz) beyond which a Fourier amplitude is made piece by piece."""
+"""Number of samples (three hours at 100 Hz) above which the Fourier amplitude is computed piecewise."""
 
 _PARZEN_LAG = 280.0 / 151.0
 """Largest lag of a Parzen window times its bandwidth: 1 / bandwidth is the integral of the squared spectral window."""
@@ -32,16 +32,16 @@ _PARZEN_LAG = 280.0 / 151.0
 
 @dataclass(frozen=True, eq=False)
 class ResponseSpectrum(PlotMixin):
-    """Largest responses of damped oscillators to one component.
+    """Response spectrum of one component.
 
     Parameters
     ----------
     period_s : (m,) array, s
         Undamped natural periods.
     sa_m_s2, sv_m_s, sd_m : (m,) arrays, m/s^2, m/s, m
-        Absolute acceleration, velocity and displacement relative to the ground.
+        Peak absolute acceleration, and peak velocity and displacement relative to the ground.
     damping : float
-        Ratio to critical.
+        Damping ratio.
     """
 
     period_s: FloatArray
@@ -52,19 +52,18 @@ class ResponseSpectrum(PlotMixin):
 
 
 def default_periods() -> FloatArray:
-    """Return the 100 periods from 0.05 to 10 s, evenly spaced in logarithm, at which spectra are drawn ([NigamJennings1969]_)."""
+    """Return 100 logarithmically spaced periods from 0.05 to 10 s for response spectra ([NigamJennings1969]_)."""
     return np.geomspace(0.05, 10.0, 100)
 
 
 def response_spectrum(
     acceleration: FloatArray, dt: float, periods: ArrayLike | None = None, *, damping: float = DAMPING
 ) -> ResponseSpectrum:
-    """Return the response spectrum by the exact solution for piecewise linear ground acceleration ([NigamJennings1969]_ method).
+    """Return the response spectrum, exact for piecewise linear acceleration ([NigamJennings1969]_ method).
 
-    u'' + 2 h w u' + w^2 u = -a(t) from rest. The exact step from sample to sample is linear in the state and the two samples,
-    hence a recursion over the record. Where the record is coarse against the period it is evaluated at
-    more points of the same straight lines, 20 per period; between points the maxima are those of the cubics through values and slopes.
-    After the last sample the ground is still and the oscillator swings on: the largest swing of that free motion counts, too.
+    u'' + 2 h w u' + w^2 u = -a(t) from rest. The exact step between samples is linear in the state and the two samples. If
+    the sampling is coarse relative to the period, the record is interpolated linearly to 20 points per period; between points, maxima
+    are those of the cubic Hermite interpolants. After the last sample the ground is at rest; the peak of the free vibration counts, too.
 
     Parameters
     ----------
@@ -73,9 +72,9 @@ def response_spectrum(
     dt : float, s
         Sampling interval.
     periods : (m,) array, s, optional
-        Positive; :func:`default_periods` when left out.
+        Natural periods, positive; default: :func:`default_periods`.
     damping : float
-        Ratio to critical, 0 <= damping < 1.
+        Damping ratio, 0 <= damping < 1.
 
     Returns
     -------
@@ -84,7 +83,7 @@ def response_spectrum(
     Raises
     ------
     ParameterError
-        If the accelerations are no row, a period is not positive, or the damping outside its range.
+        If the accelerations are not one-dimensional, a period is not positive, or the damping is out of range.
 
     Examples
     --------
@@ -95,7 +94,7 @@ def response_spectrum(
     """
     if isinstance(acceleration, (Motion, Record)):
         kind = type(acceleration).__name__
-        raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=kind)
+        raise KindError("expected an array of accelerations, found {found}: pass motion.horizontal and motion.dt", found=kind)
     acceleration = checks.float_vector("the accelerations", acceleration)
     if acceleration.size < 2:
         raise ParameterError("a motion needs at least 2 samples, found {count}", count=acceleration.size)
@@ -107,6 +106,7 @@ def response_spectrum(
     resampled: dict[int, FloatArray] = {1: np.ascontiguousarray(acceleration)}
     peaks = np.empty((3, period_s.size))
     for column, period in enumerate(period_s):
+        # short periods need points between the samples of a coarse record
         subdivisions = max(1, math.ceil(_POINTS_PER_PERIOD * dt / period))
         if subdivisions not in resampled:
             n = acceleration.size
@@ -116,10 +116,10 @@ def response_spectrum(
 
 
 def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: float = SMOOTHING_HZ) -> tuple[FloatArray, FloatArray]:
-    """Return the Fourier amplitude smoothed by a Parzen window ([Parzen1961]_), the mean of the record removed first.
+    """Return the Fourier amplitude spectrum of the record minus its mean, smoothed by a Parzen window ([Parzen1961]_).
 
-    The *energy* |X(f)|^2 is smoothed, by weighing the autocorrelation with the lag window (which is the same, and exact),
-    and its root is returned.
+    The energy |X(f)|^2 is smoothed by multiplying the autocorrelation by the lag window, which is equivalent and exact;
+    its square root is returned.
 
     Parameters
     ----------
@@ -128,12 +128,12 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     dt : float, s
         Sampling interval.
     smoothing_hz : float, Hz
-        Bandwidth of the window; its standard deviation is 0.3 of it.
+        Bandwidth of the window; the standard deviation is 0.3 times the bandwidth.
 
     Returns
     -------
     frequency : (m,) array, Hz
-        From 0 to half the sampling rate, at least 14 points per bandwidth.
+        Frequencies from 0 to the Nyquist frequency, at least 14 per bandwidth.
     amplitude : (m,) array, m/s
 
     Raises
@@ -144,6 +144,7 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size
     longest_lag = _PARZEN_LAG / smoothing_hz
+    # zero padding: no circular overlap of the autocorrelation, and enough frequencies per bandwidth
     size = 1 << math.ceil(math.log2(max(2 * min(n, LONG_TRANSFORM), 8.0 * longest_lag / dt)))
     if n <= LONG_TRANSFORM:
         energy = np.abs(np.fft.rfft(acceleration - acceleration.mean(), size)) ** 2 * dt**2
@@ -154,13 +155,14 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     window = np.where(lag < 0.5, 1.0 - 6.0 * lag**2 * (1.0 - lag), 2.0 * np.clip(1.0 - lag, 0.0, None) ** 3)
     smoothed_energy = np.fft.rfft(autocorrelation * window).real
     frequency = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
+    # the Parzen spectrum is non-negative; clip the round-off
     return frequency, np.sqrt(np.clip(smoothed_energy, 0.0, None))
 
 
 def _autocorrelation(acceleration: FloatArray, size: int, max_lag: int) -> FloatArray:
-    """Return the autocorrelation of a long row less its mean, circular, (size,), up to a lag of so many samples and zero beyond.
+    """Return the circular autocorrelation of a long record minus its mean, (size,), up to `max_lag` samples and zero beyond.
 
-    The lag window ends there, so that pieces of the row with as much of what follows give all of it, in the memory of a piece.
+    It is the sum of the correlations of each piece with the piece extended by `max_lag` samples; the lag window vanishes beyond them.
     """
     mean = float(acceleration.mean())
     piece = size - max_lag

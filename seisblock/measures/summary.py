@@ -1,4 +1,4 @@
-"""Every measure of a record in one call."""
+"""All measures of a record in one call."""
 
 from __future__ import annotations
 
@@ -28,31 +28,29 @@ from seisblock.records.record import Component, Record
 from seisblock.references import papers
 
 DEFAULT_THRESHOLD = 0.1 * STANDARD_GRAVITY
-"""Threshold of durations when none is given, m/s^2: a tenth of g, below which nothing stouter than H/B = 10 rocks, and about
-the 100 gal from which the criteria of [Furukawa2009]_ are fitted."""
+"""Default threshold of durations, m/s^2: 0.1 g, the rocking threshold of H/B = 10 and about the lower limit (100 gal) of the fits of
+[Furukawa2009]_."""
 
 _ROUND_OFF = 1e-10
-"""A velocity below this share of PGA times duration is round-off: what the high-pass leaves of an offset."""
-
-"""What the numbers of :func:`measure` rest on."""
+"""Velocity relative to PGA times duration below which it is round-off of the filtered offset."""
 
 
 @dataclass(frozen=True)
 class ComponentPeaks:
-    """What criteria ask of one component: its peaks, and the frequencies that it is taken for.
+    """Peaks and equivalent frequencies of one component, the input of the overturning criteria.
 
     Parameters
     ----------
     component : str
         Code, or azimuth in degrees.
     pga_m_s2, time_of_pga_s : float, m/s^2 and s
-        Peak absolute acceleration of the record as given, and when, from the record's first sample.
+        Peak absolute acceleration of the record and its time after the record's first sample.
     pgv_m_s, pgd_m : float, m/s and m
-        Peak absolute velocity and displacement on the stated baseline.
+        Peak absolute velocity and displacement, see :class:`Conventions`.
     equivalent_frequency_hz : EquivalentFrequency
-        Three definitions.
+        Equivalent frequencies by three definitions.
     pulse_width_ambiguous : bool
-        The record begins or ends inside the pulse that holds the PGA.
+        True if the record begins or ends within the pulse that contains the PGA.
     """
 
     component: str
@@ -66,18 +64,18 @@ class ComponentPeaks:
 
 @dataclass(frozen=True)
 class ComponentMeasures(ComponentPeaks):
-    """The measures of one component, its peaks first; the fields are the keys of one result in the document of ``measure``.
+    """Measures of one component; the fields are the keys of a result in the JSON document of ``measure``.
 
     Parameters
     ----------
     duration : Duration
-        Above the threshold.
+        Duration above the threshold.
     arias_m_s, significant_duration_s : float, m/s and s
         Arias intensity, and the time between 5 and 95 % of it.
     jma_intensity : float or None, 1
-        Of the whole record, repeated here so that nobody misses it.
+        Intensity of the whole record, repeated for each component.
     usual_highpass : FilterRange or None
-        How far PGV and PGA/(2 pi PGV) move with the usual filters; None when by no more than 5 %.
+        Range of PGV and PGA/(2 pi PGV) for common high-pass filters; None if within 5 %.
     """
 
     duration: Duration
@@ -89,24 +87,24 @@ class ComponentMeasures(ComponentPeaks):
 
 @dataclass(frozen=True)
 class Conventions:
-    """What the numbers depend on besides the record.
+    """Processing conventions of the measures.
 
     Parameters
     ----------
     velocity_highpass_hz : float or None, Hz
-        Corner of the zero-phase high-pass before integration; None for none.
+        Corner of the zero-phase high-pass before integration; None for no filter.
     velocity_baseline : str
-        What else was done.
+        Baseline correction of velocity and displacement.
     fourier_smoothing : str
         Window of the Fourier amplitude.
     fourier_smoothing_hz : float, Hz
-        Its bandwidth.
+        Bandwidth of the window.
     fourier_band_hz : two floats, Hz
-        Where the dominant frequency was looked for.
+        Band of the dominant frequency.
     threshold_side : str
-        Whether the threshold is exceeded by both signs or by one.
+        Sign of the accelerations compared with the threshold.
     gravity_m_s2 : float, m/s^2
-        g of the Arias intensity.
+        Gravity in the Arias intensity.
     """
 
     velocity_highpass_hz: float | None = HIGHPASS_HZ
@@ -120,24 +118,24 @@ class Conventions:
 
 @dataclass(frozen=True)
 class RecordMeasures(HtmlReprMixin):
-    """What a record is, in numbers.
+    """Measures of a record.
 
     Parameters
     ----------
     components : tuple of ComponentMeasures
-        In the order asked.
+        Measures by component, in the order requested.
     jma_intensity, jma_class : float and str, or None, 1
         Instrumental intensity (not rounded) and its class.
     long_period : LongPeriodMotion or None
-        JMA's class of long-period ground motion, and the floor velocity behind it.
+        JMA's class of long-period ground motion and the floor velocity.
     horizontal : HorizontalPeak or None
-        The longest horizontal vector and its azimuth.
+        Longest horizontal vector and its azimuth.
     conventions : Conventions
         Filters, windows, baseline.
     warnings : tuple of str
-        What to know before believing the numbers.
+        Limits of validity of the values.
     citations : tuple of str
-        Keys of the papers relied on.
+        Keys of the papers used.
     """
 
     components: tuple[ComponentMeasures, ...]
@@ -157,17 +155,16 @@ def measure(
     threshold: float = DEFAULT_THRESHOLD,
     conventions: Conventions | None = None,
 ) -> RecordMeasures:
-    """Measure a record: peaks, equivalent frequencies, durations, intensities ([Furukawa2009]_, [JMA1996]_, [Arias1970]_).
+    """Return peaks, frequencies, durations and intensities of a record ([Furukawa2009]_, [JMA1996]_, [Arias1970]_).
 
     Parameters
     ----------
     record : Record
-        As it shall be judged: remove an offset first (:func:`seisblock.records.process.demean`), the peak acceleration is
-        taken as it stands.
+        Record. The peak acceleration includes any offset, which is to be removed first by :func:`seisblock.records.process.demean`.
     components : sequence of str, optional
-        Codes, or azimuths in degrees such as ``37``; all of the record by default.
+        Codes, or azimuths in degrees such as ``37``; default: all components.
     threshold : float, m/s^2
-        For the durations; a tenth of g by default, or the rocking threshold g B/H of a body.
+        Threshold of the durations, 0.1 g by default; for example the rocking threshold g B/H of a body.
     conventions : Conventions, optional
         Filters, windows, baseline.
 
@@ -185,8 +182,8 @@ def measure(
     Examples
     --------
     >>> from seisblock.readers import read
-    >>> found = measure(read("synthetic_jma.csv"))
-    >>> found.jma_class, found.components[1].component, round(found.components[1].pga_m_s2, 2)
+    >>> result = measure(read("synthetic_jma.csv"))
+    >>> result.jma_class, result.components[1].component, round(result.components[1].pga_m_s2, 2)
     ('7', 'EW', 9.62)
     """
     checks.instance(record, Record)
@@ -212,7 +209,6 @@ def measure(
 def _measure_component(
     component: Component, record: Record, threshold: float, rules: Conventions, intensity: float | None
 ) -> ComponentMeasures:
-    """Return the measures of one component."""
     a, dt = component.acceleration, record.dt
     peaks = component_peaks(component, dt, rules, record.offset_s)
     return ComponentMeasures(
@@ -226,7 +222,7 @@ def _measure_component(
 
 
 def component_peaks(component: Component, dt: float, rules: Conventions, start_s: float = 0.0) -> ComponentPeaks:
-    """Return the peaks of one component and its equivalent frequencies ([Furukawa2009]_ section 3(5)e).
+    """Return peaks and equivalent frequencies of one component ([Furukawa2009]_ section 3(5)e).
 
     Parameters
     ----------
@@ -248,8 +244,10 @@ def component_peaks(component: Component, dt: float, rules: Conventions, start_s
     pga, index = peak_acceleration(a)
     history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
     pgv = peak_velocity(history, dt)
+    # what remains of a constant offset after the filter is round-off, not motion
     pgv = pgv if pgv > _ROUND_OFF * pga * (a.size - 1) * dt else 0.0
     pgd = peak_displacement(history)
+    # release the filtered copy before the Fourier transform of long records
     del history
     pulse = peak_pulse(a, dt)
     return ComponentPeaks(
@@ -268,19 +266,19 @@ def component_peaks(component: Component, dt: float, rules: Conventions, start_s
 
 
 def _intensity_warnings(record: Record, intensity: float | None) -> list[str]:
-    """Say why there is no JMA intensity, when there is none."""
+    """Return a warning with the cause if the JMA intensity is undefined."""
     return [] if intensity is not None else [lazy_gettext("no JMA intensity: {reason}", reason=missing_intensity_reason(record))]
 
 
 def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
-    """Say when the record is too short for the high-pass behind its velocities."""
+    """Return a warning if the record is too short for the high-pass."""
     corner = rules.velocity_highpass_hz
     if not corner or record.duration_s * corner >= 1.0:
         return []
     return [
         lazy_gettext(
-            "the record ({duration:g} s) is shorter than the corner period of the high-pass behind PGV ({period:g} s): "
-            "an offset cannot be told from slow motion; where the level is known to be right, choose no high-pass",
+            "the record ({duration:g} s) is shorter than the corner period of the high-pass for PGV ({period:g} s): a baseline "
+            "offset cannot be separated from long-period motion; if the baseline is known to be correct, switch off the high-pass",
             duration=record.duration_s,
             period=1 / corner,
         )
@@ -288,9 +286,8 @@ def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
 
 
 def _component_warnings(m: ComponentMeasures) -> list[str]:
-    """Say what is doubtful about one component."""
     warnings: list[str] = []
     if m.pulse_width_ambiguous:
-        text = "{component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound"
+        text = "{component}: the record begins or ends within the pulse of the PGA; the pulse-width frequency is an upper bound"
         warnings.append(lazy_gettext(text, component=m.component))
     return warnings

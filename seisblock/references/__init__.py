@@ -1,4 +1,4 @@
-"""The literature: one entry per key, used by docstrings, ``seisblock cite`` and every JSON document."""
+"""Bibliography by key, used by docstrings, ``seisblock cite`` and the JSON documents."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from seisblock.references.reference import Reference
 from seisblock.references.statistics import STATISTICS
 
 REFERENCES = {reference.key: reference for reference in (*LITERATURE, *STATISTICS, *GROUND_MOTION)}
-"""Every reference by its key."""
+"""All references by key."""
 
 SOFTWARE = Reference(
     "seisblock",
     "seisblock contributors",
     2025,
-    "seisblock: what ground motion does to objects that nobody bolted down",
+    "seisblock: seismic response of unanchored objects",
     "Python package",
     kind="software",
 )
-"""The program itself."""
+"""Reference of this program."""
 
 TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
     "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
@@ -55,11 +55,11 @@ TOPIC_PAPERS: dict[str, tuple[str, ...]] = {
         "NewmarkHall1982",
     ),
 }
-"""What each question rests on: the only place where an answer finds its papers."""
+"""Papers used, by topic; all lists of citations in results derive from this table."""
 
 
 def papers(*topics: str) -> tuple[str, ...]:
-    """Return the keys of the papers that the answers to some questions rely on, each once, in their order.
+    """Return the keys of the papers of some topics, without duplicates, in order.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def papers(*topics: str) -> tuple[str, ...]:
 
 
 def find_citations(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return the keys that stand in brackets in some texts, each once, in their order."""
+    """Return the citation keys in brackets in some texts, without duplicates, in order."""
     return tuple(dict.fromkeys(key for text in texts for key in re.findall(r"\[(\w+)\]", text) if key in REFERENCES))
 
 
@@ -93,4 +93,4 @@ COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
     "stack": papers("rigid pile"),
     "fit": papers("rocking", "fit"),
 }
-"""What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""
+"""Papers used by each command with default options; each JSON document lists those of its result."""

@@ -1,4 +1,4 @@
-"""The entries of the bibliography on earthquakes and the motion of the ground they send, each once."""
+"""Bibliography: earthquakes and ground motion."""
 
 from __future__ import annotations
 
@@ -88,4 +88,4 @@ GROUND_MOTION = (
         kind="techreport",
     ),
 )
-"""What synthetic records, the motion of storeys, long periods and shelves rest on."""
+"""References on synthetic records, floor motion, long-period ground motion and furniture."""

@@ -1,4 +1,4 @@
-"""The entries of the bibliography on bodies that are shaken, each once."""
+"""Bibliography: response of rigid bodies, contact dynamics, criteria and ground motion measures."""
 
 from __future__ import annotations
 
@@ -237,4 +237,4 @@ LITERATURE = (
         doi="10.1080/01621459.1991.10475059",
     ),
 )
-"""In the order in which the program came to rely on them."""
+"""References on rigid bodies and measures."""

@@ -1,4 +1,4 @@
-"""What one published source is, as a line of a bibliography and as BibTeX."""
+"""Published source, formatted as a line of a bibliography or as BibTeX."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Reference:
-    """One published source."""
+    """Published source; ``where`` is the journal, publisher or institution."""
 
     key: str
     authors: str

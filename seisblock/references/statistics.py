@@ -1,4 +1,4 @@
-"""The entries of the bibliography on fragility, risk and inference, each once."""
+"""Bibliography: fragility, risk and statistical inference."""
 
 from __future__ import annotations
 
@@ -77,4 +77,4 @@ STATISTICS = (
         "Monthly Weather Review, 78(1), 1-3",
     ),
 )
-"""In the order in which the program came to rely on them."""
+"""References on statistics."""

@@ -143,7 +143,7 @@ def test_two_runs_never_write_one_table(folder):
         held = journal.read_bytes()
         for how in ("--resume", "--force"):
             answer = run(f"{LINE} {how}")
-            assert answer.exit_code == 3 and "written by another run" in answer.stderr, how
+            assert answer.exit_code == 3 and "in use by another run" in answer.stderr, how
         assert journal.read_bytes() == held and not Path("t.csv").exists()
     assert run(LINE + " --force").exit_code == 0
 
@@ -218,7 +218,7 @@ def test_a_journal_that_does_not_say_of_what_it_is_is_refused(folder, first):
     """And left alone: --force begins anew."""
     Path("t.csv.journal").write_bytes(first)
     answer = run(LINE + " --resume")
-    assert answer.exit_code == 3 and "damaged in its first line" in answer.stderr
+    assert answer.exit_code == 3 and "the first line is damaged" in answer.stderr
     assert Path("t.csv.journal").read_bytes() == first and not Path("t.csv").exists()
 
 
@@ -238,7 +238,7 @@ def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
     with journal.open("ab") as stream:
         stream.write(b'{"path": "records/r20.csv", "stamp": "1@2", "ro')
     other = run(LINE.replace("rock", "slide") + " --resume")
-    assert other.exit_code == 3 and "begun with other" in other.stderr
+    assert other.exit_code == 3 and "belongs to a run with other bodies" in other.stderr
     finished = journal.read_bytes().count(b"\n") - 1
     gone_on = run(LINE + " --resume")
     assert gone_on.exit_code == 0 and f"{finished} of 24 records are finished" in gone_on.stderr

@@ -81,7 +81,7 @@ def test_units(table, height):
         ("2.5,1\n2.6,0\n", "line 1: expected a column height_over_width"),
         ("H/B,height over width\n1,2\n", "line 1: two columns mean height_over_width"),
         ("H/B\n2.5\n0\n", "line 3: height over width must be positive, found 0"),
-        ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height over width must be positive, found -1 \(and 2 more bad rows: lines 5, 6\)"),
+        ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height over width must be positive, found -1 \(2 more invalid rows: lines 5, 6\)"),
         ("# c\nH/B\nnan\n", "line 3: height over width must be positive, found nan"),
         ("H/B\ntall\n", "line 2: height_over_width must be a number, found 'tall'"),
         ("H/B,fallen\n2.5,maybe\n", "line 2: fallen must be 0, 1, yes, no, 転倒 or 残存, found 'maybe'"),
@@ -94,7 +94,7 @@ def test_units(table, height):
         ("height,width\n60,24\n", r"line 2: width of 24 m is no gravestone \(without a unit it means metres"),
         ("height (cm),width (cm)\n60,\n", "line 2: there is neither height over width nor height and width: width empty"),
         ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -24"),
-        ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards' has the unknown unit 'yards'"),
+        ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards': unknown unit 'yards'"),
         ("H/B,height (cm),width (cm)\n3,60,24\n", "line 2: height over width is 3, but height and width give 2.5"),
         ("H/B\n2,6\n", "line 2: expected 1 cells as in the header, found 2"),
     ],
@@ -116,7 +116,7 @@ def test_files_that_are_none(tmp_path, monkeypatch):
         "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled are aoyama.csv",
         "synthetic_jma.csv": "no cemetery file synthetic_jma.csv",
         str(tmp_path): "is a directory",
-        "binary.csv": "no table of text",
+        "binary.csv": "not a text table",
         "latin.csv": "neither UTF-8 nor Shift-JIS",
     }.items():
         with pytest.raises(BodyError, match=message):

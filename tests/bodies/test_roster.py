@@ -55,7 +55,7 @@ def test_rows_may_take_a_body_from_elsewhere(tmp_path):
         ("name,width\na,wide\n", "line 2"),
         ("name,width\n,1\n", "line 2: a body without a name"),
         ("name,width\na,1,2,3\n", "line 2: expected 2 cells"),
-        ("name,width\na,250\nb,300\nc,1\n", r"line 2: .*\(and one more bad row: line 3\)"),
+        ("name,width\na,250\nb,300\nc,1\n", r"line 2: .*\(1 more invalid row: line 3\)"),
         ("name,width\na,-0.25\n", "line 2: width must be positive, found -0.25 m"),
         ("name,width,mu\na,0.25,-0.3\n", "line 2: mu must be zero or more, found -0.3"),
         ("name,mu\na,nan\n", "line 2"),

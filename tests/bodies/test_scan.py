@@ -372,7 +372,7 @@ def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
         path = write(tmp_path / f"box.{write.__name__[-3:]}", *BOX)
         with monkeypatch.context() as patch:
             patch.setattr("seisblock.bodies.scan.mesh._load_triangles", None)
-            with pytest.raises(BodyError, match=r"16 triangles, and 10 are allowed: .* SEISBLOCK_TRIANGLES"):
+            with pytest.raises(BodyError, match=r"16 triangles exceed the limit of 10: .* SEISBLOCK_TRIANGLES"):
                 read_mesh(path)
     monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
     path.write_bytes(path.read_bytes() + bytes(2**21))

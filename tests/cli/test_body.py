@@ -134,11 +134,11 @@ def test_a_scan_is_not_written_over(tmp_path):
     path = write_stl(tmp_path / "box.stl", *box(0.3, 0.4, 0.9))
     before = path.read_bytes()
     done = run("body", path, "--csv", path)
-    assert done.exit_code == 3 and "is a file that is read" in done.stderr.replace("\n", " ")
+    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr.replace("\n", " ")
     link = tmp_path / "box.toml"
     link.symlink_to(path)
     done = run("body", path, "--out", link)
-    assert done.exit_code == 3 and "is a file that is read" in done.stderr.replace("\n", " ")
+    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr.replace("\n", " ")
     assert path.read_bytes() == before
     assert run("body", path, "--out", tmp_path / "none" / "box.toml").exit_code == 3
     assert "written as .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr

@@ -112,7 +112,7 @@ def test_no_output_falls_on_the_hazard(run, tmp_path):
     before = "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.001\n"
     (tmp_path / "h.csv").write_text(before)
     done = run(*LINE[:4], "--hazard", "h.csv", "--csv", "h.csv")
-    assert done.exit_code == 3 and "is a file that is read" in done.stderr
+    assert done.exit_code == 3 and "would overwrite the input file" in done.stderr
     assert (tmp_path / "h.csv").read_text() == before
 
 

@@ -80,7 +80,7 @@ def test_follow_many_marks_failed_rows_where_failures_are_allowed():
     motion = Motion.from_arrays(np.zeros(60), 0.02)
     parameters = np.array([[9.81, 0.5, 1e-3], [9.81, 0.5, -1.0]])
     start = [0.1, 0.0]
-    with pytest.raises(SolverError, match="row 1: given up"):
+    with pytest.raises(SolverError, match="row 1: integration stopped"):
         integrate_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0))
     many = integrate_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0), allow_failures=True)
     assert many.failed.tolist() == [False, True]

@@ -140,7 +140,7 @@ WRONG = {
     "bounds of nothing": ({"free": ["alpha"], "block": TRUTH, "bounds": {"p": (1.0, 2.0)}}, "not free; free: alpha"),
     "bounds beyond": ({"bounds": {"alpha": (0.1, 2.0)}}, "below 1.571"),
     "folds": ({"folds": 41}, "41 folds require at least as many records, found 40"),
-    "a fold": ({"folds": 1}, "2 or more"),
+    "a fold": ({"folds": 1}, "at least 2"),
     "runs": ({"runs": 12}, "one of 1, 2, 4, 8, 16, 32, 64; found 12"),
     "a level": ({"level": 90.0}, r"must lie in \[0.001, 1\)"),
     "a level of nothing": ({"level": 1e-300}, r"must lie in \[0.001, 1\)"),
@@ -162,7 +162,7 @@ def test_what_makes_no_sense_is_refused(what, experiment):
 
 def test_what_is_no_outcome_is_refused():
     """Nor what is no motion."""
-    with pytest.raises(KindError, match="Observation is needed, found tuple"):
+    with pytest.raises(KindError, match="expected Observation, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
     with pytest.raises(KindError, match="expected a Motion"):
         Observation("pulse.csv", True)

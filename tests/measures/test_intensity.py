@@ -89,13 +89,13 @@ def test_without_three_components_there_is_no_jma_intensity():
     answer = measure(alone)
     assert answer.jma_intensity is None
     assert answer.jma_class is None
-    assert any("two horizontals and the vertical" in text for text in answer.warnings)
+    assert any("two horizontal components and the vertical" in text for text in answer.warnings)
 
 
 def test_a_record_too_short_or_at_rest_has_no_jma_intensity():
     """None again, each with its reason."""
     assert "shorter than 0.3 s" in " ".join(measure(three(np.ones(20), 0.01)).warnings)
-    assert "zero throughout" in " ".join(measure(three(np.zeros(200), 0.01)).warnings)
+    assert "all samples are zero" in " ".join(measure(three(np.zeros(200), 0.01)).warnings)
 
 
 @pytest.mark.parametrize(

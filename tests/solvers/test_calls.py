@@ -65,7 +65,7 @@ def test_the_wrong_order_is_named():
 )
 def test_a_body_of_another_kind(solve, kind):
     """The message names the kind that the solver follows."""
-    with pytest.raises(KindError, match=f"a {kind} is needed, found str"):
+    with pytest.raises(KindError, match=f"expected {kind}, found str"):
         solve("gravestone", MOTION)
 
 

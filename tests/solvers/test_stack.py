@@ -261,7 +261,7 @@ def test_options_out_of_range_are_refused():
     motion = sine(1.0, 1.0, 0.1)
     with pytest.raises(ParameterError, match="gravity must be positive"):
         solve_stack(block(), motion, gravity=0.0)
-    with pytest.raises(ParameterError, match="must be a whole number, 2 or more"):
+    with pytest.raises(ParameterError, match="must be an integer of at least 2"):
         solve_stack(block(), motion, points=1)
     with pytest.raises(ParameterError, match="no free stone named 'nose'"):
         solve_stack(block(), motion, tilts={"nose": 0.1})

@@ -183,7 +183,7 @@ def test_impossible_spreads_are_refused(spread):
 
 def test_no_runs_are_refused():
     """At least one."""
-    with pytest.raises(ParameterError, match="a whole number, 1 or more, found 0"):
+    with pytest.raises(ParameterError, match="an integer of at least 1, found 0"):
         perturb(BLOCK, one_sine(1.0), 0)
 
 

@@ -79,7 +79,7 @@ def test_impossible_questions_are_refused():
     for words, message in (
         ((0.0, 3.0, 10), "observed displacement must be positive"),
         ((0.1, -1.0, 10), "largest factor must be positive"),
-        ((0.1, 3.0, 0), "number of steps must be a whole number, 1 or more"),
+        ((0.1, 3.0, 0), "number of steps must be an integer of at least 1"),
     ):
         with pytest.raises(ParameterError, match=message):
             scale_factors(lambda s: s, words[0], PULSE, limit=words[1], steps=words[2])

@@ -97,7 +97,7 @@ def test_impossible_widths_are_refused(width):
 
 def test_no_runs_are_refused():
     """A share of nothing is none."""
-    with pytest.raises(ParameterError, match="number of runs must be a whole number, 1 or more"):
+    with pytest.raises(ParameterError, match="number of runs must be an integer of at least 1"):
         share(Block(0.24, 0.8), PULSE, mu=0.5, runs=0)
 
 

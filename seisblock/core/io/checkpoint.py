@@ -1,4 +1,4 @@
-"""The rows of a batch while it runs: each record's as soon as they are there, so that an interruption loses none of them."""
+"""Checkpoint file of a batch run: the rows of each finished record, one checksummed JSON line per record."""
 
 from __future__ import annotations
 
@@ -14,42 +14,42 @@ from seisblock.core.errors import OutputError, os_error_text
 from seisblock.core.io.locking import file_lock
 
 Key = tuple[str, str]
-"""Where a record is, and what tells its bytes."""
+"""Path of a record and digest of its content."""
 
 
 def checkpoint_path(target: Path) -> Path:
-    """Return the file in which the rows of a table are kept until it is whole."""
+    """Return the path of the checkpoint of an output table."""
     return target.with_name(target.name + ".journal")
 
 
 @contextlib.contextmanager
 def lock_checkpoint(path: Path) -> Iterator[None]:
-    """Keep other runs from a journal, which is made if need be, inside the block.
+    """Hold an exclusive lock on a checkpoint inside the block; create the file if necessary.
 
     Raises
     ------
     OutputError
-        If another run writes it, or it cannot be written.
+        If another run holds the lock, or the file cannot be written.
     """
     with _os_errors(path):
         path.touch()
     with file_lock(path) as exclusive:
         if not exclusive:
-            raise OutputError("{path} is written by another run: let it end, or give the table another name", path=path)
+            raise OutputError("{path} is in use by another run: wait for its end or choose another output name", path=path)
         yield
 
 
 @dataclass(eq=False)
 class Checkpoint:
-    """Rows on disk, a line for each record; the first line says of what.
+    """Rows on disk, one line per record, after a header line that identifies the run.
 
     Parameters
     ----------
     path : Path
     places : dict of key to int
-        Where the line of each finished record begins.
+        Byte offset of the line of each finished record.
     damaged : int
-        Lines that are not as they were written, which are passed over.
+        Number of lines skipped because of a wrong checksum.
     """
 
     path: Path
@@ -58,44 +58,47 @@ class Checkpoint:
 
     @classmethod
     def begin(cls, path: Path, purpose: Mapping[str, str]) -> Checkpoint:
-        """Begin a new journal; one that is there is overwritten.
+        """Create a checkpoint, overwriting an existing one.
 
         Raises
         ------
         OutputError
-            If it cannot be written.
+            If the file cannot be written.
         """
         with _os_errors(path):
             try:
                 path.write_bytes(_encode_line(purpose))
             except OSError:
-                path.unlink()  # nothing of a batch is in it
+                # the file holds no rows yet
+                path.unlink()
                 raise
         return cls(path)
 
     @classmethod
     def resume(cls, path: Path, purpose: Mapping[str, str]) -> Checkpoint:
-        """Go on with a journal: a line that an interruption cut is taken away, and one that was damaged counts as not written.
+        """Open an existing checkpoint; remove an incomplete last line and ignore damaged lines.
 
         Raises
         ------
         OutputError
-            If it cannot be read, is of something else, or does not say of what.
+            If the file cannot be read, or its header is damaged or belongs to another run.
         """
         journal = cls(path)
         with _os_errors(path), path.open("r+b") as stream:
             header = _decode_line(stream.readline())
             if header is None:
-                raise OutputError("{path} is damaged in its first line, which says of what it is: begin anew", path=path)
+                raise OutputError("{path}: the first line is damaged and the run cannot be resumed; start a new run", path=path)
             if header != dict(purpose):
                 raise OutputError(
-                    "{path} was begun with other bodies, options or another version: begin anew, or finish it as it was begun", path=path
+                    "{path} belongs to a run with other bodies, options or version: start a new run or repeat the original call",
+                    path=path,
                 )
             end = stream.tell()
             while line := stream.readline():
                 entry = _decode_line(line)
                 if entry is not None:
                     journal.places[entry["path"], entry["stamp"]] = end
+                # a complete but damaged line is recomputed; an incomplete one is the last and is cut off below
                 elif line.endswith(b"\n"):
                     journal.damaged += 1
                 else:
@@ -105,12 +108,12 @@ class Checkpoint:
         return journal
 
     def append(self, key: Key, rows: Sequence[Mapping[str, Any]]) -> None:
-        """Write the rows of a finished record down.
+        """Append the rows of a finished record.
 
         Raises
         ------
         OutputError
-            If the disk is full; the rows of the records before are kept.
+            If the disk is full; the rows of earlier records are kept.
         """
         line = _encode_line({"path": key[0], "stamp": key[1], "rows": [dict(row) for row in rows]})
         with _os_errors(self.path), self.path.open("ab") as stream:
@@ -129,23 +132,24 @@ class Checkpoint:
             stream.seek(self.places[key])
             line = _decode_line(stream.readline())
         if line is None:
-            raise OutputError("{path} changed while it was read: --resume computes anew what is damaged", path=self.path)
+            raise OutputError("{path} changed during reading: resume the run to recompute the damaged rows", path=self.path)
         stored: list[dict[str, Any]] = line["rows"]
         return stored
 
     def remove(self) -> None:
-        """Take the journal away: its table is written."""
+        """Delete the checkpoint after the table has been written."""
         self.path.unlink(missing_ok=True)
 
 
 def _encode_line(content: Mapping[str, Any]) -> bytes:
-    """Return a line that can be told from a damaged one; floats keep all their digits."""
-    payload = json.dumps(dict(content), ensure_ascii=False).encode(errors="surrogatepass")  # names of files need not be text
+    """Return checksum, JSON and line end; floats keep all digits."""
+    # surrogatepass: file names need not be valid UTF-8
+    payload = json.dumps(dict(content), ensure_ascii=False).encode(errors="surrogatepass")
     return _checksum(payload) + b" " + payload + b"\n"
 
 
 def _decode_line(line: bytes) -> dict[str, Any] | None:
-    """Return what a line says, None where it is not as it was written."""
+    """Return the content of a line, None if the checksum does not match."""
     check, _, payload = line.rstrip(b"\n").partition(b" ")
     if not line.endswith(b"\n") or check != _checksum(payload):
         return None
@@ -154,13 +158,12 @@ def _decode_line(line: bytes) -> dict[str, Any] | None:
 
 
 def _checksum(payload: bytes) -> bytes:
-    """Return what changes with any damage that disks and editors do."""
     return hashlib.blake2b(payload, digest_size=8).hexdigest().encode()
 
 
 @contextlib.contextmanager
 def _os_errors(path: Path) -> Iterator[None]:
-    """Say in one sentence what the disk refuses."""
+    """Convert OSError to OutputError."""
     try:
         yield
     except OSError as error:

@@ -1,4 +1,4 @@
-"""A file to which a long study adds a line for each part that is finished, so that an interrupted run goes on where it was."""
+"""Line-based checkpoint of a long study: one line per finished part, so that an interrupted run can be resumed."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.io.files import read_bytes
 
 MAX_LINE_BYTES = 2**16
-"""Bytes of a line that may be kept, many more than any has."""
+"""Maximum length of a line, bytes."""
 
 
 def read_complete_lines(path: Path, prefix: str) -> list[str]:
-    """Return the lines of a file, none where there is no file, without what an interruption left of the last one.
+    """Return the complete lines of a file, without an incomplete last line; no lines if the file does not exist.
 
     Parameters
     ----------
     path : Path
     prefix : str
-        How every line begins: a last one that is cut and begins otherwise is somebody else's, and is returned like the others.
+        Beginning of every line; an incomplete last line that begins otherwise was not written by this program and is returned.
 
     Raises
     ------
     ParameterError
-        If it cannot be read.
+        If the file cannot be read.
 
     Examples
     --------
@@ -39,12 +39,12 @@ def read_complete_lines(path: Path, prefix: str) -> list[str]:
 
 
 def append_line(path: Path, line: str) -> None:
-    """Add a line, whole or not at all, in the place of what an interruption left of the last one.
+    """Append a line atomically, in place of an incomplete last line.
 
     Raises
     ------
     OutputError
-        If it cannot be written; the lines before are kept.
+        If the line cannot be written; earlier lines are kept.
 
     Examples
     --------
@@ -58,14 +58,16 @@ def append_line(path: Path, line: str) -> None:
         with path.open("a+b", buffering=0) as stream:
             size = stream.seek(0, os.SEEK_END)
             begin = stream.seek(max(size - MAX_LINE_BYTES, 0))
+            # cut off an incomplete last line
             end = stream.truncate(begin + stream.read(size - begin).rfind(b"\n") + 1)
             buffer = memoryview(f"{line}\n".encode())
             try:
-                while buffer:  # a disk takes what it has room for, and then refuses
+                # a full disk accepts part of the data before it raises
+                while buffer:
                     buffer = buffer[stream.write(buffer) :]
             except OSError:
                 stream.truncate(end)
                 raise
     except OSError as error:
-        unchanged_note = lazy_gettext("; what was there is unchanged")
+        unchanged_note = lazy_gettext("; the existing file is unchanged")
         raise OutputError("cannot write {target}: {reason}{kept}", target=path, reason=os_error_text(error), kept=unchanged_note) from error

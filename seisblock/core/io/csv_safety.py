@@ -1,18 +1,18 @@
-"""Texts that a spreadsheet would compute: names from files go into tables as texts, whatever they begin with."""
+"""Protection against CSV formula injection."""
 
 from __future__ import annotations
 
 import re
 
 _FORMULA = re.compile(r"'*(?:[=@\t\r]|[+-].*[(|!])")
-"""What a spreadsheet takes for a formula; of those that begin with a sign, the ones that could call or reach for anything."""
+"""Cells that a spreadsheet evaluates; of those that begin with a sign, only the ones that could call a function or reference data."""
 
 ESCAPE = "'"
-"""What a spreadsheet takes for the sign of a text."""
+"""Prefix that marks a cell as text."""
 
 
 def escape_formula(cell: object) -> object:
-    """Return a cell that no spreadsheet computes; :func:`unescape_formula` gives it back as it was.
+    """Return a cell that spreadsheets do not evaluate; :func:`unescape_formula` is the inverse.
 
     Examples
     --------
@@ -23,7 +23,7 @@ def escape_formula(cell: object) -> object:
 
 
 def unescape_formula(text: str) -> str:
-    """Return the text that a guarded cell holds.
+    """Return the original text of an escaped cell.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A table that somebody keeps in a spreadsheet: its encodings, separators, comments, headings and units."""
+"""Reading of CSV tables from spreadsheets: encodings, separators, comments, headings and units."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from seisblock.core.io.files import read_bytes
 from seisblock.core.units import LENGTH_UNITS, MASS_UNITS, parse_length
 
 UNIT_PATTERN = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
-"""A heading with a unit: ``height (cm)``."""
+"""Heading with a unit, such as ``height (cm)``."""
 
 TRUE_WORDS = frozenset({"1", "1.0", "yes", "y", "true", "t", "○", "〇", "◯", "有", "有り", "あり", "はい"})
 FALSE_WORDS = frozenset({"0", "0.0", "no", "n", "false", "f", "×", "✕", "無", "無し", "なし", "いいえ"})
-"""What people write in a cell that asks yes or no, without case."""
+"""Values of a yes/no cell, case-insensitive."""
 
 MAX_LISTED_ROWS = 5
-"""How many further bad rows a message names."""
+"""Maximum number of further invalid rows listed in a message."""
 
 
 def read_text(path: Path, name: str) -> str:
-    """Return a file's text: UTF-8 with or without a byte order mark, Shift-JIS, or UTF-16.
+    """Return the text of a file in UTF-8 (with or without a byte order mark), Shift-JIS or UTF-16.
 
     Raises
     ------
     BodyError
-        If it cannot be read, or is no text.
+        If the file cannot be read or is not a text.
     """
     data = read_bytes(path, name, BodyError)
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-        raise BodyError("{name} is no table of text: give a CSV file with one line for each row", name=name)
+        raise BodyError("{name} is not a text table: give a CSV file with one row per line", name=name)
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
         try:
             return data.decode(encoding)
@@ -44,44 +44,45 @@ def read_text(path: Path, name: str) -> str:
 
 
 def data_lines(text: str) -> list[tuple[int, str]]:
-    """Return the lines of a table that hold something, with their numbers: no comments (#), no empty ones; the first is the header."""
+    """Return numbered lines without comments (#) and empty lines; the first one is the header."""
     lines = enumerate(text.splitlines(), start=1)
     return [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
 
 
 def find_separator(header: str) -> str:
-    """Return what separates the cells of a table."""
+    """Return the separator of a table: comma, tab or semicolon."""
     return next((mark for mark in ",\t;" if mark in header), ",")
 
 
 def split_cells(line: str, separator: str) -> list[str]:
-    """Return the cells of a line, full-width letters made plain."""
+    """Return the cells of a line, normalised to NFKC."""
     try:
         cells = next(csv.reader([line], delimiter=separator), [])
     except csv.Error as error:
-        raise BodyError("this line is no row of a table: {error}", error=error) from error
+        raise BodyError("the line cannot be read as a table row: {error}", error=error) from error
     return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
 
 
 def normalize_heading(text: str) -> str:
-    """Return a heading without case, blanks and underscores."""
+    """Return a heading in lower case without blanks and underscores."""
     return re.sub(r"[\s_]+", "", text).casefold()
 
 
 def parse_heading(cell: str, meanings: Mapping[str, str]) -> tuple[str, str]:
-    """Return what a heading means, empty for one that means nothing, and its unit.
+    """Return the key of a heading (empty if unknown) and its unit.
 
     Parameters
     ----------
     cell : str
         For example ``height (cm)``, ``height_cm``, ``Height``.
     meanings : mapping of str to str
-        Of headings made plain.
+        Keys by normalised heading.
     """
     match = UNIT_PATTERN.match(cell)
     label, unit = (match[1], match[2]) if match else (cell, "")
     key = normalize_heading(label)
-    if not unit and key not in meanings and "_" in label:  # height_cm
+    # height_cm
+    if not unit and key not in meanings and "_" in label:
         head, _, tail = label.rpartition("_")
         if tail in (*LENGTH_UNITS, *MASS_UNITS) and normalize_heading(head) in meanings:
             key, unit = normalize_heading(head), tail
@@ -89,12 +90,12 @@ def parse_heading(cell: str, meanings: Mapping[str, str]) -> tuple[str, str]:
 
 
 def row_dict(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
-    """Return the cells of a row by what their columns mean.
+    """Return the cells of a row by column key.
 
     Raises
     ------
     BodyError
-        If there are more of them than columns.
+        If there are more cells than columns.
     """
     if any(cells[len(columns) :]):
         raise BodyError("expected {count} cells as in the header, found {found}", count=len(columns), found=len(cells))
@@ -102,34 +103,34 @@ def row_dict(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
 
 
 def more_bad_rows(lines: Sequence[int]) -> str:
-    """Return a remark on the lines that are bad, too: none, one, or several, of which the first few are named.
+    """Return a note on further invalid lines, of which the first few are listed; empty if there are none.
 
     Parameters
     ----------
     lines : sequence of int
-        Beyond the one that is told of.
+        Numbers of the invalid lines after the first.
 
     Examples
     --------
     >>> from seisblock.core.i18n import gettext
     >>> [gettext(more_bad_rows(lines)) for lines in ([], [4], [4, 7])]
-    ['', ' (and one more bad row: line 4)', ' (and 2 more bad rows: lines 4, 7)']
+    ['', ' (1 more invalid row: line 4)', ' (2 more invalid rows: lines 4, 7)']
     """
     if not lines:
         return ""
     if len(lines) == 1:
-        return lazy_gettext(" (and one more bad row: line {line})", line=lines[0])
+        return lazy_gettext(" (1 more invalid row: line {line})", line=lines[0])
     line_list = ", ".join(map(str, lines[:MAX_LISTED_ROWS])) + (" ..." if len(lines) > MAX_LISTED_ROWS else "")
-    return lazy_gettext(" (and {count} more bad rows: lines {lines})", count=len(lines), lines=line_list)
+    return lazy_gettext(" ({count} more invalid rows: lines {lines})", count=len(lines), lines=line_list)
 
 
 def parse_length_cell(text: str, key: str, unit: str) -> float:
-    """Return a length, m, from a cell that may name its unit, else has that of its column, else metres."""
+    """Return a length, m; its unit is that of the cell, else that of the column, else metres."""
     return parse_length(text + (unit or "m") if is_bare_number(text) else text, quantity=key)
 
 
 def is_bare_number(text: str) -> bool:
-    """Return whether a cell is a number without a unit."""
+    """Return True if a cell is a number without a unit."""
     return re.fullmatch(r"[-+.\deE]+", text) is not None
 
 
@@ -139,7 +140,7 @@ def parse_number_cell(text: str, key: str) -> float:
     Raises
     ------
     BodyError
-        If it is none.
+        If the cell is not a number.
     """
     try:
         return float(text)

@@ -1,4 +1,4 @@
-"""The bytes of a file that is no record: a body, a list, a table, a scan; as many as may be read, and noted as read."""
+"""Size-limited reading of files other than records: bodies, lists, tables, scans."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from seisblock.core.io.overwrite import mark_read
 from seisblock.core.limits import MIB, check_limit
 
 MAX_NAME_LENGTH = 200
-"""How much of a name a message shows at most."""
+"""Maximum length of a file name in messages."""
 
 
 def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
-    """Return the bytes of a file or of a pipe.
+    """Return the content of a file or pipe and mark it as read.
 
     Parameters
     ----------
     path : Path
     name : str
-        What messages call it.
+        Name in messages.
     error : class
-        Raised where it cannot be had.
+        Exception class.
 
     Raises
     ------
     InputError
-        Of that class, if it is a directory or a device, cannot be read, or holds more than may be read.
+        Of that class, if the path is a directory or a device, cannot be read, or exceeds the size limit.
 
     Examples
     --------
@@ -43,15 +43,17 @@ def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
     try:
         info = path.stat()
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
-            raise error("{name} is a device: give a file", name=name)
+            raise error("{name} is a device: give a regular file", name=name)
         _check_size(info.st_size, name, error)
         mark_read(path)
         with path.open("rb") as stream:
             while piece := stream.read(MIB):
                 pieces.append(piece)
                 size += len(piece)
-                _check_size(size, name, error)  # a pipe does not say how much comes
-    except SeisblockError:  # some of them are an OSError, too
+                # the size of a pipe is not known in advance
+                _check_size(size, name, error)
+    except SeisblockError:
+        # must not be caught below: OutputError is an OSError, too
         raise
     except OSError as failure:
         raise error("cannot read {name}: {reason}", name=name, reason=os_error_text(failure)) from failure
@@ -59,5 +61,4 @@ def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
 
 
 def _check_size(size: int, name: str, error: type[InputError]) -> None:
-    """Refuse more bytes than may be read."""
-    check_limit(N_("MiB of a file"), -(-size // MIB), "SEISBLOCK_READ_MIB", source=name, error=error)
+    check_limit(N_("MiB in a file"), -(-size // MIB), "SEISBLOCK_READ_MIB", source=name, error=error)

@@ -1,4 +1,4 @@
-"""Hidden files of runs that were killed in the middle of a write: nobody else takes them away."""
+"""File locks, and removal of stale temporary files of killed runs."""
 
 from __future__ import annotations
 
@@ -9,21 +9,23 @@ from collections.abc import Iterator
 from pathlib import Path
 
 PREFIX = ".seisblock-"
-"""How the name of every file begins that is not yet what it will be."""
+"""Prefix of the names of temporary files."""
 
 MIN_AGE_S = 60.0
-"""A file younger than this may have been made a moment ago, by a run that has yet to take hold of it."""
+"""Minimum age of a file to be removed, s: a younger one may belong to a run that has not locked it yet."""
 
 
 @contextlib.contextmanager
 def file_lock(path: Path) -> Iterator[bool]:
-    """Keep hold of a file inside the block, so that no other run takes it for a leftover; the system lets go when a process dies.
+    """Hold an exclusive ``flock`` inside the block; yield False if another process holds it.
 
-    False where another run has hold of it.
+    The lock protects a temporary file from :func:`remove_stale`. The operating system releases it when the process dies. On systems
+    or file systems without locks, True is yielded.
     """
     exclusive = True
     with contextlib.ExitStack() as stack:
-        with contextlib.suppress(ImportError, OSError):  # no such locks on this system, or on this disk
+        # no fcntl on Windows; no locks on some network file systems
+        with contextlib.suppress(ImportError, OSError):
             import fcntl
 
             descriptor = os.open(path, os.O_RDONLY)
@@ -36,7 +38,7 @@ def file_lock(path: Path) -> Iterator[bool]:
 
 
 def remove_stale(folder: Path) -> None:
-    """Take away what runs that were killed left in a folder; what a living run holds, here or on another machine, stays."""
+    """Delete temporary files of killed runs in a folder; locked files are kept."""
     with contextlib.suppress(ImportError, OSError):
         import fcntl
 
@@ -45,6 +47,7 @@ def remove_stale(folder: Path) -> None:
                 if not path.is_file() or time.time() - path.stat().st_mtime < MIN_AGE_S:
                     continue
                 descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+                # flock raises for a file locked by a living run, which is thereby kept
                 try:
                     fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
                     path.unlink()

@@ -1,7 +1,7 @@
-"""Which files a command reads and writes: so that no output falls on an input, or on another output.
+"""Protection of input files against overwriting.
 
-Files are told apart by what they are (device and inode), not by what they are called: links and ``./`` change nothing. Outside of
-:func:`track_files` nothing is kept and nothing is refused.
+Files read and written in a run are tracked, and outputs that would overwrite one of them are rejected. Files are identified by device
+and inode, so that links and relative paths make no difference. Outside :func:`track_files` nothing is tracked or rejected.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from typing import TextIO
 from seisblock.core.errors import OutputError
 
 FileIdentity = tuple[int, int] | str
-"""Device and inode of a file that is there; the resolved path of one that is not."""
+"""Device and inode of an existing file, else the resolved path."""
 
 
 @dataclass
 class FileTracker:
-    """The files of one run, each with the name it was given by, and the file that stdout was sent to, where it is one."""
+    """Files of one run with the names used for them, and the file that stdout is redirected to, if any."""
 
     read: dict[FileIdentity, str] = field(default_factory=dict)
     written: dict[FileIdentity, str] = field(default_factory=dict)
     stdout: FileIdentity | None = None
 
 
-_tracker: ContextVar[FileTracker | None] = ContextVar("ledger", default=None)
+_tracker: ContextVar[FileTracker | None] = ContextVar("file_tracker", default=None)
 
 
 @contextlib.contextmanager
 def track_files(stdout: TextIO | None = None) -> Iterator[FileTracker]:
-    """Keep book inside the block, of the file that answers are printed to, too; nothing is left behind."""
+    """Track files read and written inside the block, including the target of stdout."""
     token = _tracker.set(FileTracker(stdout=_stream_identity(stdout)))
     try:
         tracker = _tracker.get()
@@ -46,67 +46,72 @@ def track_files(stdout: TextIO | None = None) -> Iterator[FileTracker]:
 
 
 def file_identity(path: Path) -> FileIdentity:
-    """Return what tells a file from every other."""
+    """Return the identity of a file: device and inode, or the resolved path of a file that does not exist."""
     try:
         info = path.stat()
     except OSError:
-        return os.path.realpath(path)  # `resolve` fails on a link to itself
+        # Path.resolve raises on a symbolic link to itself
+        return os.path.realpath(path)
     return info.st_dev, info.st_ino
 
 
 def _stream_identity(stream: TextIO | None) -> FileIdentity | None:
-    """Return what tells the file that a stream goes to; None for a terminal, a pipe or a device."""
+    """Return the identity of the target of a stream; None for a terminal, a pipe or a device."""
     if stream is None:
         return None
     try:
         info = os.fstat(stream.fileno())
-    except (OSError, ValueError):  # closed, or no file at all
+    except (OSError, ValueError):
+        # closed stream, or a stream without a file descriptor
         return None
     return (info.st_dev, info.st_ino) if stat.S_ISREG(info.st_mode) else None
 
 
 def mark_read(path: Path) -> None:
-    """Note that a file is read.
+    """Register a file that is read.
 
     Raises
     ------
     OutputError
-        If stdout is appended to it.
+        If stdout is redirected to the file.
     """
     tracker = _tracker.get()
     if tracker is not None and path.is_file():
         key = file_identity(path)
         if key == tracker.stdout:
-            raise OutputError("{path} is a file that is read, and stdout goes to it: send stdout elsewhere", path=path)
+            raise OutputError("stdout is redirected to the input file {path}: redirect it to another file", path=path)
         tracker.read.setdefault(key, str(path))
 
 
 def check_not_input(path: Path) -> None:
-    """Refuse an output that is a file read, or another output of this run.
+    """Raise an error if an output would overwrite an input file or another output of this run.
 
     Raises
     ------
     OutputError
-        Naming both; also where stdout goes to it, which would be lost behind the new file.
+        If the output is a file read or written in this run, or the target of stdout.
     """
     tracker = _tracker.get()
     if tracker is None or (path.exists() and not path.is_file()):
-        return  # devices and pipes take whatever comes
+        # devices and pipes cannot be overwritten
+        return
     key = file_identity(path)
     if key in tracker.read:
         raise OutputError(
-            "{path} is a file that is read ({use}): it would be lost; give the output another name", path=path, use=tracker.read[key]
+            "the output {path} would overwrite the input file {use}: choose another output name", path=path, use=tracker.read[key]
         )
     if key == tracker.stdout:
-        raise OutputError("{path} is the file that stdout goes to: give the output another name, or send stdout elsewhere", path=path)
+        raise OutputError(
+            "the output {path} is also the target of stdout: choose another output name or redirect stdout to another file", path=path
+        )
     if key in tracker.written:
         raise OutputError(
-            "{path} is written already by another output ({use}): give each output its own name", path=path, use=tracker.written[key]
+            "the output {path} would overwrite another output ({use}): give each output its own name", path=path, use=tracker.written[key]
         )
 
 
 def mark_written(path: Path) -> None:
-    """Note that a file was written."""
+    """Register a file that was written."""
     tracker = _tracker.get()
     if tracker is not None and path.is_file():
         tracker.written[file_identity(path)] = str(path)
