@@ -75,7 +75,7 @@ def test_a_motion_is_needed(name):
     with pytest.raises(sb.KindError, match=r"found a Record .*: select a component with motion_of\(record, 'NS'\)"):
         OF_MOTIONS[name](RECORD)
     for wrong in (np.zeros(100), "record.csv", None):
-        with pytest.raises(sb.KindError, match=r"expected a Motion, found (ndarray|str|nothing)"):
+        with pytest.raises(sb.KindError, match=r"expected a Motion, found (ndarray|str|None)"):
             OF_MOTIONS[name](wrong)
 
 
@@ -102,7 +102,7 @@ def test_a_body_is_needed(name):
         (lambda: sb.response_spectrum(MOTION, 0.01), "expected an array of accelerations, found Motion: pass motion.horizontal and motion.dt"),
         (lambda: sb.response_spectrum(MOTION.horizontal, 0.0), "the sampling interval must be positive, found 0 s"),
         (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "`damping` must be one of modal, dashpots, found 'modl'"),
-        (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers, 0 <= fallen <= stones, .* found 3.5/10"),
+        (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers with 0 <= fallen <= stones, .* found 3.5/10"),
         (lambda: sb.solve_slide(0.2, MOTION, vertical="yes"), "the vertical gain must be a number, found 'yes'"),
         (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
         (lambda: sb.respond_directions(BLOCK, RECORD, mu=0.3, step_deg=0.0), "the step between directions must be positive"),
@@ -123,16 +123,16 @@ def test_a_body_is_needed(name):
         (lambda: sb.overturning_rate(CEMETERY, 3.0, 1.0, limits=3), "the criterion must be a function, found int"),
         (lambda: sb.overturning_rate(CEMETERY, 3.0, "2 Hz"), "the frequency must be a number, found '2 Hz'"),
         (lambda: sb.scale_factors(3.0, 0.05, MOTION), "the displacement must be a function, found float"),
-        (lambda: sb.scale_factors(lambda factor: factor, 0.05, MOTION, steps=2.5), "the number of steps must be a whole number"),
-        (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be a whole number, 1 or more, found 2.5"),
-        (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be a whole number, 1 or more, found True"),
-        (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be a whole number"),
-        (lambda: sb.solve_stack(PILE, MOTION, points=2.5), "the number of points along each side of a joint must be a whole number, 2"),
+        (lambda: sb.scale_factors(lambda factor: factor, 0.05, MOTION, steps=2.5), "the number of steps must be an integer"),
+        (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be an integer of at least 1, found 2.5"),
+        (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be an integer of at least 1, found True"),
+        (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be an integer"),
+        (lambda: sb.solve_stack(PILE, MOTION, points=2.5), "the number of points along each side of a joint must be an integer of at least 2"),
         (lambda: sb.uplift_thresholds(SPRINGS, "a"), "`frequency_ratio` must be numbers, found 'a'"),
         (lambda: sb.mode_map([0.3], None, [0.2], MOTION), "sizes and slendernesses must be numbers, found None"),
         (lambda: sb.rocking_spectrum(["a"], [0.2], MOTION), "sizes and slendernesses must be numbers, found \\['a'\\]"),
         (lambda: sb.read(3), "expected a path or a list of paths, found int"),
-        (lambda: sb.read_all(None), "expected a path or a list of paths, found nothing"),
+        (lambda: sb.read_all(None), "expected a path or a list of paths, found None"),
     ],
 )
 def test_a_wrong_value_is_told(call, says):
