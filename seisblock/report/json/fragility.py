@@ -113,7 +113,7 @@ def document(
     Parameters
     ----------
     study : FragilityStudy
-    bodies : sequence of Placed
+    bodies : sequence of SolverBody
     options : mapping
         ``im``, ``perturb``, ``bootstrap``, ``seed``, ``vertical``, ``gravity``, ``suite``.
     compare : Lognormal or None

@@ -155,13 +155,11 @@ MAP = DocumentSchema("map", MapParameters, StationEntry, EXTRA_KEYS)
 
 _SURVEY_CITATIONS = papers("gravestones as fitted", "intensity of a velocity")
 
-UNMAPPED = N_("{station}: its file does not say where it is: it is listed, and on no map")
+UNMAPPED = N_("{station}: no coordinates in the file; listed, not on the map")
 FAILED = N_("{station}: {failure}")
-QC_FLAGGED = N_("{count} record(s) are doubtful; {station}: {doubt}")
+QC_FLAGGED = N_("{count} record(s) with warnings; {station}: {doubt}")
 
-DATES_APART = N_(
-    "the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}): a map is of one earthquake, are these of two?"
-)
+DATES_APART = N_("the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}); a map requires records of one earthquake")
 
 
 def document(
@@ -172,8 +170,8 @@ def document(
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
-    surveys : sequence of SurveyAnswer
+    model : StationBody, StationCemetery or None
+    surveys : sequence of SurveyComparison
     upstairs : bool
         Whether they stand on a storey.
     """

@@ -50,7 +50,7 @@ def document_schemas(command: str) -> list[DocumentSchema]:
         If it answers with none.
     """
     if command not in DOCUMENTS:
-        raise ParameterError("{command!r} answers with no document; those that do are {known}", command=command, known=list(DOCUMENTS))
+        raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(DOCUMENTS))
     pairs = (name.split(":") for name in DOCUMENTS[command])
     return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
 

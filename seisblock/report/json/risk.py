@@ -72,7 +72,7 @@ def document(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, sourc
 
     Parameters
     ----------
-    risks : sequence of (GivenFragility, Risk)
+    risks : sequence of (FragilityCurve, Risk)
     hazard : Hazard
     source : str
         Name of its file.

@@ -59,7 +59,7 @@ def connect(address: str) -> Iterator[Client]:
         import dask
         from distributed import Client, LocalCluster
     except ImportError as error:
-        raise ParameterError("a cluster needs Dask: pip install 'seisblock[distributed]'") from error
+        raise ParameterError("a cluster requires Dask: pip install 'seisblock[distributed]'") from error
     if address.startswith(LOCAL_PREFIX):
         with (
             dask.config.set(QUIET_DASK_CONFIG),
@@ -74,7 +74,7 @@ def connect(address: str) -> Iterator[Client]:
         client = Client(address, timeout=CONNECT_TIMEOUT_S)
     except (OSError, ValueError, TypeError, MemoryError) as error:  # what a web server answers begins, to Dask, with an enormous length
         raise ParameterError(
-            "no Dask scheduler answers at {address}: start one, or take {local} for the processes of this machine",
+            "no Dask scheduler responds at {address}; start one, or use {local} for processes on this machine",
             address=address[:200],
             local=LOCAL_PREFIX + "2",
         ) from error
@@ -87,7 +87,7 @@ def _process_count(address: str) -> int:
     """Return how many processes ``local:N`` asks for."""
     number = address[len(LOCAL_PREFIX) :]
     if not number.isdecimal() or not 1 <= int(number) <= 512:
-        raise ParameterError("a cluster of this machine is local:N with 1 to 512 processes, found {address}", address=address[:200])
+        raise ParameterError("a local cluster is given as local:N with N from 1 to 512; found {address}", address=address[:200])
     return int(number)
 
 
@@ -137,7 +137,7 @@ def map_cluster(
     except (OSError, CancelledError) as error:
         if not _is_disconnected(client, error):
             raise
-        raise ParameterError("the Dask scheduler stopped answering: start it again, and go on") from error
+        raise ParameterError("the Dask scheduler stopped responding; restart it and resume") from error
     finally:
         if client.status == "running":
             with suppress(OSError):  # it may go this very moment

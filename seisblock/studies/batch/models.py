@@ -107,7 +107,7 @@ class BatchModel:
         allowed = (*signature(self.solve).parameters, *(name for name in ("mu", "mu_kinetic") if name in self.columns))
         unknown = [f"`{name}`" for name in options if name not in allowed]
         if unknown:
-            raise ParameterError("{solver} has no option {names}: leave it out", solver=self.name, names=unknown)
+            raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
 
     def happened(self, row: ValueMap) -> bool:
         """Return whether what the user asks about happened in a row with an answer."""
@@ -125,12 +125,12 @@ def _rigid_body(spec: BodySpec) -> Block | ScannedBody:
     sizes = {key: values[key] for key in _SIZES if key in values}
     if spec.description is not None:
         if sizes or "kind" in values:
-            raise BodyError("{source}: give sizes, with or without `kind`, or `body`, not both", source=spec.source)
+            raise BodyError("{source}: give either sizes (with or without `kind`) or `body`, not both", source=spec.source)
         body = body_from_table(spec.description, side=values.get("side", "short"))
     else:
         missing = [key for key in ("width", "height") if key not in sizes]
         if missing:
-            raise BodyError("{source}: {missing} missing: a block needs width and height", source=spec.source, missing=missing)
+            raise BodyError("{source}: {missing} missing; a block requires width and height", source=spec.source, missing=missing)
         try:
             body = of_kind(Block(**sizes, name=spec.name), values.get("kind", "block"))
         except BodyError as error:
@@ -144,7 +144,7 @@ def _friction(spec: BodySpec, options: ValueMap) -> dict[str, float | None]:
     values = spec.parameters
     if "mu" in values or "surface" in values:
         if "mu" in values and "surface" in values:
-            raise BodyError("{source}: give mu or a surface, not both", source=spec.source)
+            raise BodyError("{source}: give mu or surface, not both", source=spec.source)
         contact_surface = surface(values["surface"]) if "surface" in values else None
         mu, kinetic = (values["mu"], None) if contact_surface is None else (contact_surface.mu, contact_surface.mu_kinetic)
     else:
@@ -152,7 +152,7 @@ def _friction(spec: BodySpec, options: ValueMap) -> dict[str, float | None]:
         if mu is None:
             mu, kinetic = options.get("mu"), options.get("mu_kinetic")
     if mu is None:
-        raise BodyError("{source}: how rough is it under the body? Tell mu, the static friction coefficient", source=spec.source)
+        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
     return {"mu": mu, "mu_kinetic": values.get("mu_kinetic", kinetic)}
 
 
@@ -207,12 +207,12 @@ def _uplift_body(spec: BodySpec, options: ValueMap) -> SolverBody:
 def _jump_body(spec: BodySpec, options: ValueMap) -> SolverBody:
     """Place a two-layer block."""
     if spec.description is None or spec.description.get("kind") != "two-layer":
-        raise BodyError("{source}: a jump needs a two-layer body: name its file, or a bundled one such as chozusha", source=spec.source)
+        raise BodyError("{source}: jump requires a two-layer body; give its file or a bundled one such as chozusha", source=spec.source)
     contact_values = {**contact_from_table(spec.description), **_row_values(spec, "mu", "mu_kinetic")}
     if "mu" not in contact_values:
         contact_values |= {key: options[key] for key in ("mu", "mu_kinetic") if options.get(key) is not None}
     if "mu" not in contact_values:
-        raise BodyError("{source}: how rough is it under the body? Tell mu, the static friction coefficient", source=spec.source)
+        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
     block = two_layer_from_table(spec.description, spec.parameters.get("side", "short"))
     return SolverBody(spec.name, block, {**_without_friction(options), "contact": Contact(**contact_values), **_row_values(spec, "drop")})
 
@@ -220,7 +220,7 @@ def _jump_body(spec: BodySpec, options: ValueMap) -> SolverBody:
 def _stack_body(spec: BodySpec, options: ValueMap) -> SolverBody:
     """Place a pile of stones."""
     if spec.description is None or spec.description.get("kind") != "pile":
-        raise BodyError("{source}: a stack needs a pile: name its file, or a bundled one such as lantern", source=spec.source)
+        raise BodyError("{source}: stack requires a pile of stones; give its file or a bundled one such as lantern", source=spec.source)
     pile = load_pile(str(spec.description["source"]), mu=spec.parameters.get("mu", options.get("mu")))
     return SolverBody(spec.name, pile, _without_friction(options))
 
@@ -309,5 +309,5 @@ def batch_model(name: str) -> BatchModel:
         If there is none of that name.
     """
     if name not in BATCH_MODELS:
-        raise ParameterError("there is no solver {name!r} for a batch; there are {known}", name=str(name)[:100], known=list(BATCH_MODELS))
+        raise ParameterError("unknown batch solver {name!r}; available: {known}", name=str(name)[:100], known=list(BATCH_MODELS))
     return BATCH_MODELS[name]

@@ -116,7 +116,7 @@ def make_plan(
     if not (isinstance(runs, int) and runs >= 0):
         raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and model.chance is None:
-        raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=solver)
+        raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
@@ -138,7 +138,7 @@ def iter_record_rows(
 
     Parameters
     ----------
-    tasks : iterable of Recording or Record
+    tasks : iterable of RecordSource or Record
         Taken as they are needed: a bundle's members are not held longer than they are.
     plan : Plan
     total : int
@@ -182,9 +182,9 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
     elif isinstance(bodies, Iterable):
         pairs = [(getattr(body, "name", "") or lazy_gettext("body {number}", number=n), body) for n, body in enumerate(bodies, start=1)]
     else:
-        raise KindError("bodies are needed: a table, files, or bodies; found {found}", found=checks.type_name(bodies))
+        raise KindError("bodies required (a table, files or body objects); found {found}", found=checks.type_name(bodies))
     if not pairs:
-        raise ParameterError("no body was named: give at least one")
+        raise ParameterError("no body given; give at least one")
     result: list[BodySpec | SolverBody] = []
     for name, body in pairs:
         if isinstance(body, (str, PathLike)):
@@ -195,7 +195,7 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
             result.append(SolverBody(name, body, {}))
         else:
             raise KindError(
-                "{solver} takes {kinds}, found {found}",
+                "{solver} takes {kinds}; found {found}",
                 solver=model.name,
                 kinds=[kind.__name__ for kind in model.kinds],
                 found=checks.type_name(body),
@@ -206,4 +206,4 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
 def ignored_column_notes(model: BatchModel, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
     """Return what is to be known of a list of bodies that says more than a solver hears."""
     ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_keys(body))
-    return (lazy_gettext("{solver} takes no notice of {columns}", columns=list(ignored), solver=model.name),) if ignored else ()
+    return (lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name),) if ignored else ()

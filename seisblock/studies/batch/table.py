@@ -64,7 +64,7 @@ class BatchTable:
     def __getitem__(self, column: str) -> list[Any]:
         """Return the cells of a column."""
         if column not in self.columns:
-            raise ParameterError("there is no column {column!r}; there are {known}", column=str(column)[:100], known=list(self.columns))
+            raise ParameterError("no column {column!r}; available: {known}", column=str(column)[:100], known=list(self.columns))
         return [row.get(column) for row in self.rows]
 
     @property

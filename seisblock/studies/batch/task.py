@@ -41,11 +41,11 @@ class Plan:
     Parameters
     ----------
     solver : str
-    bodies : tuple of Placed or Unplaced
+    bodies : tuple of SolverBody or RejectedBody
     components : tuple of str
         Codes or azimuths; all horizontals when empty; ``all-azimuths`` for the worst of all directions.
     preparation : Preparation
-    read_options : Options
+    read_options : ReadOptions
         What the caller says of files that do not say it themselves.
     runs, seed : int
         Perturbed runs behind a probability, 0 for none, and their seed.
@@ -88,12 +88,10 @@ def build_solver_bodies(
             result.append(RejectedBody(body.name, error.message))
     rejected = [item for item in result if isinstance(item, RejectedBody)]
     if rejected and len(rejected) == len(result):
-        raise ParameterError("{solver} can take none of the bodies: {reason}", solver=model.name, reason=rejected[0].reason)
+        raise ParameterError("{solver} accepts none of the bodies: {reason}", solver=model.name, reason=rejected[0].reason)
     duplicates = [name for name, count in Counter(item.name for item in result).items() if count > 1]
     if duplicates:
-        raise ParameterError(
-            "two bodies are called {name!r}, and a row of the answer could be either: rename one", name=duplicates[0][:100]
-        )
+        raise ParameterError("two bodies have the name {name!r}; rename one", name=duplicates[0][:100])
     return tuple(result)
 
 
@@ -104,7 +102,7 @@ def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
 
     Parameters
     ----------
-    recording : Recording or Record
+    recording : RecordSource or Record
     plan : Plan
     """
     columns = _record_columns(recording, plan)
@@ -143,7 +141,7 @@ def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubt
 
 def failure_row(plan: Plan, recording: RecordSource | Record, reason: str) -> list[Row]:
     """Return the row of a record that no worker of a cluster survived."""
-    return [{**_record_columns(recording, plan), REASON: lazy_gettext("every worker that took this record died: {reason}", reason=reason)}]
+    return [{**_record_columns(recording, plan), REASON: lazy_gettext("all workers that ran this record died: {reason}", reason=reason)}]
 
 
 def _record_columns(recording: RecordSource | Record, plan: Plan) -> dict[str, Any]:

@@ -26,7 +26,7 @@ def solve_vectorized(solver: str, bodies: Sequence[SolverBody], motion: Motion) 
     Parameters
     ----------
     solver : str
-    bodies : sequence of Placed
+    bodies : sequence of SolverBody
     motion : Motion
     """
     if solver not in VECTORIZED_SOLVERS:

@@ -34,13 +34,13 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
     if not is_all_azimuths(components):
         return
     if len(components) > 1:
-        raise ParameterError("{name} stands for every direction: name no component beside it", name=ALL_AZIMUTHS)
+        raise ParameterError("{name} covers all directions; give no other component", name=ALL_AZIMUTHS)
     if solver not in DIRECTIONAL_SOLVERS:
-        raise ParameterError("{solver} does not look in every direction; {known} do", solver=solver, known=list(DIRECTIONAL_SOLVERS))
+        raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=list(DIRECTIONAL_SOLVERS))
     allowed = DIRECTIONAL_SOLVERS[solver][1]
     unknown = [f"`{name}`" for name in options if name not in allowed]
     if unknown:
-        raise ParameterError("{solver} in every direction has no option {names}: leave it out", solver=solver, names=unknown)
+        raise ParameterError("{solver} in all azimuths has no option {names}; remove it", solver=solver, names=unknown)
 
 
 Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
@@ -53,7 +53,7 @@ def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst
     Parameters
     ----------
     solver : str
-    solver_body : Placed
+    solver_body : SolverBody
     record : Record
         With two horizontal components of known azimuths.
     """

@@ -46,11 +46,11 @@ class HazardCurve:
     weight: float = 1.0
 
     def __post_init__(self) -> None:
-        x = checks.float_array("the levels of a hazard curve", self.levels)
+        x = checks.float_array("the intensities of a hazard curve", self.levels)
         rate = checks.float_array("the frequencies of a hazard curve", self.rates)
         if x.ndim != 1 or x.size < 2 or rate.shape != x.shape:
             raise HazardError(
-                "a hazard curve needs two levels or more, each with its frequency; found {levels} and {rates}",
+                "a hazard curve needs at least two levels, each with a frequency; found {levels} levels and {rates} frequencies",
                 levels=x.size,
                 rates=rate.size,
             )
@@ -60,16 +60,16 @@ class HazardCurve:
         level_drops, rate_rises = np.flatnonzero(np.diff(x) <= 0.0), np.flatnonzero(np.diff(rate) > 0.0)
         if level_drops.size:
             raise HazardError(
-                "the levels of a hazard curve must rise: {level:.4g} is there twice or out of order", level=x[level_drops[0] + 1]
+                "the levels of a hazard curve must increase: {level:.4g} is duplicated or out of order", level=x[level_drops[0] + 1]
             )
         if rate_rises.size:
             raise HazardError(
-                "stronger shaking cannot be more frequent than weaker, as it is in this hazard curve from {low:.4g} to {high:.4g}",
+                "the frequencies of a hazard curve must not increase with intensity: this one rises from {low:.4g} to {high:.4g}",
                 low=x[rate_rises[0]],
                 high=x[rate_rises[0] + 1],
             )
         if rate[-1] == rate[-2]:
-            raise HazardError("this hazard curve does not fall at its end: add a stronger level, or leave out the last ones")
+            raise HazardError("the hazard curve does not decrease at its end; add a higher level or remove the last ones")
         object.__setattr__(self, "levels", x)
         object.__setattr__(self, "rates", rate)
         checks.positive("the weight of a branch", self.weight)
@@ -127,7 +127,7 @@ class Hazard:
     def __post_init__(self) -> None:
         total = sum(branch.weight for branch in self.branches)
         if not self.branches or abs(total - 1.0) > WEIGHT_SUM_TOLERANCE:
-            raise HazardError("the weights of the branches of a hazard have the sum {total:.4g}: it must be 1", total=total)
+            raise HazardError("the weights of the hazard branches must sum to 1; found {total:.4g}", total=total)
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
         """Return the mean annual frequency, 1/year, with which some intensities are exceeded."""

@@ -158,7 +158,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     """
     checks.positive("the number of years", years)
     if stood_years is not None:
-        checks.positive("the number of years in which it stood", stood_years)
+        checks.positive("the number of years without occurrence", stood_years)
     union = np.unique(np.concatenate([np.asarray(branch.levels) for branch in hazard.branches]))
     shares = [_contributions(branch.with_levels(union), fragility) for branch in hazard.branches]
     weights = np.array([branch.weight for branch in hazard.branches])
@@ -236,7 +236,7 @@ def _median_warnings(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -
     lowest, highest = float(levels[0]), float(levels[-1])
     if lowest / MAX_MEDIAN_RATIO <= fragility.median <= MAX_MEDIAN_RATIO * highest:
         return ()
-    text = "the median, {median:.4g} {unit}, is far from every level of the hazard, {least:.4g} to {most:.4g} {unit}: is its unit right?"
+    text = "the median {median:.4g} {unit} is far from all levels of the hazard ({least:.4g} to {most:.4g} {unit}); check its unit"
     return (lazy_gettext(text, median=fragility.median, unit=hazard.unit, least=lowest, most=highest),)
 
 
@@ -246,8 +246,7 @@ def _extrapolation_warnings(outside_rate: float, total: float) -> tuple[str, ...
         return ()
     return (
         lazy_gettext(
-            "{share:.0%} of the frequency comes from beyond the levels of the hazard, where its curve is continued with its slope: "
-            "more levels would tell",
+            "{share:.0%} of the frequency comes from beyond the levels of the hazard (extrapolated with the end slopes); add levels",
             share=outside_rate / total,
         ),
     )

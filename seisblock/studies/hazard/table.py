@@ -104,7 +104,7 @@ def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
     """Return the hazard of a table's text."""
     rows = data_lines(text)
     if len(rows) < 2:
-        raise HazardError("there is no hazard in it: give a header, and a line for each level")
+        raise HazardError("the table is empty; expected a header and one line per level")
     separator = find_separator(rows[0][1])
     columns = _columns(split_cells(rows[0][1], separator), measure)
     rows_by_branch: dict[str, list[_Row]] = {}
@@ -142,11 +142,9 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
     if unit not in unit_factors:
         unit_names = [*units]
         if not unit:
-            raise HazardError(
-                "the column {heading!r} has no unit: name it for example {known}", heading=heading[:40], known=COLUMN_EXAMPLES
-            )
+            raise HazardError("column {heading!r} has no unit; name it for example {known}", heading=heading[:40], known=COLUMN_EXAMPLES)
         raise HazardError(
-            "the column {heading!r} has the unknown unit {unit!r}: use one of {known}", heading=heading[:40], unit=unit, known=unit_names
+            "column {heading!r}: unknown unit {unit!r}; use one of {known}", heading=heading[:40], unit=unit, known=unit_names
         )
     return measure, unit_factors[unit]
 
@@ -168,17 +166,17 @@ def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Colum
             other_measures += [] if heading_measure is None else [heading_measure[0].name]
             ignored += [] if names[-1] or not cell else [cell]
     if not measures and other_measures and requested is not None:
-        text = "its levels are of {found}, and {im} is asked for: give a hazard in {im}, or a fragility in {found}"
+        text = "the levels are of {found}, but {im} is required; give a hazard in {im} or a fragility in {found}"
         raise HazardError(text, found=other_measures, im=requested.name)
     if len(measures) != 1:
         text = "expected one column of levels, such as {known}; found {found}"
         raise HazardError(text, known=COLUMN_EXAMPLES, found=list(measures) or list(cells))
     if len(rates) != 1:
-        text = "expected one column annual_rate, or annual_poe, or poe_50_years; found {found}"
+        text = "expected one of the columns annual_rate, annual_poe, poe_50_years; found {found}"
         raise HazardError(text, found=list(rates) or list(cells))
     if names.count("branch") > 1 or names.count("weight") > 1:
-        raise HazardError("two columns mean the same: leave one branch and one weight")
-    notes = (lazy_gettext("{columns} of the hazard were passed over", columns=ignored),) if ignored else ()
+        raise HazardError("duplicate columns: keep one branch and one weight")
+    notes = (lazy_gettext("unused columns of the hazard: {columns}", columns=ignored),) if ignored else ()
     ((measure, factor),) = measures.values()
     return _Columns(names, measure, factor, next(iter(rates.values())), notes)
 
@@ -190,7 +188,7 @@ def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
     if columns.years is None:
         rate = checks.non_negative("the annual frequency", value)
     else:
-        probability = checks.fraction("the probability of being exceeded", value)
+        probability = checks.fraction("the exceedance probability", value)
         rate = -math.log1p(-probability) / columns.years if probability < 1.0 else math.inf
     weight = parse_number_cell(cells["weight"], "weight") if cells.get("weight") else None
     return _Row(cells.get("branch", ""), level, rate, weight)
@@ -204,10 +202,10 @@ def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tupl
         dropped += len(rows) - len(used_rows)
         weights = {row.weight for row in rows if row.weight is not None}
         if len(weights) > 1:
-            raise HazardError("the branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
+            raise HazardError("branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
         weight = weights.pop() if weights else 1.0 if len(rows_by_branch) == 1 else None
         if weight is None:
-            raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
+            raise HazardError("branch {name!r} has no weight; add a column weight with one value per branch", name=name)
         try:
             rates = [row.rate for row in used_rows]
             HazardCurve(
@@ -215,6 +213,6 @@ def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tupl
             )  # refused in the numbers of the table, where there is something to refuse
             curves.append(HazardCurve([row.level for row in used_rows], rates, name, weight))
         except InputError as error:
-            raise (HazardError("the branch {name!r}: {text}", name=name, text=error.message) if name else error) from None
-    text = lazy_gettext("{count} levels of the hazard that are never, or surely, exceeded were left out", count=dropped)
+            raise (HazardError("branch {name!r}: {text}", name=name, text=error.message) if name else error) from None
+    text = lazy_gettext("{count} levels of the hazard with an exceedance probability of 0 or 1 are omitted", count=dropped)
     return tuple(curves), [text] if dropped else []

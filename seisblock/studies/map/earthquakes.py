@@ -55,4 +55,4 @@ def describe_earthquake(earthquake: Earthquake) -> str:
         return f"{origin_time:%Y-%m-%d %H:%M} UTC"
     if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
         return f"{earthquake.latitude_deg:g}, {earthquake.longitude_deg:g}"
-    return earthquake.name or lazy_gettext("one that tells no place")
+    return earthquake.name or lazy_gettext("location unknown")

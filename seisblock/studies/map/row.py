@@ -12,7 +12,7 @@ def station_row(report: StationReport) -> dict[str, Any]:
 
     Parameters
     ----------
-    report : StationAnswer
+    report : StationReport
 
     Examples
     --------

@@ -142,10 +142,10 @@ class StationBody:
     def __post_init__(self) -> None:
         if self.solver not in DISPLACEMENT_COLUMNS:
             raise ParameterError(
-                "{solver!r} follows no body at a station; {known} do", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
+                "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
             )
         if self.runs and batch_model(self.solver).chance is None:
-            raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=self.solver)
+            raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=self.solver)
 
     @property
     def name(self) -> str:
@@ -245,7 +245,7 @@ class StationCemetery:
     Parameters
     ----------
     cemetery : Cemetery
-    method : Method
+    method : AssessmentMethod
         How a stone is judged; by a criterion that needs no motion.
     step_deg : float
         Degrees between directions.
@@ -257,7 +257,7 @@ class StationCemetery:
 
     def __post_init__(self) -> None:
         if self.method.criterion == "simulate":
-            raise ParameterError("stations are judged by a criterion, furukawa or rigid: leave the simulation out")
+            raise ParameterError("stations require a closed-form criterion, furukawa or rigid; remove the simulation")
 
     @property
     def name(self) -> str:

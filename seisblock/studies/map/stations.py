@@ -62,7 +62,7 @@ class StationReport:
         The larger of the horizontal components.
     jma_intensity : float or None, 1
         None where it needs components, or samples, that are not there.
-    effect : StationEffect
+    effect : StationResult
     failure : str or None
         Why there is no answer, or no effect.
     doubts : tuple of str
@@ -117,7 +117,7 @@ class Stations:
 
     Parameters
     ----------
-    answers : tuple of StationAnswer
+    answers : tuple of StationReport
     earthquake : Earthquake or None
     origin_told : str
         When that was on the clock of the network that tells it.
@@ -155,11 +155,11 @@ def survey_stations(
     ----------
     records : path, RecordSource or Record, or several
         Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; taken as they are needed.
-    subject : StandingBody, StandingStones or None
+    subject : StationBody, StationCemetery or None
         What stands at each station; None for what was measured alone.
     preparation : Preparation
         What is done to each record before.
-    read_options : Options
+    read_options : ReadOptions
         What the caller says of files that do not say it themselves.
     strict : bool
         Whether a record about which there is any doubt has no answer.
@@ -194,9 +194,9 @@ def survey_stations(
         reference = _check_same_earthquake(reference, report)
         reports.append(report)
     if not reports and read_options.station is not None:
-        raise ParameterError("no station {station!r} among these records", station=read_options.station)
+        raise ParameterError("no station {station!r} in these records", station=read_options.station)
     if not reports:
-        raise ParameterError("there is no record: name files, folders or bundles of one earthquake")
+        raise ParameterError("no records; give files, folders or archives of one earthquake")
     reports.sort(key=lambda item: (item.pga_m_s2 is not None, *item.effect.severity, item.pga_m_s2 or 0.0), reverse=True)
     return Stations(tuple(reports), reference.earthquake if reference else None, reference.origin_told if reference else "")
 
@@ -205,7 +205,7 @@ def _recordings(records: Station | Iterable[Station], read_options: ReadOptions)
     """Yield what is read already or about to be, and what names stand for."""
     single = isinstance(records, (str, PathLike, RecordSource, Record))
     if not single and not isinstance(records, Iterable):
-        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(records))
+        raise KindError("expected names or records of stations, found {found}", found=checks.type_name(records))
     sources: Iterable[Any] = [records] if single else records  # type: ignore[assignment]
     for is_name, group in groupby(sources, key=lambda source: isinstance(source, (str, PathLike))):
         if is_name:
@@ -227,7 +227,7 @@ def _assess_station(
 ) -> StationReport | None:
     """Return the answer of one station, None for one that was not asked for."""
     if not isinstance(recording, (RecordSource, Record)):
-        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(recording))
+        raise KindError("expected names or records of stations, found {found}", found=checks.type_name(recording))
     name = recording.name if isinstance(recording, RecordSource) else recording.source.rsplit("/", 1)[-1]
     try:
         record = recording.read(reading) if isinstance(recording, RecordSource) else recording
@@ -292,7 +292,7 @@ def _check_same_earthquake(reference: StationReport | None, report: StationRepor
         return reference if report.earthquake is None else report
     if are_different_earthquakes(reference.earthquake, report.earthquake):
         raise ParameterError(
-            "these records are of two earthquakes: {one} ({first}) and {other} ({second}): give those of one",
+            "records of two earthquakes: {one} ({first}) and {other} ({second}); give the records of one",
             one=describe_earthquake(reference.earthquake),
             first=reference.label,
             other=describe_earthquake(report.earthquake),

@@ -30,12 +30,12 @@ COLUMNS = {
 """Headings of a list of surveys."""
 
 STATION_CONTRADICTION = N_(
-    "{place} and station {station}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} by the stones, "
-    "{intensity:.1f} measured"
+    "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} by the "
+    "stones, {intensity:.1f} measured"
 )
 PLACE_CONTRADICTION = N_(
-    "{one} and {other}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} and {lower:.1f} to {higher:.1f} by their "
-    "stones"
+    "{one} and {other} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} and {lower:.1f} to "
+    "{higher:.1f} by the stones"
 )
 
 MAX_NEIGHBOURS = 3
@@ -126,7 +126,10 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
     missing = [key for key, index in column_indices.items() if index is None]
     if missing:
         raise BodyError(
-            "{name}: a list of surveys needs the columns {columns}; it lacks {missing}", name=path, columns=list(COLUMNS), missing=missing
+            "{name}: a list of surveys requires the columns {columns}; missing: {missing}",
+            name=path,
+            columns=list(COLUMNS),
+            missing=missing,
         )
     result = [
         _place(
@@ -138,7 +141,7 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
         if any(cell.strip() for cell in row)
     ]
     if not result:
-        raise BodyError("{name}: the list of surveys names no place", name=path)
+        raise BodyError("{name}: the list of surveys is empty", name=path)
     return tuple(result)
 
 
@@ -149,7 +152,7 @@ def _text(path: Path, data: bytes) -> str:
             return data.decode(encoding)
         except UnicodeDecodeError:
             continue
-    raise BodyError("{name} is not text (neither UTF-8 nor Shift-JIS)", name=path)
+    raise BodyError("{name} is not a text file (neither UTF-8 nor Shift-JIS)", name=path)
 
 
 def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
@@ -161,11 +164,11 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
         raise BodyError("{name}, line {line}: expected degrees and whole numbers of stones, found {found}", name=path, line=line,
                         found=list(cells.values())) from None  # fmt: skip
     if valid_coordinates(latitude, longitude) is None:
-        raise BodyError("{name}, line {line}: {place} lies at {latitude}, {longitude}, which is not on the Earth", name=path, line=line,
+        raise BodyError("{name}, line {line}: {place}: {latitude}, {longitude} is not a valid position", name=path, line=line,
                         place=cells["place"], latitude=latitude, longitude=longitude)  # fmt: skip
     if not 0 <= fallen <= stones or stones == 0:
         raise BodyError(
-            "{name}, line {line}: {fallen} of {stones} stones cannot have fallen", name=path, line=line, fallen=fallen, stones=stones
+            "{name}, line {line}: {fallen} of {stones} stones overturned is impossible", name=path, line=line, fallen=fallen, stones=stones
         )
     return SurveyedPlace(cells["place"] or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
 
@@ -222,7 +225,7 @@ def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
 
     Parameters
     ----------
-    answers : sequence of SurveyAnswer
+    answers : sequence of SurveyComparison
     """
     messages: list[str] = []
     for answer in answers:
