@@ -1,4 +1,4 @@
-"""What ``seisblock batch`` answers beside its table: how often it happened to each body."""
+"""JSON document of ``seisblock batch``: event counts of each body."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.studies.batch.task import Plan
 
 
 class BatchParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class BatchParameters(Struct, frozen=True, kw_only=True):
 
 
 class BatchEntry(Result, frozen=True, kw_only=True):
-    """One body.
+    """Counts of one body.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ BATCH = DocumentSchema("batch", BatchParameters, BatchEntry, TOTALS)
 
 
 def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
-    """Return the document of a batch that is done."""
+    """Return the document of a finished batch."""
     entries = (
         (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.happened))
         for c in tally.ranked()

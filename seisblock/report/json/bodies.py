@@ -1,4 +1,4 @@
-"""What stands there, as a document says it: the unit in each key."""
+"""JSON entries of the bodies."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
 
 
 def block_entry(block: Block) -> BlockEntry:
-    """Return what defines a block."""
+    """Return the entry of a block."""
     right, left = block.slendernesses
     return BlockEntry(
         name=block.name,
@@ -86,7 +86,7 @@ class TwoLayerEntry(Struct, frozen=True, kw_only=True):
 
 
 def two_layer_entry(block: TwoLayerBlock) -> TwoLayerEntry:
-    """Return what defines a two-layer block."""
+    """Return the entry of a two-layer block."""
     return TwoLayerEntry(
         name=block.name,
         width_m=block.width,
@@ -129,7 +129,7 @@ class SpringBlockEntry(Struct, frozen=True, kw_only=True):
 
 
 def spring_block_entry(body: SpringBlock) -> SpringBlockEntry:
-    """Return what defines a block on corner springs."""
+    """Return the entry of a block on corner springs."""
     return SpringBlockEntry(
         width_m=body.width,
         depth_m=body.depth,
@@ -205,7 +205,7 @@ class PileEntry(Struct, frozen=True, kw_only=True):
 
 
 def pile_entry(pile: Pile) -> PileEntry:
-    """Return what defines a pile."""
+    """Return the entry of a pile."""
     stones = tuple(
         StoneEntry(
             name=stone.name,
@@ -252,7 +252,7 @@ class PileContactEntry(Struct, frozen=True, kw_only=True):
 
 
 def pile_contact_entry(contact: PileContact) -> PileContactEntry:
-    """Return how the stones press on each other."""
+    """Return the entry of the spring contact of a pile."""
     return PileContactEntry(
         normal_per_s2=contact.normal,
         shear_per_s2=contact.shear,

@@ -1,4 +1,4 @@
-"""What ``seisblock body`` answers."""
+"""JSON document of ``seisblock body``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from seisblock.report.json.schema import Document, DocumentSchema, Result
 
 
 class BodyParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class BodyParameters(Struct, frozen=True, kw_only=True):
 
 
 class ScanResult(Result, frozen=True, kw_only=True):
-    """One scanned body; x and y are the scan's, z is above the ground.
+    """One scanned body; x and y as in the scan, z above the ground.
 
     Parameters
     ----------
@@ -140,5 +140,4 @@ def document(scan: Scan, directions: list[ScanAzimuth], *, step_deg: float, grav
 
 
 def _finite_or_none(value: float) -> float | None:
-    """Return a number, None for one that is none."""
     return None if math.isnan(value) else value

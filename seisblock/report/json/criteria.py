@@ -1,4 +1,4 @@
-"""What ``seisblock criteria`` answers."""
+"""JSON document of ``seisblock criteria``."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from seisblock.studies.model_comparison import ModelComparison
 
 
 class CriteriaParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ SIMULATED: Any = entry_type("Simulated", RockOutcome, extra={"agreement": AGREEM
 
 
 class RespondEntry(Struct, frozen=True, kw_only=True):
-    """What the body does with all of its motions together, as ``seisblock respond`` answers.
+    """Full response of the body as in ``seisblock respond``.
 
     Parameters
     ----------
@@ -81,7 +81,6 @@ class RespondEntry(Struct, frozen=True, kw_only=True):
 
 
 def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
-    """Return what the body does with all of its motions together, where that was asked."""
     if card.governing is None:
         return None
     outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
@@ -100,7 +99,7 @@ def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
 
 
 class CriteriaResult(Result, frozen=True, kw_only=True):
-    """One direction.
+    """Result of one direction.
 
     Parameters
     ----------
@@ -129,7 +128,7 @@ CRITERIA = DocumentSchema("criteria", CriteriaParameters, CriteriaResult)
 
 
 def document(cards: Sequence[CriteriaComparison], options: Mapping[str, Any], *, gravity: float) -> Document:
-    """Return the document of one card per direction."""
+    """Return the document of the criteria comparisons of each direction."""
     first = cards[0]
     parameters = CriteriaParameters(
         **options, gravity_m_s2=gravity, block=block_entry(first.block), velocity_highpass_hz=first.velocity_highpass_hz

@@ -1,4 +1,4 @@
-"""What ``seisblock fit`` answers: what is known of each parameter, how well it foretells, and each outcome."""
+"""JSON document of ``seisblock fit``: parameters, prediction scores and outcomes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ UNITS = {ALPHA: "rad", TURNING_ALPHA: "rad", FREQUENCY: "rad/s", TURNING_P: "rad
 
 
 class FixedEntry(Struct, frozen=True, kw_only=True):
-    """What was not looked for; null where it was.
+    """Parameters held fixed; null for fitted ones.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class FixedEntry(Struct, frozen=True, kw_only=True):
 
 
 class FitParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ class FitParameters(Struct, frozen=True, kw_only=True):
 
 
 class FitResult(Result, frozen=True, kw_only=True):
-    """What is known of one parameter.
+    """Posterior of one parameter.
 
     Parameters
     ----------
@@ -199,7 +199,6 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
 
 
 def _outcome_entries(fit: BlockFit) -> list[OutcomeEntry]:
-    """Return the outcomes, one by one."""
     held_out = [None] * len(fit.probability) if fit.probability_held_out is None else fit.probability_held_out.tolist()
     return [
         OutcomeEntry(

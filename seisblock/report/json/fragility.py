@@ -1,4 +1,4 @@
-"""What ``seisblock fragility`` answers: curves, and what they rest on."""
+"""JSON document of ``seisblock fragility``: curves and their basis."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 
 CITATION_TOPICS = {"respond": "all modes", "rock": "rocking", "slide": "sliding", "stack": "pile"}
-"""What the runs of each solver rest on."""
+"""Citation topics of each solver."""
 
 
 class FragilityBody(Struct, frozen=True, kw_only=True):
-    """What stands there.
+    """One body.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class CurveEntry(Struct, frozen=True, kw_only=True):
 
 
 class FragilityParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def document(
     compare: Lognormal | None = None,
     notes: Sequence[str] = (),
 ) -> Document:
-    """Return the document of some curves.
+    """Return the document of fragility curves.
 
     Parameters
     ----------
@@ -150,7 +150,6 @@ def document(
 
 
 def _body_entry(body: SolverBody) -> FragilityBody:
-    """Return what stands there."""
     block = block_entry(body.body) if isinstance(body.body, Block) else None
     mu, kinetic = (body.options.get(key, getattr(body.body, key, None)) for key in ("mu", "mu_kinetic"))
     return FragilityBody(name=body.name, block=block, mu=mu, mu_kinetic=kinetic)

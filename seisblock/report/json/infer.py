@@ -1,4 +1,4 @@
-"""What ``seisblock infer`` answers: shaking from stones, or factors on records from a displacement."""
+"""JSON documents of ``seisblock infer``: ground motion from stones, or scale factors from a displacement."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.studies.survey.scale_search import ScaleFactors
 
 
 class StonesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class StonesParameters(Struct, frozen=True, kw_only=True):
 
 
 class SlidParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ Windows = tuple[tuple[float | None, float | None], ...]
 
 
 class JumpedParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class JumpedParameters(Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class ScanPoint:
-    """The displacement at one factor on the record."""
+    """Displacement at one scale factor."""
 
     scale: float
     displacement_m: float
@@ -161,7 +161,7 @@ def stones_document(
     warnings: Sequence[str],
     joint: Sequence[JointEstimate] = (),
 ) -> Document:
-    """Return the document of what fallen stones say of the shaking."""
+    """Return the document of the ground motion inferred from stones."""
     entries = ((None, to_entry(STONES_RESULT, estimate)) for estimate in estimates)
     stones = "gravestones as blocks" if parameters.criterion == "rigid" else "gravestones as fitted"
     citations = papers(stones, "intensity of a velocity")
@@ -169,18 +169,17 @@ def stones_document(
 
 
 def slid_document(factors: RecordFactors, **options: Any) -> Document:
-    """Return the document of every factor at which an object slides so far; `chosen` are the parameters."""
+    """Return the document of the scale factors that reproduce a slip; `options` are the parameters."""
     return SLID.document(SlidParameters(**options), _factor_entries(factors), citations=papers("sliding"))
 
 
 def jumped_document(factors: RecordFactors, block: TwoLayerBlock, contact: Contact, **options: Any) -> Document:
-    """Return the document of every factor at which a two-layer block is displaced so far; `chosen` are the other parameters."""
+    """Return the document of the scale factors that reproduce a jump; `options` are the other parameters."""
     parameters = JumpedParameters(**options, block=two_layer_entry(block), contact=contact)
     return JUMPED.document(parameters, _factor_entries(factors), citations=papers("jump"))
 
 
 def _factor_entries(factors: RecordFactors) -> Any:
-    """Return the factors as results."""
     return (
         (record, to_entry(FACTORS_RESULT, factor, curve=tuple(ScanPoint(s, d) for s, d in zip(*factor.curve, strict=True))))
         for record, factor in factors

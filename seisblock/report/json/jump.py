@@ -1,4 +1,4 @@
-"""What ``seisblock jump`` answers."""
+"""JSON document of ``seisblock jump``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seisblock.report.json.schema import Document, DocumentSchema
 
 
 class JumpParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What ``seisblock cite`` and ``seisblock samples`` answer."""
+"""JSON documents of ``seisblock cite`` and ``seisblock samples``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from seisblock.samples import Sample, sample_directory
 
 
 class CiteParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class CiteParameters(Struct, frozen=True, kw_only=True):
 
 
 class SamplesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ SAMPLES = DocumentSchema("samples", SamplesParameters, SampleResult)
 
 
 def cite_document(command: str | None, references: Sequence[Reference], keys: Sequence[str]) -> Document:
-    """Return the document of some references."""
+    """Return the document of references."""
     entries = ((None, to_entry(REFERENCE_RESULT, reference, text=reference.text(), bibtex=reference.bibtex())) for reference in references)
     return CITE.document(CiteParameters(command=command), entries, citations=keys)
 

@@ -1,4 +1,4 @@
-"""What ``seisblock map`` answers: an earthquake's stations, and what each did."""
+"""JSON document of ``seisblock map``: stations of an earthquake with their results."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from seisblock.studies.map.surveyed_places import SurveyComparison, contradictio
 
 
 class MapParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ class NeighbourEntry(Struct, frozen=True, kw_only=True):
 
 
 class SurveyEntry(Struct, frozen=True, kw_only=True):
-    """A surveyed place beside the stations around it.
+    """A surveyed place with the stations around it.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ DATES_APART = N_("the records begin {days:.0f} days apart, {first} ({one}) and {
 def document(
     stations: Stations, model: StationModel | None, surveys: Sequence[SurveyComparison] = (), *, upstairs: bool = False
 ) -> Document:
-    """Return the document of an earthquake's stations, the worst first.
+    """Return the document of the stations of an earthquake, largest response first.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ def document(
 
 
 def survey_entry(answer: SurveyComparison) -> SurveyEntry:
-    """Return a surveyed place as documents tell it."""
+    """Return the entry of a surveyed place."""
     survey, estimate = answer.surveyed, answer.estimate
     return SurveyEntry(
         place=survey.place,
@@ -218,7 +218,7 @@ def survey_entry(answer: SurveyComparison) -> SurveyEntry:
 
 
 def warnings(stations: Stations) -> list[str]:
-    """Return what is to be known of some stations, a sentence each: no answer, no place, other days; how many records are doubtful."""
+    """Return warnings on stations: no result, no coordinates, different dates, number of records with warnings."""
     texts: list[str] = _date_warnings(stations)
     texts += [_failure_text(answer) for answer in stations.answers if answer.failure]
     texts += [
@@ -231,7 +231,7 @@ def warnings(stations: Stations) -> list[str]:
 
 
 def _date_warnings(stations: Stations) -> list[str]:
-    """Return that some records began on other days than others, which no header of an earthquake tells."""
+    """Return a warning if records without earthquake header begin on different days."""
     starts = sorted(((answer.start, answer) for answer in stations.answers if answer.start is not None), key=lambda pair: pair[0])
     if not starts or starts[-1][0] - starts[0][0] <= ONE_DAY:
         return []
@@ -243,6 +243,6 @@ def _date_warnings(stations: Stations) -> list[str]:
 
 
 def _failure_text(answer: StationReport) -> str:
-    """Return why a station has no answer, its file or its name said once."""
+    """Return the reason of a missing result, prefixed by station or file once."""
     failure = answer.failure or ""
     return failure if answer.record in failure else lazy_gettext(FAILED, station=answer.label, failure=failure)

@@ -1,4 +1,4 @@
-"""What ``seisblock measure`` answers."""
+"""JSON document of ``seisblock measure``."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from seisblock.report.json.schema import Document, DocumentSchema
 
 
 class MeasureParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ EXTRA_KEYS = {
     ],
     "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="The longest horizontal vector.")],
 }
-"""What belongs to a record, not to a component; lists where there are several records."""
+"""Keys of the record rather than of a component; lists for several records."""
 
 MEASURE_RESULT = entry_type("MeasureResult", ComponentMeasures)
 MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEYS)
@@ -61,7 +61,7 @@ MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEY
 def document(
     records: Sequence[Record], answers: Sequence[RecordMeasures], conventions: Conventions, *, threshold: float, threshold_from: str
 ) -> Document:
-    """Return the document of some records: one result per component; what belongs to a record stands beside them."""
+    """Return the document of records: one result per component, record keys beside the results."""
     entries = [
         (r, to_entry(MEASURE_RESULT, component)) for r, measures in zip(records, answers, strict=True) for component in measures.components
     ]

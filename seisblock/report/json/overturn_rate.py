@@ -1,4 +1,4 @@
-"""What ``seisblock overturn-rate`` answers: rates of some shakings, or the curve alone."""
+"""JSON document of ``seisblock overturn-rate``: rates of given motions, or the curve."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from seisblock.studies.survey.overturning_rate import CurvePoint
 
 
 class RateParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class RateParameters(Struct, frozen=True, kw_only=True):
 
 
 class CurveResult(Result, frozen=True, kw_only=True):
-    """The rate against PGA, where no shaking was named."""
+    """Rate against PGA without given motions."""
 
     curve: tuple[CurvePoint, ...]
 
@@ -73,7 +73,7 @@ CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE
 
 
 def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, frequency_kind: str) -> RateParameters:
-    """Return everything that determines the answer."""
+    """Return all parameters that determine the result."""
     rules = Conventions()
     return RateParameters(
         cemetery=stones.source,
@@ -101,7 +101,7 @@ def document(
     citations: Sequence[str],
     warnings: Sequence[str],
 ) -> Document:
-    """Return the document of some rates, or of the curve where no shaking was named."""
+    """Return the document of rates, or of the curve without given motions."""
     points = tuple(curve)
     if not groups:
         return CURVE_ALONE.document(parameters, [(None, CurveResult(curve=points))], citations=citations, warnings=warnings, curve=points)

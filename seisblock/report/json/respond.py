@@ -1,4 +1,4 @@
-"""What ``seisblock respond`` answers."""
+"""JSON document of ``seisblock respond``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from seisblock.studies.respond.probability import Probability
 
 
 class RespondParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ RESPOND = DocumentSchema("respond", RespondParameters, RESPOND_RESULT)
 
 
 def document(responses: Sequence[Response[RespondOutcome]], block: Block, extras: Sequence[Mapping[str, Any]]) -> Document:
-    """Return the document of one run per direction, with its probability and the directions that were looked in."""
+    """Return the document of one run per direction, with probability and azimuth sweep."""
     return RESPOND.document(
         RespondParameters(**{**responses[0].options, "vertical": bool(responses[0].options["vertical"])}, block=block_entry(block)),
         (to_outcome_entry(RESPOND_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),

@@ -1,4 +1,4 @@
-"""What ``seisblock risk`` answers: how often it happens at a site."""
+"""JSON document of ``seisblock risk``: annual frequency at a site."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class HazardBranch(Struct, frozen=True, kw_only=True):
 
 
 class RiskParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ RISK = DocumentSchema("risk", RiskParameters, RISK_RESULT)
 
 
 def document(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, source: str) -> Document:
-    """Return the document of some risks at one site.
+    """Return the document of risks at one site.
 
     Parameters
     ----------
@@ -97,7 +97,6 @@ def document(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, sourc
 
 
 def _branch(index: int, weight: float, hazard: Hazard) -> HazardBranch:
-    """Return one branch with its weight."""
     curve = hazard.branches[index]
     levels, rates = (tuple(float(value) for value in row) for row in map(np.asarray, (curve.levels, curve.rates)))
     return HazardBranch(branch=curve.name, weight=weight, levels=levels, annual_rates=rates)

@@ -1,4 +1,4 @@
-"""What ``seisblock rock`` answers."""
+"""JSON document of ``seisblock rock``."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from seisblock.studies.rocking.perturb import Perturbation
 
 
 class RockParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def document(
     margin_limit: float | None = None,
     mu: float | None = None,
 ) -> Document:
-    """Return the document of one run per direction, and of the margin and the perturbation that were looked for around each."""
+    """Return the document of one run per direction, with margin and perturbation."""
     options = responses[0].options
     return ROCK.document(
         RockParameters(**{**options, "vertical": bool(options["vertical"])}, block=block_entry(block), margin_limit=margin_limit, mu=mu),

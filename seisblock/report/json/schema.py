@@ -1,4 +1,4 @@
-"""What a document is made of: a command, and the types of its parameters and results."""
+"""Document schemas: command, parameter type, result type and record entries."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.report.json.versions import schema_name
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
-    """One answer, ready to be written.
+    """One document ready to be written.
 
     Its type is made by a :class:`DocumentSchema`; ``schema``, the first key, names the command and the version of the keys.
     """
@@ -36,12 +36,12 @@ class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisb
 
     @property
     def command(self) -> str:
-        """The command that answers so."""
+        """Name of the command."""
         return str(type(self).__struct_config__.tag).split("/")[1]
 
 
 class EarthquakeEntry(Struct, frozen=True, kw_only=True):
-    """What shook, as far as the record's file says.
+    """Earthquake of a record, as far as its file contains it.
 
     Parameters
     ----------
@@ -64,13 +64,12 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
 
 
 def _record_earthquake(record: Record) -> EarthquakeEntry | None:
-    """Return what shook, or None where the file does not say."""
     earthquake = get_earthquake(record)
     return None if earthquake is None else earthquake_entry(earthquake)
 
 
 def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
-    """Return what shook, as documents tell it."""
+    """Return the entry of an earthquake."""
     return EarthquakeEntry(
         origin_time=earthquake.origin_time.isoformat() if earthquake.origin_time else None,
         latitude_deg=earthquake.latitude_deg,
@@ -82,7 +81,7 @@ def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
 
 
 class RecordEntry(Struct, frozen=True, kw_only=True):
-    """What identifies a record.
+    """Identification of a record.
 
     Parameters
     ----------
@@ -137,7 +136,7 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
 
 
 def record_entry(record: Record) -> RecordEntry:
-    """Return what identifies a record."""
+    """Return the entry of a record."""
     site = get_site(record)
     return RecordEntry(
         station=record.station,
@@ -168,17 +167,17 @@ class Result(Struct, frozen=True, kw_only=True):
 
 
 def is_optional(kind: Any) -> bool:
-    """Whether a key of this type is missing from documents in which it says nothing."""
+    """Return whether a key of this type may be absent from documents."""
     return UnsetType in getattr(kind, "__args__", ())
 
 
 RecordResult = tuple[Record | None, Result]
-"""A result, and the record it is of."""
+"""A result with its record."""
 
 
 @dataclass(frozen=True)
 class DocumentSchema:
-    """One kind of document.
+    """Definition of one kind of document.
 
     Parameters
     ----------
@@ -199,12 +198,12 @@ class DocumentSchema:
 
     @property
     def schema(self) -> str:
-        """What stands under the key ``schema``."""
+        """Value of the key ``schema``."""
         return schema_name(self.command)
 
     @cached_property
     def type(self) -> type[Document]:
-        """The type of such documents; its fields are the keys."""
+        """Struct type of the document; its fields are the keys."""
         fields = {
             "version": Annotated[str, Meta(description="Of seisblock.")],
             "record": Annotated[
@@ -232,7 +231,7 @@ class DocumentSchema:
         upstairs: bool = False,
         **extra: Any,
     ) -> Document:
-        """Return the document of some results; with several records each result says which it is of.
+        """Return the document of results; with several records each result holds its record index.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What ``seisblock spectrum`` answers: blocks of all sizes, or all frictions."""
+"""JSON documents of ``seisblock spectrum``: block sizes and slendernesses, or friction coefficients."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.studies.sliding import SlidePoint
 
 
 class RockingParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class RockingParameters(Struct, frozen=True, kw_only=True):
 
 
 class SlidingParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class SlidingParameters(Struct, frozen=True, kw_only=True):
 
 
 class RockingResult(Result, frozen=True, kw_only=True):
-    """One direction: axes, and matrices with a row per size and a column per slenderness.
+    """Result of one direction: axes, and matrices with a row per size and a column per slenderness.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class RockingResult(Result, frozen=True, kw_only=True):
 
 
 class SlidingResult(Result, frozen=True, kw_only=True):
-    """One direction.
+    """Result of one direction.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ class SlidingResult(Result, frozen=True, kw_only=True):
 
 
 class ModesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ class InitiationEntry(Struct, frozen=True, kw_only=True):
 
 
 class ModesResult(Result, frozen=True, kw_only=True):
-    """One direction: axes, and matrices with a row per block and a column per friction.
+    """Result of one direction: axes, and matrices with a row per block and a column per friction.
 
     Parameters
     ----------
@@ -213,12 +213,11 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
 
 
 def _to_list(values: FloatArray | None) -> Any:
-    """Return an array as a list, nothing for none."""
     return UNSET if values is None else values.tolist()
 
 
 def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, gravity: float, vertical: bool) -> Document:
-    """Return the document of slips against friction, one curve per direction."""
+    """Return the document of sliding spectra, one per direction."""
     entries = (
         (
             motion.record,
@@ -238,7 +237,7 @@ def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, g
 def modes_document(
     maps: Sequence[tuple[Motion, ModeMap]], *, gravity: float, restitution: float, inset: EdgeWear, vertical: bool
 ) -> Document:
-    """Return the document of maps of modes, one per direction."""
+    """Return the document of mode maps, one per direction."""
     entries = (
         (
             motion.record,

@@ -1,4 +1,4 @@
-"""What ``seisblock stack`` answers: a pile under a record, or the criterion study."""
+"""JSON documents of ``seisblock stack``: a pile under a record, or the criterion study."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from seisblock.studies.respond.pile_probability import PileProbability
 
 
 class StackParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class StackParameters(Struct, frozen=True, kw_only=True):
 
 
 class StudyParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen for the criterion study.
+    """Parameters of the criterion study.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class PublishedEntry(Struct, frozen=True, kw_only=True):
 
 
 class ScaledEntry(Struct, frozen=True, kw_only=True):
-    """One record, scaled, and the thresholds found with it."""
+    """One scaled record and its thresholds."""
 
     record: str
     thresholds: tuple[Threshold, ...]
@@ -156,7 +156,7 @@ STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion")
 def document(
     responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, extras: Sequence[Mapping[str, Any]]
 ) -> Document:
-    """Return the document of one run per direction, with what its models and its versions say; a contact of None is rigid."""
+    """Return the document of one run per direction, with model comparison and probability; a contact of None is rigid."""
     options: dict[str, Any] = {**responses[0].options, "base": effective_base(responses[0])}
     if contact is None and options["law"] == SPRINGS:
         contact = PileContact()  # where rigid stones created energy
@@ -184,7 +184,7 @@ def study_document(
     gravity: float,
     grid: int,
 ) -> Document:
-    """Return the document of the criterion study, of levels of one rigid block, and of thresholds of scaled records by their names."""
+    """Return the document of the criterion study, with levels of one rigid block and thresholds of scaled records."""
     fit, equation = furukawa_fit(reinforced)
     result = StudyResult(
         thresholds=study.thresholds,

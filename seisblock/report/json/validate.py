@@ -1,4 +1,4 @@
-"""What ``seisblock validate`` answers."""
+"""JSON document of ``seisblock validate``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.validation.case import CaseResult, count_verdicts, count_verdicts
 
 
 class ValidateParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ VALIDATE = DocumentSchema("validate", ValidateParameters, CaseEntry, COUNT_KEYS)
 
 
 def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
-    """Return the document of the evidence: what fails first, then what differs."""
+    """Return the document of the evidence: failures first, then differences."""
     papers = tuple(dict.fromkeys(result.case.paper for result in results))
     entries = (
         (

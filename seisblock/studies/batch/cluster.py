@@ -1,4 +1,4 @@
-"""A batch on a Dask scheduler: each record with all its rows is a task, so that a task takes seconds and travels once."""
+"""Batch on a Dask scheduler: one task per record with all its rows, so that transfer costs are small."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 LOCAL_PREFIX = "local:"
-"""What the name of a cluster of this machine's own processes begins with."""
+"""Prefix of cluster names with processes on this machine."""
 
 CONNECT_TIMEOUT_S = 10
-"""How long a scheduler may take to answer."""
+"""Connection timeout, s."""
 
 TASKS_PER_THREAD = 4
-"""Tasks handed out for each thread of the workers: enough that none waits, few enough that memory stays flat."""
+"""Submitted tasks per worker thread: keeps workers busy at bounded memory."""
 
 POLL_INTERVAL_S = 1.0
-"""How often a scheduler is asked how many threads its workers have: they come and go, and each question is a round trip."""
+"""Interval between queries of the number of worker threads, s; each one is a round trip."""
 
 QUIET_DASK_CONFIG = {
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.system-monitor.interval": "5s",
     "distributed.worker.profile.enabled": False,
 }
-"""How seldom the processes started here look at themselves: by default fifty to a hundred times a second, and nobody reads it."""
+"""Slower self-monitoring of local processes; the default is 50 to 100 times per second."""
 
 
 @contextmanager
 def connect(address: str) -> Iterator[Client]:
-    """Give a client of a scheduler, or of processes started here that end with the block.
+    """Context manager of a client of a scheduler, or of local processes closed at exit.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def connect(address: str) -> Iterator[Client]:
 
 
 def _process_count(address: str) -> int:
-    """Return how many processes ``local:N`` asks for."""
+    """Return the number of processes of ``local:N``."""
     number = address[len(LOCAL_PREFIX) :]
     if not number.isdecimal() or not 1 <= int(number) <= 512:
         raise ParameterError("a local cluster is given as local:N with N from 1 to 512; found {address}", address=address[:200])
@@ -94,7 +94,7 @@ def _process_count(address: str) -> int:
 def map_cluster(
     client: Client, work: Callable[[Task], Result], tasks: Iterable[Task], *, on_lost: Callable[[Task, str], Result]
 ) -> Generator[Result, None, None]:
-    """Yield the answers of many tasks, in their order; those of a worker that dies are done by another.
+    """Yield the results of tasks in their order; tasks of dead workers are repeated on others.
 
     Parameters
     ----------
@@ -145,12 +145,12 @@ def map_cluster(
 
 
 def _pickled_result(work: Callable[[Task], Result], task: Task) -> bytes:
-    """Return the answer of a task as bytes: rows that Dask sees into travel one by one."""
+    """Return the result of a task as bytes; Dask would otherwise serialise each row separately."""
     return pickle.dumps(work(task))
 
 
 def _wait_for_result(client: Client, future: Any) -> tuple[Any, str]:
-    """Return the answer of a task, or why it has none: every worker that took it died."""
+    """Return the result of a task, or the reason of its failure if all its workers died."""
     from distributed import KilledWorker
 
     try:
@@ -162,5 +162,5 @@ def _wait_for_result(client: Client, future: Any) -> tuple[Any, str]:
 
 
 def _is_disconnected(client: Client, error: BaseException) -> bool:
-    """Return whether an error tells of a scheduler that is gone, of which no task is to blame."""
+    """Return whether an error means a lost scheduler rather than a failed task."""
     return client.status != "running" or getattr(error, "reason", "") == "scheduler-connection-lost"

@@ -1,4 +1,4 @@
-"""Running a batch: one record after another on all cores, or as tasks of a cluster that is there already."""
+"""Batch execution on local threads or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 NO_PROCESSING = Preparation()
-"""Nothing is done to a record but what its format needs."""
+"""Default preparation: only the processing required by the format."""
 
 Bodies: TypeAlias = "Location | Mapping[str, Any] | Iterable[Any]"
 
@@ -47,7 +47,7 @@ def run_batch(
     progress: Progress | None = None,
     **options: Any,
 ) -> BatchTable:
-    """Return what many records do to many bodies: a row for each record, component and body.
+    """Return the results of records and bodies: a row for each record, component and body.
 
     A record that cannot be read, a component that it lacks and a body that the solver refuses are rows with a reason.
 
@@ -110,7 +110,7 @@ def make_plan(
     seed: int = 0,
     strict: bool = False,
 ) -> tuple[Plan, tuple[str, ...]]:
-    """Return what is done with each record of a batch, and what is to be known of it; see :func:`run_batch`."""
+    """Return the plan of a batch and its warnings; see :func:`run_batch`."""
     model = batch_model(solver)
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
@@ -162,7 +162,7 @@ def iter_record_rows(
 
 
 def _tasks(records: Location | Record | Iterable[Location | Record], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
-    """Yield the records of a batch: those that were read already, and those that names stand for."""
+    """Yield record sources and records of a batch."""
     sources: Iterable[Location | Record] = [records] if isinstance(records, (str, PathLike, Record)) else records
     for kind, group in groupby(sources, key=lambda source: isinstance(source, Record)):
         if kind:
@@ -172,7 +172,7 @@ def _tasks(records: Location | Record | Iterable[Location | Record], read_option
 
 
 def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBody]:
-    """Return the bodies of a batch with their names; those that are given as they are take every option as it is given."""
+    """Return the bodies of a batch with their names; given body objects take all options unchanged."""
     if isinstance(bodies, (str, PathLike)):
         return list(read_bodies(str(bodies)))
     if isinstance(bodies, model.kinds):
@@ -204,6 +204,6 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
 
 
 def ignored_column_notes(model: BatchModel, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
-    """Return what is to be known of a list of bodies that says more than a solver hears."""
+    """Return warnings on columns of the list of bodies that the solver does not use."""
     ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_keys(body))
     return (lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name),) if ignored else ()

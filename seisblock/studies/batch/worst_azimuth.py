@@ -1,4 +1,4 @@
-"""``all-azimuths`` in a batch: each body in every direction of each record, and the answer for the worst, as single commands have it."""
+"""``all-azimuths`` in a batch: worst azimuth of each body and record, as in the single commands."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from seisblock.studies.sliding import slide_study, worst_directions
 
 
 def is_all_azimuths(components: Sequence[str]) -> bool:
-    """Return whether every direction is asked for."""
+    """Return whether all azimuths are requested."""
     return any(name.lower() == ALL_AZIMUTHS for name in components)
 
 
 def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[str, Any]) -> None:
-    """Refuse what does not go with every direction.
+    """Raise for components and options incompatible with all azimuths.
 
     Raises
     ------
@@ -44,11 +44,11 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
 
 
 Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
-"""A direction, in how many it was looked for, and what is to be known of them."""
+"""Worst direction, counts of directions, and warnings."""
 
 
 def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst:
-    """Return the direction in which a record is worst for a body, and in how many it was looked for.
+    """Return the worst direction of a record for a body, and the number of directions.
 
     Parameters
     ----------
@@ -61,23 +61,20 @@ def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst
 
 
 def _worst_rock(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at a block that rocks."""
     return _counted(rock_directions(solver_body.body, record, **solver_body.options))
 
 
 def _worst_respond(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at a free-standing body."""
     return _counted(respond_directions(solver_body.body, record, **solver_body.options))
 
 
 def _counted(found: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
-    """Count the directions that have an answer, the worst of which comes first, and those in which the body falls."""
+    """Return the number of directions with a result (the worst first) and of those with overturning."""
     fallen, answered = sum(each.overturned for each in found), sum(not each.gave_up for each in found)
     return f"{found[0].azimuth_deg:g}", {DIRECTIONS: answered, FALLEN_DIRECTIONS: fallen}, left_out_directions(found)
 
 
 def _worst_slide(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at an object that slides."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
     motions = [motion_of(record, f"{azimuth:g}") for azimuth in sweep_azimuths(base)]
     points = slide_study(
@@ -99,4 +96,4 @@ DIRECTIONAL_SOLVERS: dict[str, tuple[Callable[[SolverBody, Record], Worst], tupl
     "rock": (_worst_rock, ("restitution", "linear", "vertical", "gravity")),
     "slide": (_worst_slide, ("mu", "mu_kinetic", "vertical", "gravity")),
 }
-"""What looks in every direction, and the options that act in each."""
+"""Worst-azimuth function of each solver, and the options that it accepts."""

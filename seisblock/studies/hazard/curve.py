@@ -1,4 +1,4 @@
-"""The hazard of a site: how often an intensity is exceeded there in a year, a power law between the levels of a table."""
+"""Site hazard curve: annual exceedance frequency of an intensity, a power law between tabulated levels."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.core.typing import ArrayLike, FloatArray
 
 @dataclass(frozen=True, eq=False)
 class HazardCurve:
-    """The annual frequency with which an intensity is exceeded.
+    """Annual exceedance frequency of an intensity.
 
     Between two levels the frequency is a power of the intensity, a straight line on two logarithmic axes; beyond the first and the last
     level it goes on with the slope found there ([Cornell2002]_ relation of hazard and intensity, piece by piece).
@@ -76,12 +76,12 @@ class HazardCurve:
 
     @property
     def slopes(self) -> FloatArray:
-        """Powers k with which the frequency falls, rate ~ level^-k, (n + 1,): below the first level, between levels, beyond the last."""
+        """Exponents k of rate ~ level^-k, (n + 1,): below the first level, between levels, beyond the last."""
         inner = -np.diff(np.log(self.rates)) / np.diff(np.log(self.levels))
         return np.concatenate([inner[:1], inner, inner[-1:]])
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
-        """Return the annual frequency, 1/year, with which some positive intensities are exceeded, of the shape in which they come."""
+        """Return the annual exceedance frequency, 1/year, of positive intensities, in their shape."""
         u = np.log(checks.float_array("the intensities", intensity))
         logs = np.log(self.levels)
         piece = np.searchsorted(logs, u)
@@ -89,7 +89,7 @@ class HazardCurve:
         return np.asarray(np.asarray(self.rates)[anchor] * np.exp(-self.slopes[piece] * (u - logs[anchor])))
 
     def with_levels(self, levels: FloatArray) -> HazardCurve:
-        """Return the same curve with further levels between its own and beyond them."""
+        """Return the same curve with additional levels."""
         union = np.union1d(np.asarray(self.levels), levels)
         is_original = np.isin(union, self.levels)
         rates = self.rate(union)
@@ -99,7 +99,7 @@ class HazardCurve:
 
 @dataclass(frozen=True, eq=False)
 class Hazard:
-    """The hazard of a site in one measure of intensity: one curve, or the branches of a logic tree.
+    """Site hazard in one intensity measure: one curve, or the branches of a logic tree.
 
     Parameters
     ----------
@@ -130,9 +130,9 @@ class Hazard:
             raise HazardError("the weights of the hazard branches must sum to 1; found {total:.4g}", total=total)
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
-        """Return the mean annual frequency, 1/year, with which some intensities are exceeded."""
+        """Return the mean annual exceedance frequency, 1/year."""
         return np.asarray(sum(branch.weight * branch.rate(intensity) for branch in self.branches))
 
 
 WEIGHT_SUM_TOLERANCE = 0.001
-"""How far from 1 the sum of printed weights may be."""
+"""Tolerance of the sum of rounded weights."""

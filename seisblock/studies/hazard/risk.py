@@ -1,4 +1,4 @@
-r"""How often something happens at a site, and what it says about the hazard that something did not happen.
+r"""Annual frequency of a limit state at a site, and update of hazard branches by non-occurrence.
 
 With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, it
 happens with the frequency
@@ -31,15 +31,15 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
 
 MAX_MEDIAN_RATIO = 10.0
-"""So many times the last level of a hazard, or its first over so much, and a median is doubted: gal for m/s^2, or cm/s for m/s, are 100."""
+"""Largest ratio of a median to the range of hazard levels without a warning; wrong units (gal, cm/s) give 100."""
 
 MAX_EXTRAPOLATED_SHARE = 0.02
-"""Share of the frequency from beyond the ends of a hazard curve, from which on it is said."""
+"""Largest share of the frequency from beyond the hazard levels without a warning."""
 
 
 @dataclass(frozen=True)
 class ProbabilityInYears:
-    """How probable it is that it happens at least once.
+    """Probability of at least one occurrence.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class ProbabilityInYears:
 
 @dataclass(frozen=True)
 class RiskShare:
-    """What shaking between two intensities contributes.
+    """Contribution of an intensity interval.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class RiskShare:
 
 @dataclass(frozen=True)
 class BranchRisk:
-    """What one branch of the hazard says.
+    """Risk of one hazard branch.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ class BranchRisk:
 
 @dataclass(frozen=True)
 class Risk:
-    """How often it happens at a site.
+    """Annual frequency of a limit state at a site.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ class Risk:
 
 
 def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stood_years: float | None = None) -> Risk:
-    """Return how often it happens at a site, and which levels and branches that comes from.
+    """Return the annual frequency at a site with its disaggregation by level and branch.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
 
 
 def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
-    """Return the frequency, 1/year, with which it happens below the first level, between levels and beyond the last, (n + 1,)."""
+    """Return the annual frequency, 1/year, below the first level, between levels and beyond the last, (n + 1,)."""
     from scipy.special import ndtr
 
     u, mu, beta = np.log(np.asarray(curve.levels)), math.log(fragility.median), fragility.beta
@@ -206,7 +206,7 @@ def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
 
 
 def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return ln(Phi(high) - Phi(low)), exact in both tails."""
+    """Return ln(Phi(high) - Phi(low)), accurate in both tails."""
     from scipy.special import log_ndtr
 
     right = low + high > 0.0  # there the differences are those of the tails on the other side
@@ -217,13 +217,12 @@ def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
 
 
 def _posterior_weights(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
-    """Return the weights of branches after what each made so likely."""
+    """Return the branch weights updated by the log-likelihoods."""
     scaled_weights = weights * np.exp(log_likelihood - log_likelihood.max())
     return np.asarray(scaled_weights / scaled_weights.sum())
 
 
 def _disaggregate(levels: FloatArray, rates: FloatArray, total: float) -> tuple[RiskShare, ...]:
-    """Return what each stretch of intensities contributes."""
     ends = [None, *(float(level) for level in levels), None]
     return tuple(
         RiskShare(low, high, float(rate), float(rate) / total if total > 0.0 else 0.0)
@@ -232,7 +231,6 @@ def _disaggregate(levels: FloatArray, rates: FloatArray, total: float) -> tuple[
 
 
 def _median_warnings(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -> tuple[str, ...]:
-    """Return what is to be said of a median that no level of the table is near."""
     lowest, highest = float(levels[0]), float(levels[-1])
     if lowest / MAX_MEDIAN_RATIO <= fragility.median <= MAX_MEDIAN_RATIO * highest:
         return ()
@@ -241,7 +239,6 @@ def _median_warnings(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -
 
 
 def _extrapolation_warnings(outside_rate: float, total: float) -> tuple[str, ...]:
-    """Return what is to be said of what lies beyond the table."""
     if outside_rate <= MAX_EXTRAPOLATED_SHARE * total:
         return ()
     return (

@@ -1,4 +1,4 @@
-"""Reading a hazard from a table: levels of an intensity, and how often, or how probably, each is exceeded."""
+"""Hazard tables: intensity levels with exceedance frequencies or probabilities."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ UNITS_OF: Mapping[str, Mapping[str, float]] = {
     "m": LENGTH_UNITS,
     "1": {},
 }
-"""What values of a measure may be written in, by its unit here."""
+"""Accepted units of each measure and their size in the internal unit."""
 
 _MEASURE = re.compile(
     r"(pga|pgv|pgd|arias|p\*?pgv|sa[\s_(=]*\d*\.?\d+\s*s?\)?)(?:[\s_]*[(\[]\s*(\S.*?)\s*[)\]]|_(\w[\w/^]*))?\s*\Z", re.IGNORECASE
@@ -38,7 +38,7 @@ _IN_YEARS = re.compile(r"(?:poe|probability)(?:in)?(\d+)(?:years?|yr|y)|(\d+)年
 _BRANCH_COLUMNS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
 
 COLUMN_EXAMPLES = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
-"""Headings of levels, for messages."""
+"""Level headings quoted in messages."""
 
 
 class _Row(NamedTuple):
@@ -51,7 +51,7 @@ class _Row(NamedTuple):
 
 
 class _Columns(NamedTuple):
-    """What the columns of a table mean."""
+    """Interpretation of the columns of a table."""
 
     names: list[str]
     measure: IntensityMeasure
@@ -61,7 +61,7 @@ class _Columns(NamedTuple):
 
 
 def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
-    """Return the hazard of a site from a CSV file, or the bundled one, which is synthetic, by its name.
+    """Return the site hazard of a CSV file, or of the bundled synthetic one by name.
 
     The header names a column of levels with its unit (``pgv_m_s``, ``pga (g)``, ``sa(0.5)_gal``), and one of how often each is exceeded:
     annual frequencies (``annual_rate``), annual probabilities (``annual_poe``), or probabilities in some years (``poe_50_years``,
@@ -95,13 +95,12 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
 
 
 def _path(name: str | Path) -> Path:
-    """Return the file that a name means: a path, else a bundled hazard."""
+    """Return the path of a file or of a bundled hazard."""
     path = Path(checks.path(name))
     return resolve_file_or_sample(path, "hazard") or path
 
 
 def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
-    """Return the hazard of a table's text."""
     rows = data_lines(text)
     if len(rows) < 2:
         raise HazardError("the table is empty; expected a header and one line per level")
@@ -119,7 +118,7 @@ def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
 
 
 def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
-    """Return the measure that a heading names, and what its unit is worth, SI; None where it names none.
+    """Return the intensity measure of a heading and its unit in SI; None for other headings.
 
     Raises
     ------
@@ -150,7 +149,6 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
 
 
 def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Columns:
-    """Return what the columns of a table mean."""
     names, ignored, measures, other_measures, rates = [], [], {}, [], {}
     for cell in cells:
         heading_measure, key = measure_of(cell), normalize_heading(cell)
@@ -182,7 +180,6 @@ def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Colum
 
 
 def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
-    """Return one row of a table."""
     level = checks.positive("the level", parse_number_cell(cells.get("level", ""), "level")) * columns.factor
     value = parse_number_cell(cells.get("rate", ""), "rate")
     if columns.years is None:
@@ -195,7 +192,7 @@ def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
 
 
 def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[HazardCurve, ...], list[str]]:
-    """Return the curves of a table, and what was left out of it."""
+    """Return the curves of a table and the number of omitted levels."""
     curves, dropped = [], 0
     for name, rows in rows_by_branch.items():
         used_rows = sorted((row for row in rows if 0.0 < row.rate < math.inf), key=lambda row: row.level)

@@ -1,4 +1,4 @@
-"""What one record did to what might have stood at its station, in the worst of all directions."""
+"""Response of a body or a cemetery to the record of one station, in the worst direction."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from seisblock.studies.survey.shaking import Shaking
 
 @dataclass(frozen=True)
 class StationResult:
-    """What happened at a station; a body has no rate, a cemetery only that.
+    """Response at a station; a body has no rate, a cemetery nothing else.
 
     Parameters
     ----------
@@ -69,35 +69,35 @@ class StationResult:
 
     @property
     def overturns_nominally(self) -> bool:
-        """Whether a body falls as it was given, where its share tells of its versions, of which none may fall."""
+        """True if the nominal body overturns, as opposed to its samples."""
         return self.probability is not None and bool(self.overturned)
 
     @property
     def severity(self) -> tuple[float, ...]:
-        """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement or the rise."""
+        """Sort key, larger is worse: overturning share, verdict, displacement or rise."""
         share = self.rate if self.probability is None else self.probability
         verdict = float(self.overturned or False), float(self.happened or False)
         return (-1.0 if share is None else share, *verdict, self.max_slip_m or self.max_uplift_m or 0.0)
 
 
 class StationModel(Protocol):
-    """What is asked of each station: its effect, its name, and the papers behind it."""
+    """Body or cemetery evaluated at each station."""
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the body or cemetery."""
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return what a record does to it."""
+        """Return the response to a record."""
 
 
 @dataclass(frozen=True)
 class StationBody:
-    """A body, followed in every direction where its solver looks in each, else along the horizontal components; the worst counts.
+    """A body, evaluated in all azimuths if its solver supports them, else along the horizontal components; the worst counts.
 
     Parameters
     ----------
@@ -149,21 +149,21 @@ class StationBody:
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the body."""
         return self.label or getattr(self.body, "name", "") or lazy_gettext("object")
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
         return papers("all modes") if self.solver == "respond" else COMMAND_PAPERS[self.solver]
 
     @property
     def is_directional(self) -> bool:
-        """Whether every direction is looked in."""
+        """True if the solver covers all azimuths."""
         return self.solver in DIRECTIONAL_SOLVERS
 
     def check_options(self) -> None:
-        """Refuse options that the solver refuses at every station: it is asked once, on ground that is still for 4 samples.
+        """Raise for invalid solver options, tested once on a motion of 4 zero samples.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class StationBody:
         self.evaluate(Record(rows, 0.01))
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return what a record does to the body where that is worst."""
+        """Return the response to a record in the worst direction."""
         if self.solver == "respond":
             return self._respond_result(record)
         options = {**self.options, **({} if self.vertical is None else {"vertical": self.vertical})}
@@ -188,7 +188,7 @@ class StationBody:
         return max(results, key=lambda effect: effect.severity)
 
     def _respond_result(self, record: Record) -> StationResult:
-        """Return what became of a free-standing body in the worst direction; the share is that of its versions there."""
+        """Return the full response in the worst direction, with the probability there."""
         found = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
         worst, share, remarks = found[0], None, left_out_directions(found)
         if self.runs:
@@ -217,11 +217,10 @@ DISPLACEMENT_COLUMNS: Mapping[str, str | None] = {
     "jump": "total_displacement_m",
     "uplift": "max_uplift_m",
 }
-"""The solvers that follow a body at a station, and the column of a batch that tells how far it moved or rose."""
+"""Solvers available for stations, and their displacement or rise column."""
 
 
 def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResult:
-    """Return a row of a batch as the effect at a station."""
     name, column = str(row["component"]), DISPLACEMENT_COLUMNS[model.name]
     distance = None if column is None or row[column] is None else abs(row[column])
     azimuths = {component.code: component.azimuth_deg for component in record.components}
@@ -240,7 +239,7 @@ def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResu
 
 @dataclass(frozen=True)
 class StationCemetery:
-    """A cemetery, judged by PGA and equivalent frequency in every direction.
+    """A cemetery, assessed by PGA and equivalent frequency in every direction.
 
     Parameters
     ----------
@@ -261,16 +260,16 @@ class StationCemetery:
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the cemetery."""
         return self.cemetery.name
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
         return self.method.citations
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return which share falls in the direction in which most do; of equal shares, that of the larger PGA."""
+        """Return the rate in the direction with the largest one; among equal rates, that of the larger PGA."""
         rows = [component_at_azimuth(record, azimuth).acceleration for azimuth in (0.0, 90.0)]
         north, east = (ground_history(row, record.dt) for row in rows)
         worst = (-1.0, 0.0, 0.0)

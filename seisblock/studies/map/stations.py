@@ -1,4 +1,4 @@
-"""Station by station: what was measured, what it did, and where that is; the worst first."""
+"""Station survey of an earthquake: measures, response and position by station, largest response first."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ from seisblock.studies.map.station_response import StationBody, StationModel, St
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 
 NO_PROCESSING = Preparation()
-"""Nothing is done to a record but what its format needs."""
+"""Default preparation: only the processing required by the format."""
 
 OUTLINE_POINTS = 160
-"""Of an outline."""
+"""Points of an outline."""
 
 
 @dataclass(frozen=True)
 class StationReport:
-    """One station.
+    """Report of one station.
 
     Parameters
     ----------
@@ -102,18 +102,18 @@ class StationReport:
 
     @property
     def is_mapped(self) -> bool:
-        """Whether it is known where the station is, and what was measured there."""
+        """True if position and measures are available."""
         return valid_coordinates(self.latitude, self.longitude) is not None and self.pga_m_s2 is not None
 
     @property
     def label(self) -> str:
-        """Code and name of the station, else the file's name."""
+        """Code and name of the station, else the file name."""
         return " ".join(part for part in (self.station, self.name) if part) or self.record
 
 
 @dataclass(frozen=True)
 class Stations:
-    """The stations of one earthquake, the worst first, those without an answer last.
+    """Stations of one earthquake, largest response first, those without a result last.
 
     Parameters
     ----------
@@ -129,12 +129,12 @@ class Stations:
 
     @property
     def mapped(self) -> tuple[StationReport, ...]:
-        """Those of which it is known where they are."""
+        """Reports with a position."""
         return tuple(answer for answer in self.answers if answer.is_mapped)
 
 
 Station: TypeAlias = "Location | RecordSource | Record"
-"""What a station may be given as: names, a recording that is yet to be read, or a record."""
+"""Station input: names, a record source or a record."""
 
 
 def survey_stations(
@@ -147,7 +147,7 @@ def survey_stations(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Stations:
-    """Return what each station of an earthquake measured, and what that did to a body or a cemetery.
+    """Return the measures at each station of an earthquake, and the response of a body or a cemetery.
 
     A record that cannot be read, and one with which a subject can do nothing, is an answer with its reason; the others are answered.
 
@@ -202,7 +202,6 @@ def survey_stations(
 
 
 def _recordings(records: Station | Iterable[Station], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
-    """Yield what is read already or about to be, and what names stand for."""
     single = isinstance(records, (str, PathLike, RecordSource, Record))
     if not single and not isinstance(records, Iterable):
         raise KindError("expected names or records of stations, found {found}", found=checks.type_name(records))
@@ -215,7 +214,6 @@ def _recordings(records: Station | Iterable[Station], read_options: ReadOptions)
 
 
 def _with_progress(reports: Iterable[StationReport | None], progress: Progress | None) -> Iterator[StationReport | None]:
-    """Yield answers, and tell how many there are so far."""
     for count, report in enumerate(reports, start=1):
         if progress is not None:
             progress(count, count)
@@ -225,7 +223,7 @@ def _with_progress(reports: Iterable[StationReport | None], progress: Progress |
 def _assess_station(
     recording: RecordSource | Record, *, subject: StationModel | None, preparation: Preparation, reading: ReadOptions, strict: bool
 ) -> StationReport | None:
-    """Return the answer of one station, None for one that was not asked for."""
+    """Return the report of one station; None for an excluded one."""
     if not isinstance(recording, (RecordSource, Record)):
         raise KindError("expected names or records of stations, found {found}", found=checks.type_name(recording))
     name = recording.name if isinstance(recording, RecordSource) else recording.source.rsplit("/", 1)[-1]
@@ -266,7 +264,6 @@ def _assess_station(
 
 
 def _measure_record(record: Record) -> dict[str, Any]:
-    """Return peaks, intensity and outline of a record."""
     rows = [component.acceleration for component in record.horizontals]
     if not rows:
         raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
@@ -281,13 +278,13 @@ def _measure_record(record: Record) -> dict[str, Any]:
 
 
 def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Return least and largest value of a row in equal stretches."""
+    """Return minima and maxima of a row over equal intervals."""
     starts = np.unique(np.linspace(0, row.size, min(OUTLINE_POINTS, row.size), endpoint=False).astype(int))
     return tuple(zip(np.minimum.reduceat(row, starts).tolist(), np.maximum.reduceat(row, starts).tolist(), strict=True))
 
 
 def _check_same_earthquake(reference: StationReport | None, report: StationReport) -> StationReport | None:
-    """Return the station that tells most of the earthquake of all so far, and refuse another earthquake."""
+    """Return the station with the most detailed earthquake header; raise for a different earthquake."""
     if report.earthquake is None or reference is None or reference.earthquake is None:
         return reference if report.earthquake is None else report
     if are_different_earthquakes(reference.earthquake, report.earthquake):
@@ -302,6 +299,6 @@ def _check_same_earthquake(reference: StationReport | None, report: StationRepor
 
 
 def _earthquake_detail(report: StationReport) -> int:
-    """Return how much of what tells two earthquakes apart a station tells: the time, the place."""
+    """Return the level of detail of the earthquake header: time, position."""
     earthquake = report.earthquake
     return 0 if earthquake is None else (earthquake.origin_time is not None) + (earthquake.place is not None)

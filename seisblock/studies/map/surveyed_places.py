@@ -1,4 +1,4 @@
-"""What fallen gravestones say of the shaking between stations: each surveyed place beside the stations around it."""
+"""Ground motion inferred from fallen gravestones, compared with surrounding stations."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ COLUMNS = {
     "stones": ("stones", "墓石", "墓石数"),
     "fallen": ("fallen", "転倒", "転倒数"),
 }
-"""Headings of a list of surveys."""
+"""Column headings of a list of surveys."""
 
 STATION_CONTRADICTION = N_(
     "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} by the "
@@ -39,21 +39,21 @@ PLACE_CONTRADICTION = N_(
 )
 
 MAX_NEIGHBOURS = 3
-"""Stations that tell what the shaking at a place may have been, weighted by the inverse of the distance."""
+"""Number of stations used for interpolation by inverse distance."""
 
 MAX_NEIGHBOUR_KM = 100.0
-"""Stations further from a place tell nothing of the shaking there."""
+"""Largest distance of a station used for interpolation, km."""
 
 MAX_COMPARISON_KM = 10.0
-"""Places further apart need not have felt the same."""
+"""Largest distance at which shaking is comparable, km."""
 
 INTENSITY_TOLERANCE = 0.5
-"""How far the intensity of a station so near may lie outside of what the stones tell: half a step of JMA's scale."""
+"""Tolerance of the intensity of a station against the interval of the stones: half a JMA class."""
 
 
 @dataclass(frozen=True)
 class SurveyedPlace:
-    """A cemetery as it was found.
+    """Observed counts of a cemetery.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Neighbour:
 
 @dataclass(frozen=True)
 class SurveyComparison:
-    """What a surveyed place says, beside what the stations around it measured.
+    """Inferred ground motion of a surveyed place with the stations around it.
 
     Parameters
     ----------
@@ -146,7 +146,6 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
 
 
 def _text(path: Path, data: bytes) -> str:
-    """Return the text of a file in UTF-8 or Shift-JIS."""
     for encoding in ("utf-8-sig", "cp932"):
         try:
             return data.decode(encoding)
@@ -156,7 +155,6 @@ def _text(path: Path, data: bytes) -> str:
 
 
 def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
-    """Return one surveyed place."""
     try:
         latitude, longitude = float(cells["latitude"]), float(cells["longitude"])
         stones, fallen = int(cells["stones"]), int(cells["fallen"])
@@ -176,7 +174,7 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
 def compare_surveys(
     surveyed: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
 ) -> tuple[SurveyComparison, ...]:
-    """Return what each surveyed place says, beside the stations around it, in the order given.
+    """Return the comparison of each surveyed place, in the given order.
 
     Parameters
     ----------
@@ -194,7 +192,6 @@ def compare_surveys(
 def _compare_place(
     place: SurveyedPlace, stations: Sequence[StationReport], cemetery: Cemetery, assumptions: Assumptions | None
 ) -> SurveyComparison:
-    """Return what one surveyed place says."""
     estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None, assumptions)
     neighbours = (
         Neighbour(station.station or station.record, _distance_km(place, station), station.jma_intensity)
@@ -213,12 +210,11 @@ def _compare_place(
 
 
 def _distance_km(place: SurveyedPlace, station: StationReport) -> float:
-    """Return how far a place is from a station, km."""
     return great_circle_km((place.latitude, place.longitude), (station.latitude or 0.0, station.longitude or 0.0))
 
 
 def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
-    """Return the pairs that cannot both be right, a sentence each: places near each other, or a place and a station.
+    """Return a sentence for each inconsistent pair of nearby places, or of a place and a station.
 
     Two surveyed places contradict each other where their intervals of intensity have nothing in common, a place and a station where the
     station's intensity lies more than ``ALIKE`` outside the place's interval; pairs further apart than ``NEAR_KM`` are not compared.
@@ -245,6 +241,6 @@ def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
 
 
 def _interval(answer: SurveyComparison) -> tuple[float, float]:
-    """Return the interval of intensity of a survey, open where the stones tell only a bound: 0 and 7.5 end JMA's scale."""
+    """Return the intensity interval of a survey; one-sided estimates are limited by 0 and 7.5."""
     low, high = answer.estimate.jma_intensity_interval
     return 0.0 if low is None else low, 7.5 if high is None else high
