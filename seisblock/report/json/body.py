@@ -22,9 +22,9 @@ class BodyParameters(Struct, frozen=True, kw_only=True):
     ----------
     density_kg_m3 : float
     tolerance_m : float
-        How far above the ground a point may lie that carries.
+        Largest height above the ground of a contact point.
     inset_m : float
-        How far in from each side of the base the worn body turns.
+        Inset of the rotation lines from each side of the base.
     unit, up : str
         Of the file's numbers, and its axis that points upwards.
     facing_deg : float
@@ -62,17 +62,17 @@ class ScanResult(Result, frozen=True, kw_only=True):
     inertia_kg_m2 : three rows of three floats
         Tensor about it.
     tilt_deg : float
-        By how much the scan was turned so that it rests.
+        Rotation of the scan to its rest position.
     base_m, carrying_m : list of pairs
-        Corners of the polygon that carries, sharp, and within its worn edges; counter-clockwise.
+        Corners of the base polygon, sharp and with worn edges; counter-clockwise.
     base_area_m2 : float
         Within its worn edges.
     slenderness_rad, slenderness_azimuth_deg : float
-        The least alpha in any direction, and towards which azimuth.
+        Smallest overturning angle alpha, and its azimuth.
     slenderness_interval_rad : list of two floats or None
-        The least alpha, of sharp edges, with half and with twice the tolerance; null where it would not stand.
+        Smallest alpha of sharp edges with half and with twice the tolerance; null if unstable.
     directions : list
-        All around, from north.
+        By azimuth, from north.
     """
 
     name: str

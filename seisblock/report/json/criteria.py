@@ -42,7 +42,7 @@ class CriteriaParameters(Struct, frozen=True, kw_only=True):
     velocity_highpass_hz: float | None
 
 
-AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="What other models of the same block say.")]
+AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="Results of other models of the same block.")]
 SIMULATED: Any = entry_type("Simulated", RockOutcome, extra={"agreement": AGREEMENT_KEY})
 
 
@@ -53,19 +53,19 @@ class RespondEntry(Struct, frozen=True, kw_only=True):
     ----------
     mu : float
     friction_known : bool
-        False where nothing is known of it, and feet that hold are taken.
+        False if unknown; non-sliding feet are then assumed.
     outcome : str
-        In words.
+        As text.
     overturned : bool
     overturned_towards : str or None
         ``+x`` or ``-x``.
     overturning_time_s : float or None
     max_rotation_ratio : float
-        Largest lean over alpha.
+        Peak tilt over alpha.
     slip_path_m, final_displacement_m : float
-        Length slid, and where it ends, signed.
+        Slip path length, and signed residual displacement.
     criteria_agree : bool
-        Whether more than half of the criteria, each counted once, say the same of its fall.
+        Whether more than half of the criteria, each counted once, agree on overturning.
     """
 
     mu: float
@@ -108,11 +108,11 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     pga_m_s2, pgv_m_s : float
     equivalent_frequency_hz : EquivalentFrequency
     criteria : list of Row
-        Threshold and demand are in the unit that the row names.
+        Threshold and demand in the unit of the row.
     simulated : Simulated
-        What ``seisblock rock`` answers.
+        Result as in ``seisblock rock``.
     respond : RespondEntry or None
-        What ``seisblock respond`` answers.
+        Result as in ``seisblock respond``.
     """
 
     component: str

@@ -28,9 +28,9 @@ class FragilityBody(Struct, frozen=True, kw_only=True):
     ----------
     name : str
     block : BlockEntry or None
-        Null where it is no block.
+        Null for other bodies than blocks.
     mu, mu_kinetic : float or None
-        Friction under it, where the solver asks.
+        Friction, if the solver uses it.
     """
 
     name: str
@@ -63,18 +63,18 @@ class FragilityParameters(Struct, frozen=True, kw_only=True):
     solver, method : str
     bodies : list of FragilityBody
     limits, im : list of str
-        Limits in the order in which they are passed; measures of intensity, the curves' own first.
+        Limit states in increasing order; intensity measures, that of the curves first.
     vertical : bool or None
-        Whether the vertical component acts; null: as the solver has it.
+        Whether the vertical component acts; null: default of the solver.
     gravity_m_s2 : float
     perturb, bootstrap, seed : int
-        Versions of each body, samples of the records, and the seed of all dice.
+        Samples of each body, bootstrap samples of the records, and the random seed.
     confidence : float
         Level of the intervals.
     least_scale, largest_scale : float
         Smallest and largest factor on a record.
     compare : CurveEntry or None
-        The curve that these are compared with.
+        Reference curve.
     suite : str or None
         Magnitude, distance and count of synthetic records, ``synthetic:M7:R20:40``; null where records were given.
     """

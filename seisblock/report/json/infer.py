@@ -28,19 +28,19 @@ class StonesParameters(Struct, frozen=True, kw_only=True):
     cemetery : str
         File of the stones.
     stones, unknown_stones : int
-        How many there are, and of how many nobody says what became of them.
+        Number of stones, and of those with unknown outcome.
     rate : str or None
-        Fallen of all, where they were counted.
+        Number fallen and total, if given as counts.
     confidence : float
         Level of the intervals.
     common_error_ln_pga, stone_error_ln_pga : float
         Standard deviations in ln PGA, of a cemetery and of each stone.
     bias_ln_pga, frequency_error_ln_f : float
-        How much more PGA than the criterion's the ground must have; standard deviation of a given frequency.
+        Bias of the PGA relative to the criterion; standard deviation of a given frequency.
     criterion, prior, intensity : str
-        What the estimate rests on.
+        Criterion, prior and intensity relation of the estimate.
     inset : Inset or None
-        How far the edges are worn, for the criteria that ask.
+        Edge wear, for criteria that use it.
     """
 
     cemetery: str
@@ -64,11 +64,11 @@ class SlidParameters(Struct, frozen=True, kw_only=True):
     Parameters
     ----------
     observed_m : float
-        How far the object slid.
+        Observed slip.
     object : str
         ``slid``.
     largest : bool
-        Whether the largest slip counts, not the one left at the end.
+        Whether the maximum rather than the residual slip is compared.
     mu, mu_kinetic : float
         Static and kinetic friction; null: one friction.
     vertical : bool
@@ -98,15 +98,15 @@ class JumpedParameters(Struct, frozen=True, kw_only=True):
     Parameters
     ----------
     observed_m : float
-        How far the block was displaced.
+        Observed displacement of the block.
     object : str
         ``jumped``.
     block : TwoLayerEntry
     contact : Contact
     flight_only, first : bool
-        Whether the jump alone counts, and whether only the first chain of motion does.
+        Whether only the flight, and only the first chain of motion, is compared.
     windows_s : list of pairs
-        Stretches in which a chain may start; all of the record without any.
+        Time windows of the start of a chain; empty: the entire record.
     drop_m : float
         Height of the floor above the ground.
     spin, landing : str
@@ -140,13 +140,13 @@ class ScanPoint:
 
 
 CONTOUR_KEYS = {
-    "contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")],
-    "joint": Annotated[list[JointEstimate], Meta(description="What several cemeteries say together, at each frequency; empty for one.")],
+    "contour": Annotated[list[ShakingEstimate], Meta(description="Estimates by frequency.")],
+    "joint": Annotated[list[JointEstimate], Meta(description="Joint estimates of several cemeteries by frequency; empty for one.")],
 }
 STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
 STONES = DocumentSchema("infer", StonesParameters, STONES_RESULT, CONTOUR_KEYS, name="stones")
 
-SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against the factor on the record.")]}
+SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against scale factor.")]}
 FACTORS_RESULT = entry_type("FactorsResult", ScaleFactors, exclude=("curve",), extra=SCAN_KEYS)
 SLID = DocumentSchema("infer", SlidParameters, FACTORS_RESULT, name="slid")
 JUMPED = DocumentSchema("infer", JumpedParameters, FACTORS_RESULT, name="jumped")

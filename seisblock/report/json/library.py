@@ -21,7 +21,7 @@ class CiteParameters(Struct, frozen=True, kw_only=True):
     Parameters
     ----------
     command : str or None
-        Whose papers; null: all there are.
+        Command of the references; null: all references.
     """
 
     command: str | None
@@ -46,7 +46,7 @@ class SampleResult(Result, frozen=True, kw_only=True):
     ----------
     name, kind, description, origin, licence, sha256 : str
     pga_m_s2 : dict
-        Of each component; empty where the file is no record.
+        PGA of each component; empty for files other than records.
     path : str
     """
 

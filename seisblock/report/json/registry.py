@@ -58,8 +58,7 @@ def document_schemas(command: str) -> list[DocumentSchema]:
 def json_schema(command: str) -> dict[str, Any]:
     """Return the JSON Schema of the documents of a command.
 
-    Keys, their units and what they mean follow from the types that the documents are made of. A key that is not required is left out
-    where it says nothing.
+    Keys, units and descriptions are generated from the types of the documents. Keys that are not required may be absent.
 
     Raises
     ------

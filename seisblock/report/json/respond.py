@@ -32,15 +32,15 @@ class RespondParameters(Struct, frozen=True, kw_only=True):
         Whether the vertical component acts.
     gravity_m_s2 : float
     initial : six floats or None
-        Place and lean at the first sample, and their rates; null: upright, at rest.
+        Position and tilt at the first sample, and their rates; null: upright, at rest.
     settle_s : float
-        How long it is followed after the record.
+        Simulated time after the record.
     tenon_m : float
-        Depth of tenons that hold the feet; 0 without.
+        Depth of the tenons of the feet; 0 without.
     further_points_m : list of pairs
-        Points of the body that end the motion when they meet the ground.
+        Further contact points of the body that end the motion at ground contact.
     block : BlockEntry
-        That of the first result.
+        Block of the first result.
     """
 
     mu: float
@@ -61,9 +61,8 @@ RESPOND_RESULT = entry_type(
     RespondOutcome,
     leading=COMPONENT_KEY,
     extra={
-        "block": Annotated[BlockEntry, Meta(description="Of a scan: the block that it is in this direction.")] | UnsetType,
-        "probability": Annotated[Probability, Meta(description="Share of plausible versions that fall; left out with --runs 0.")]
-        | UnsetType,
+        "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
+        "probability": Annotated[Probability, Meta(description="Overturning probability; absent with --runs 0.")] | UnsetType,
         "directions": Annotated[list[RespondAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
     },
 )

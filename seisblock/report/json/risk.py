@@ -46,9 +46,9 @@ class RiskParameters(Struct, frozen=True, kw_only=True):
     hazard_source : str
     hazard : list of HazardBranch
     years : float
-        For which the probability is told.
+        Period of the probability.
     stood_years : float or None
-        In which it did not happen.
+        Observed period without occurrence.
     """
 
     im: str
@@ -60,8 +60,8 @@ class RiskParameters(Struct, frozen=True, kw_only=True):
 
 
 LEADING_KEYS = {
-    "body": Annotated[str, Meta(description="What the fragility is of; empty where nobody said.")],
-    "limit": Annotated[str, Meta(description="What happens; empty where nobody said.")],
+    "body": Annotated[str, Meta(description="Body of the fragility; empty if unknown.")],
+    "limit": Annotated[str, Meta(description="Limit state; empty if unknown.")],
 }
 RISK_RESULT = entry_type("RiskResult", Risk, leading=LEADING_KEYS, exclude=("hazard", "stood_years", "notes"))
 RISK = DocumentSchema("risk", RiskParameters, RISK_RESULT)

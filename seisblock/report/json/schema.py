@@ -52,7 +52,7 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
     depth_km : float or None
     magnitude : float or None
     name : str
-        Empty where the file has none.
+        Empty if not in the file.
     """
 
     origin_time: str | None
@@ -87,13 +87,13 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     ----------
     station : str
     station_name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude_deg, longitude_deg : float or None
         Of the station, degrees north and east.
     start : str or None
         Time of the first sample, ISO 8601, UTC.
     local_start : str
-        The same as the network's own clock tells it, with the name of the clock; empty where it is unknown.
+        The same in the local time of the network, with the time zone; empty if unknown.
     earthquake : Earthquake or None
     epicentral_distance_km : float or None
         From the epicentre to the station.
@@ -103,16 +103,16 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     sha256 : str
         Of the file.
     format, source : str
-        How it was read, and the file's name.
+        Name of the format and of the file.
     components : list of str
     offset_s : float
         Time of the first sample used, from the record's first.
     history : list of str
-        What was done to it, in this order.
+        Processing steps, in order.
     azimuths_deg : list of float or None
-        Of the components, clockwise from north; null where vertical or not known.
+        Azimuths of the components, clockwise from north; null if vertical or unknown.
     doubts : list of Doubt
-        What a careful reader notices before he believes it; in words also among the warnings.
+        Quality flags; their messages are also among the warnings.
     """
 
     station: str
@@ -163,7 +163,7 @@ def record_entry(record: Record) -> RecordEntry:
 class Result(Struct, frozen=True, kw_only=True):
     """One entry of ``results``."""
 
-    record_index: Annotated[int, Meta(description="Which of the records it is of, where there are several.")] | UnsetType = UNSET
+    record_index: Annotated[int, Meta(description="Index of the record, if there are several.")] | UnsetType = UNSET
 
 
 def is_optional(kind: Any) -> bool:
@@ -183,11 +183,11 @@ class DocumentSchema:
     ----------
     command : str
     parameters, result : type
-        What the user could have chosen, and one entry of ``results``.
+        Parameters of the command, and one entry of ``results``.
     extra : mapping of str to type
         Further keys, between the results and the warnings.
     name : str
-        Tells several kinds of one command apart.
+        Distinguishes several kinds of one command.
     """
 
     command: str
@@ -205,15 +205,13 @@ class DocumentSchema:
     def type(self) -> type[Document]:
         """Struct type of the document; its fields are the keys."""
         fields = {
-            "version": Annotated[str, Meta(description="Of seisblock.")],
-            "record": Annotated[
-                RecordEntry | list[RecordEntry] | None, Meta(description="The record used, a list of several, null without any.")
-            ],
+            "version": Annotated[str, Meta(description="Version of seisblock.")],
+            "record": Annotated[RecordEntry | list[RecordEntry] | None, Meta(description="Record, list of records, or null.")],
             "parameters": self.parameters,
             "results": list[self.result],  # type: ignore[name-defined]
             **self.extra,
-            "warnings": Annotated[list[str], Meta(description="What to know before believing the numbers.")],
-            "citations": Annotated[list[str], Meta(description="Keys of the papers relied on; seisblock cite prints them.")],
+            "warnings": Annotated[list[str], Meta(description="Warnings on the results.")],
+            "citations": Annotated[list[str], Meta(description="Keys of the cited papers; seisblock cite prints them.")],
         }
         declared = [(key, kind, UNSET) if is_optional(kind) else (key, kind) for key, kind in fields.items()]
         name = "".join(part.capitalize() for part in f"{self.command}-{self.name}".replace("-", " ").split()) + "Document"
@@ -236,17 +234,17 @@ class DocumentSchema:
         Parameters
         ----------
         parameters : Struct
-            Everything the user could have chosen.
+            Parameters of the command.
         results : iterable of (Record or None, Result)
-            In the order asked.
+            In the requested order.
         records : sequence of Record
-            Those that no single result is of.
+            Records without a result of their own.
         citations, warnings : sequences of str
-            Each is said once.
+            Duplicates are removed.
         upstairs : bool
-            Whether the motions are those of a storey, where no record here says so.
+            Whether the motions are floor motions although no record is marked as one.
         beside
-            The further keys.
+            Values of the extra keys.
         """
         pairs = list(results)
         records = list({id(record): record for record in (*(r for r, _ in pairs), *records) if record is not None}.values())

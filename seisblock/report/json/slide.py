@@ -29,7 +29,7 @@ class SlideParameters(Struct, frozen=True, kw_only=True):
     mu, mu_kinetic, kappa : float
         Static and kinetic friction, and the kinetic over the static.
     vertical_scale : float
-        Factor on the vertical component, 0 where it does not act.
+        Factor on the vertical component, 0 if ignored.
     slope_deg, slope_length_m : float
         Angle of the base, and the distance to its foot; null without an end.
     one_way : bool
@@ -54,7 +54,7 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
     mu, mu_kinetic, kappa : list of float
         Static and kinetic friction, and the kinetic over the static.
     vertical_scale : list of float
-        Factors on the vertical component, 0 where it does not act.
+        Factors on the vertical component, 0 if ignored.
     slope_deg, slope_length_m : list of float, float
         Angles of the base, and the distance to its foot; null without an end.
     one_way : bool
@@ -74,7 +74,7 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
 SLIDE_RESULT = entry_type("SlideResult", SlideOutcome, leading=COMPONENT_KEY)
 SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": SCALE_KEY})
 AZIMUTHS_KEY: dict[str, Any] = {
-    "azimuths": Annotated[list[SLIDE_POINT], Meta(description="Every direction of a sweep.")] | UnsetType  # type: ignore[valid-type]
+    "azimuths": Annotated[list[SLIDE_POINT], Meta(description="All directions of a sweep.")] | UnsetType  # type: ignore[valid-type]
 }
 SLIDE = DocumentSchema("slide", SlideParameters, SLIDE_RESULT, AZIMUTHS_KEY)
 STUDY = DocumentSchema("slide", SlideStudyParameters, SLIDE_POINT, name="study")

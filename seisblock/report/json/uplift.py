@@ -50,7 +50,7 @@ class HarmonicParameters(Struct, frozen=True, kw_only=True):
     phi_deg, rho_deg : float
         Azimuth of the shaking from x towards y, and its angle from the vertical.
     corner : int or None
-        The corner looked at; null: whichever lifts first.
+        Selected corner; null: the first to lift.
     block : SpringBlockEntry or None
         Null where several were combined.
     """
@@ -89,7 +89,7 @@ class CurvePointEntry(Struct, frozen=True, kw_only=True):
     frequency_ratio : float
         theta/omega_1.
     acceleration_ratio : float or None
-        Least A/g that lifts a corner; null where none does.
+        Smallest A/g with uplift; null if there is none.
     """
 
     frequency_ratio: float

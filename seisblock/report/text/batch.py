@@ -43,15 +43,15 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
         Translatable messages by their English text.
     """
     solver = tally.model.name
-    total = gettext(_EVENT_COUNT_TEXTS[solver], happened=tally.happened, answers=tally.answers)
+    total = gettext(_EVENT_COUNT_TEXTS[solver], happened=tally.event_count, answers=tally.answers)
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
     )
-    bodies = tally.ranked()
+    bodies = tally.sorted_counts()
     if bodies and tally.answers:
         header = [gettext("body"), gettext("runs"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no answer")]
         rows = [
-            [gettext(c.body), c.answers, c.happened, format_share(c.happened / c.answers) if c.answers else None, c.failures]
+            [gettext(c.body), c.answers, c.events, format_share(c.events / c.answers) if c.answers else None, c.failures]
             for c in bodies[:MAX_BODIES]
         ]
         caption = gettext("{count} more bodies in the file", count=len(bodies) - MAX_BODIES) if len(bodies) > MAX_BODIES else ""
@@ -59,7 +59,8 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     if tally.failures:
         yield styled_line(gettext("rows without a result: {count}", count=tally.failures), "yellow")
         reasons = sorted(tally.reasons.items(), key=lambda pair: -pair[1])
-        max_reasons = MAX_REASONS if tally.answers else len(reasons)  # without an answer there is no file
+        # without a result no file is written: list all reasons here
+        max_reasons = MAX_REASONS if tally.answers else len(reasons)
         for reason, count in reasons[:max_reasons]:
             yield styled_line(f"  {count} x {gettext(messages.get(reason, reason))}")
         if len(reasons) > max_reasons:

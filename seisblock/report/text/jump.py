@@ -176,6 +176,6 @@ def _tenon_text(foot: float, centroid: float, tenon: float, *, gal: bool) -> str
             "and the displacement computed without tenons does not apply."
         )
     unit = length_unit([foot, centroid, tenon], gal=gal)
-    # as precise as the table, for two that are nearly alike are compared
+    # same precision as the table: nearly equal lengths are compared
     rose, middle, hole = (f"{length_cell(length, unit)} {unit.name}" for length in (foot, centroid, tenon))
     return gettext(text, foot=rose, centroid=middle, tenon=hole)

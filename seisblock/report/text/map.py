@@ -62,7 +62,7 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
         header, rows = station_rows(listed_answers, model, gal=gal)
         omitted = _omitted_text(len(answers) - MAX_ROWS)
         caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
-        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # names need the room
+        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # station names need the width
     missing = [answer for answer in stations.answers if answer.failure]
     if missing:
         yield styled_line(gettext("no result: {count}", count=len(missing)), "yellow")

@@ -83,7 +83,7 @@ def _group_name(falls: Sequence[StoneOutcome], pile: Pile) -> str:
 def _stones_above(foot: str, pile: Pile) -> set[str]:
     """Return the stones supported by a stone, directly or indirectly."""
     stones = {foot}
-    for stone in pile.stones:  # from below upwards
+    for stone in pile.stones:  # supports come before the stones that they carry
         if stone.on in stones:
             stones.add(stone.name)
     return stones - {foot}

@@ -128,7 +128,7 @@ class _WrappedText(Text):
         lines = Lines()
         for part in self.split("\n", allow_blank=True):
             first, *further_pieces = part.divide(break_positions(part.plain, width))
-            # a line that goes on begins with no blank
+            # continuation lines begin without a blank
             lines.extend([first, *(segment[len(segment) - len(segment.plain.lstrip()) :] for segment in further_pieces)])
         for segment in lines:
             segment.rstrip()

@@ -56,7 +56,7 @@ def break_positions(text: str, width: int) -> list[int]:
     start = end = 0
     for atom in _ATOM.finditer(text):
         so_far = text[start : atom.end()].rstrip()
-        # a line that goes on loses the blank before it
+        # leading blanks of continuation lines are dropped and do not count
         if end > start and display_width(so_far.lstrip() if positions else so_far) > width:
             start = end
             positions.append(start)

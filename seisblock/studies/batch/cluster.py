@@ -53,7 +53,7 @@ def connect(address: str) -> Iterator[Client]:
     Raises
     ------
     ParameterError
-        If the package is not installed, the address is none, or no scheduler answers there.
+        If the package is not installed, the address is invalid, or no scheduler responds.
     """
     try:
         import dask
@@ -72,13 +72,15 @@ def connect(address: str) -> Iterator[Client]:
         return
     try:
         client = Client(address, timeout=CONNECT_TIMEOUT_S)
-    except (OSError, ValueError, TypeError, MemoryError) as error:  # what a web server answers begins, to Dask, with an enormous length
+    # Dask reads the answer of a web server as a huge message length: MemoryError
+    except (OSError, ValueError, TypeError, MemoryError) as error:
         raise ParameterError(
             "no Dask scheduler responds at {address}; start one, or use {local} for processes on this machine",
             address=address[:200],
             local=LOCAL_PREFIX + "2",
         ) from error
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a scheduler that goes is told here, in a sentence
+    # a lost scheduler is reported by an exception below
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         yield client
 
@@ -100,16 +102,16 @@ def map_cluster(
     ----------
     client : distributed.Client
     work : callable
-        One task; travels with each, so that no worker's death loses it.
+        Function of one task; sent with each task, so that the death of a worker does not lose it.
     tasks : iterable
-        Taken as they are needed.
+        Consumed lazily.
     on_lost : callable
-        ``lost(task, reason)``: the answer for a task that every worker which takes it dies of.
+        ``on_lost(task, reason)``: the result of a task that kills all its workers.
 
     Raises
     ------
     ParameterError
-        If the scheduler goes away.
+        If the scheduler stops responding.
     """
     from distributed import wait
 
@@ -128,7 +130,8 @@ def map_cluster(
                 return
             task, future = pending[0]
             result, reason = _wait_for_result(client, future)
-            if reason:  # what waited in a worker is blamed for its death, too: the one that is to blame dies alone as well
+            # tasks queued on a dead worker are blamed, too: rerun alone to find out whether this one is the cause
+            if reason:
                 wait([future for _, future in pending])
                 pending[0] = task, client.submit(pickled_work, task, pure=False)
                 result, reason = _wait_for_result(client, pending[0][1])
@@ -140,7 +143,8 @@ def map_cluster(
         raise ParameterError("the Dask scheduler stopped responding; restart it and resume") from error
     finally:
         if client.status == "running":
-            with suppress(OSError):  # it may go this very moment
+            # the scheduler may disappear at this moment
+            with suppress(OSError):
                 client.cancel([future for _, future in pending])
 
 

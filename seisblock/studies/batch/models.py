@@ -64,21 +64,21 @@ class BatchModel:
     ----------
     name : str
     kinds : tuple of type
-        Bodies it takes as they are.
+        Body types accepted without conversion.
     columns : tuple of str
-        What it takes from a row of a table of bodies.
+        Columns used of a table of bodies.
     build_body : callable
-        ``place(listed, options) -> Placed``.
+        ``build_body(spec, options) -> SolverBody``.
     solve : callable
         ``solve(body, motion, **options) -> Response``.
     outcome : type
-        Of its answer; the scalar fields are columns of the table.
+        Outcome type; its scalar fields are columns of the table.
     happens : str
-        The column that answers the user's question.
+        Column of the event.
     chance : callable or None
-        ``chance(placed, motion, runs, seed, options) -> Row``: what perturbed runs say; None where nothing is perturbed.
+        ``chance(solver_body, motion, runs, seed, options) -> Row``: probability columns; None for solvers without samples.
     chances : mapping of str to type
-        The columns that `chance` fills.
+        Columns filled by `chance`.
     """
 
     name: str
@@ -109,7 +109,7 @@ class BatchModel:
         if unknown:
             raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
 
-    def happened(self, row: ValueMap) -> bool:
+    def event_occurred(self, row: ValueMap) -> bool:
         """Return whether the event of the solver occurred in a row with a result."""
         value = row[self.happens]
         return value == JUMPED if isinstance(value, str) else bool(value)

@@ -49,7 +49,7 @@ def run_batch(
 ) -> BatchTable:
     """Return the results of records and bodies: a row for each record, component and body.
 
-    A record that cannot be read, a component that it lacks and a body that the solver refuses are rows with a reason.
+    Unreadable records, missing components and rejected bodies give rows with a reason.
 
     Parameters
     ----------
@@ -61,25 +61,25 @@ def run_batch(
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump``, ``uplift`` or ``stack``.
     components : str, or sequence of str
-        Codes or azimuths; all horizontals of each record when left out. ``all-azimuths`` looks in every direction, in steps of 5 degrees,
-        and answers for the one that is worst for each body (``respond``, ``rock``, ``slide``).
+        Codes or azimuths; default: all horizontals of each record. ``all-azimuths`` solves every direction in steps of 5 degrees and
+        returns the worst one of each body (``respond``, ``rock``, ``slide``).
     preparation : Preparation
-        What is done to each record before.
+        Processing of each record.
     runs, seed : int
-        Perturbed runs behind a probability (``respond``, ``rock``), 0 for none, and their seed.
+        Number of samples of a probability (``respond``, ``rock``), 0 for none, and their seed.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: number of cores.
     client : distributed.Client
-        Of a Dask scheduler: each record is a task. The table is the same.
+        Client of a Dask scheduler: each record is a task. The table is the same.
     progress : callable
-        Told the number of records done and the number in all.
+        Called with the number of finished records and their total.
     options
-        Of the solver, for every body whose row says nothing else: ``mu``, ``vertical``, ``gravity``, ...
+        Of the solver, for every body without own values: ``mu``, ``vertical``, ``gravity``, ...
 
     Raises
     ------
     ParameterError
-        If there is no such solver, it can take none of the bodies, or it has no such option.
+        If solver or option is unknown, or the solver accepts none of the bodies.
     BodyError, RecordNotFoundError
         If a list of bodies or of records cannot be read.
 
@@ -139,10 +139,10 @@ def iter_record_rows(
     Parameters
     ----------
     tasks : iterable of RecordSource or Record
-        Taken as they are needed: a bundle's members are not held longer than they are.
+        Consumed lazily; members of a bundle are released after use.
     plan : Plan
     total : int
-        How many there are, for the progress.
+        Number of tasks, for the progress.
     workers, client, progress
         As in :func:`run_batch`.
     """

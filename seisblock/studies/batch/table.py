@@ -43,9 +43,9 @@ class BatchTable:
     columns : mapping of str to type
         The names of the columns, in order, with the types of their cells: bool, int, float or str.
     rows : sequence of mappings
-        By the names of the columns; what a row does not name is None.
+        By column name; missing keys are None.
     notes : tuple of str
-        What is to be known of the whole.
+        Notes on the table.
 
     Examples
     --------

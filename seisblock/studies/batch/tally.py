@@ -16,7 +16,7 @@ class BodyCounts:
     body: str
     answers: int = 0
     failures: int = 0
-    happened: int = 0
+    events: int = 0
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Tally:
                 count.failures += 1
                 continue
             count.answers += 1
-            count.happened += self.model.happened(row)
+            count.events += self.model.event_occurred(row)
         return rows
 
     @property
@@ -64,10 +64,10 @@ class Tally:
         return self.unreadable + sum(count.failures for count in self.bodies.values())
 
     @property
-    def happened(self) -> int:
+    def event_count(self) -> int:
         """Number of rows with the event."""
-        return sum(count.happened for count in self.bodies.values())
+        return sum(count.events for count in self.bodies.values())
 
-    def ranked(self) -> list[BodyCounts]:
+    def sorted_counts(self) -> list[BodyCounts]:
         """Return the counts of the bodies, most events first."""
-        return sorted(self.bodies.values(), key=lambda count: -count.happened / max(count.answers, 1))
+        return sorted(self.bodies.values(), key=lambda count: -count.events / max(count.answers, 1))

@@ -46,11 +46,11 @@ class Plan:
         Codes or azimuths; all horizontals when empty; ``all-azimuths`` for the worst of all directions.
     preparation : Preparation
     read_options : ReadOptions
-        What the caller says of files that do not say it themselves.
+        Properties of files that lack them.
     runs, seed : int
-        Perturbed runs behind a probability, 0 for none, and their seed.
+        Number of samples of a probability, 0 for none, and their seed.
     strict : bool
-        Whether a record about which there is any doubt fails.
+        Whether records with quality flags fail.
     """
 
     solver: str
@@ -98,7 +98,7 @@ def build_solver_bodies(
 def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
     """Return the rows of one record: each component with each body; one row with the reason if it cannot be read.
 
-    A station of a bundle that is not the one asked for has none.
+    Stations of a bundle other than the requested one have no rows.
 
     Parameters
     ----------
@@ -114,10 +114,10 @@ def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
         if plan.strict:
             require_clean(record)
         doubts = qc_summary([record])
-        prepared = plan.preparation.apply(record)
+        processed_record = plan.preparation.apply(record)
     except SeisblockError as error:
         return [{**columns, REASON: error.message}]
-    return component_rows(prepared, plan, columns, doubts)
+    return component_rows(processed_record, plan, columns, doubts)
 
 
 def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubts: Sequence[str] = ()) -> list[Row]:
@@ -128,9 +128,9 @@ def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubt
     record : Record
     plan : Plan
     columns : mapping
-        What each row says beside.
+        Further columns of each row.
     doubts : sequence of str
-        The warnings with which each begins.
+        First warnings of each row.
     """
     columns = columns or {}
     if is_all_azimuths(plan.components):

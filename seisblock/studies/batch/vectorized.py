@@ -41,7 +41,8 @@ def solve_vectorized(solver: str, bodies: Sequence[SolverBody], motion: Motion) 
         try:
             results |= solve(group, motion, **shared_options)
         except (SeisblockError, TypeError):
-            continue  # one after another they say which of them it is, and why
+            # solved one by one, the failing body is identified with its reason
+            continue
     return results
 
 

@@ -29,7 +29,7 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
     Raises
     ------
     ParameterError
-        If components are named beside it, the solver looks in none, or has options that act in one direction only.
+        If other components are given, or the solver or an option does not support all azimuths.
     """
     if not is_all_azimuths(components):
         return
@@ -61,17 +61,17 @@ def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst
 
 
 def _worst_rock(solver_body: SolverBody, record: Record) -> Worst:
-    return _counted(rock_directions(solver_body.body, record, **solver_body.options))
+    return _worst_result(rock_directions(solver_body.body, record, **solver_body.options))
 
 
 def _worst_respond(solver_body: SolverBody, record: Record) -> Worst:
-    return _counted(respond_directions(solver_body.body, record, **solver_body.options))
+    return _worst_result(respond_directions(solver_body.body, record, **solver_body.options))
 
 
-def _counted(found: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
-    """Return the number of directions with a result (the worst first) and of those with overturning."""
-    fallen, answered = sum(each.overturned for each in found), sum(not each.gave_up for each in found)
-    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: answered, FALLEN_DIRECTIONS: fallen}, left_out_directions(found)
+def _worst_result(results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
+    """Return the first (worst) direction with the number of directions solved and of those with overturning."""
+    fall_count, solved_count = sum(result.overturned for result in results), sum(not result.gave_up for result in results)
+    return f"{results[0].azimuth_deg:g}", {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
 
 
 def _worst_slide(solver_body: SolverBody, record: Record) -> Worst:

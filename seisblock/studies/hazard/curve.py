@@ -16,16 +16,16 @@ class HazardCurve:
     """Annual exceedance frequency of an intensity.
 
     Between two levels the frequency is a power of the intensity, a straight line on two logarithmic axes; beyond the first and the last
-    level it goes on with the slope found there ([Cornell2002]_ relation of hazard and intensity, piece by piece).
+    level it is extrapolated with the end slopes ([Cornell2002]_ relation of hazard and intensity, piece by piece).
 
     Parameters
     ----------
     levels : (n,) array
-        Positive intensities that rise, in units of SI.
+        Positive, increasing intensities, SI.
     rates : (n,) array, 1/year
-        Positive; they fall, or stay.
+        Positive, non-increasing.
     name : str
-        Of the branch of a logic tree; empty where there is one only.
+        Of the branch of a logic tree; empty for a single curve.
     weight : float, 1
         Of the branch.
 
@@ -106,9 +106,9 @@ class Hazard:
     im, unit : str
         Measure of intensity (``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``) and the unit of its levels, SI.
     branches : tuple of HazardCurve
-        Their weights have the sum 1.
+        Their weights sum to 1.
     notes : tuple of str
-        What was left out of the table.
+        Notes on omitted levels.
     table_unit : float
         Factor from the unit of the table's levels to SI.
 

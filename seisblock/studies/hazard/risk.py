@@ -1,11 +1,11 @@
 r"""Annual frequency of a limit state at a site, and update of hazard branches by non-occurrence.
 
-With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, it
-happens with the frequency
+With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, the
+limit state occurs with the frequency
 
 .. math:: \Lambda = \int_0^\infty F \, |d\lambda| = \int_0^\infty \lambda \, dF ,
 
-the mean of the hazard over the intensities at which it happens. On a piece on which :math:`\lambda = \lambda_a (x/x_a)^{-k}`, with
+the mean of the hazard over the distribution of the capacity. On a piece on which :math:`\lambda = \lambda_a (x/x_a)^{-k}`, with
 :math:`u = \ln x`, :math:`\mu = \ln\theta` and :math:`z = (u - \mu)/\beta`, the integral of the second form is (derived here, by completing
 the square)
 
@@ -13,8 +13,8 @@ the square)
    = \lambda_a e^{-k(\mu - u_a) + k^2\beta^2/2} \left[ \Phi(z_2 + k\beta) - \Phi(z_1 + k\beta) \right] ,
 
 and :math:`\int F |d\lambda| = F_1\lambda_1 - F_2\lambda_2 + \int \lambda \, dF` there: no quadrature. One piece from zero to infinity is
-the closed form :math:`\lambda(\theta) \, e^{k^2\beta^2/2}` ([Cornell2002]_ relation of limit state and hazard). What stood for T years did
-so with the probability :math:`e^{-T\Lambda}`, if earthquakes come independently.
+the closed form :math:`\lambda(\theta) \, e^{k^2\beta^2/2}` ([Cornell2002]_ relation of limit state and hazard). The
+probability of no occurrence in T years is :math:`e^{-T\Lambda}` for Poissonian earthquakes.
 """
 
 from __future__ import annotations
@@ -81,9 +81,9 @@ class BranchRisk:
     weight : float, 1
     annual_rate : float, 1/year
     standing : float or None, 1
-        Probability that it did not happen in the years in which it did not; None where none were given.
+        Probability of non-occurrence in the observed period; None without one.
     weight_after : float or None, 1
-        The weight times that, of the sum over the branches.
+        Posterior weight of the branch.
     """
 
     branch: str
@@ -104,17 +104,17 @@ class Risk:
     annual_rate : float, 1/year
         The mean over the branches.
     return_period_years : float or None
-        Its inverse; None where it is zero within the range of numbers.
+        Its inverse; None for a rate of zero.
     probability : ProbabilityInYears
         Of the mean over the branches.
     branches : tuple of BranchRisk
     disaggregation : tuple of RiskShare
         Between the levels of the hazard, of all branches together.
     beyond_levels_share : float, 1
-        Share of the frequency from below the first and beyond the last level, where the curve goes on with its slope.
+        Share of the frequency from extrapolation below the first and beyond the last level.
     stood_years : float or None
     annual_rate_after : float or None, 1/year
-        With the weights after it stood.
+        With the posterior weights.
     notes : tuple of str
     """
 
@@ -140,9 +140,9 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
         In the unit of the hazard.
     hazard : Hazard
     years : float, years
-        For which the probability is told.
+        Period of the probability.
     stood_years : float or None, years
-        In which it did not happen: the likelihood of each branch, and the weights that follow.
+        Observed period without occurrence; updates the weights of the branches.
 
     Raises
     ------
@@ -209,7 +209,8 @@ def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
     """Return ln(Phi(high) - Phi(low)), accurate in both tails."""
     from scipy.special import log_ndtr
 
-    right = low + high > 0.0  # there the differences are those of the tails on the other side
+    # differences of Phi near 1 lose all digits: mirror intervals in the upper tail to the lower one
+    right = low + high > 0.0
     a, b = np.where(right, -high, low), np.where(right, -low, high)
     top = log_ndtr(b)
     with np.errstate(divide="ignore"):

@@ -71,7 +71,7 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
     ----------
     path : str or Path
     im : str or None
-        Which measure, where the table has levels of several.
+        Intensity measure, if the table contains several.
 
     Raises
     ------
@@ -205,9 +205,8 @@ def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tupl
             raise HazardError("branch {name!r} has no weight; add a column weight with one value per branch", name=name)
         try:
             rates = [row.rate for row in used_rows]
-            HazardCurve(
-                [row.level / unit for row in used_rows], rates
-            )  # refused in the numbers of the table, where there is something to refuse
+            # errors quote levels in the unit of the table, so validate in that unit first
+            HazardCurve([row.level / unit for row in used_rows], rates)
             curves.append(HazardCurve([row.level for row in used_rows], rates, name, weight))
         except InputError as error:
             raise (HazardError("branch {name!r}: {text}", name=name, text=error.message) if name else error) from None

@@ -45,17 +45,17 @@ class StationResult:
     rate : float or None
         Share of the stones that fall.
     happened : bool or None
-        Whether what the solver is asked about happened: the body overturns (``respond``, ``rock``), slips, jumps, lifts.
+        Whether the event of the solver occurred: overturning (``respond``, ``rock``), sliding, jump, uplift.
     overturned : bool or None
-        None of a solver in which nothing falls.
+        None for solvers without overturning.
     probability : float or None
-        Share of the plausible versions of body and shaking that fall; None where it was not asked for.
+        Overturning probability; None if not requested.
     max_slip_m : float or None
-        Furthest displacement of the body from where it stood; of a jump that of all its chains together.
+        Maximum displacement of the body; for a jump the sum over all chains.
     max_uplift_m : float or None
-        How far a corner of a body on springs rose.
+        Maximum uplift of a corner of a body on springs.
     remarks : tuple of str
-        Directions and versions of the body that have no answer.
+        Directions and samples without a result.
     """
 
     azimuth_deg: float | None = None
@@ -107,20 +107,20 @@ class StationBody:
         Of the solver: of ``respond`` its ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``,
         ``settle_s``.
     vertical : bool, float or None, 1
-        Whether the vertical motion acts; None: as the solver has it by itself.
+        Whether the vertical motion acts; None: default of the solver.
     runs, seed : int
-        Versions behind the probability (``respond``, ``rock``), 0 for none, and their seed.
+        Number of samples of the probability (``respond``, ``rock``), 0 for none, and their seed.
     step_deg : float
-        Degrees between the directions of ``respond``; other solvers have their own.
+        Azimuth step of ``respond``, degrees; other solvers use their own.
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
     label : str
-        What it is called, where the body has no name.
+        Name of a body without a name.
 
     Raises
     ------
     ParameterError
-        If the solver is none of these, or has no versions to tell a probability of.
+        If the solver is unknown, or does not support samples.
 
     Examples
     --------
@@ -229,7 +229,7 @@ def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResu
         overturned = row["outcome"] in (OVERTURNED_ROCKING, OVERTURNED_LANDED)
     return StationResult(
         azimuths[name] if name in azimuths else float(name),
-        happened=model.happened(row),
+        happened=model.event_occurred(row),
         overturned=overturned,
         probability=row.get("probability_overturned"),
         max_slip_m=None if column == "max_uplift_m" else distance,
@@ -245,7 +245,7 @@ class StationCemetery:
     ----------
     cemetery : Cemetery
     method : AssessmentMethod
-        How a stone is judged; by a criterion that needs no motion.
+        Assessment method with a closed-form criterion.
     step_deg : float
         Degrees between directions.
     """

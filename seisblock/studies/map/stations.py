@@ -52,30 +52,30 @@ class StationReport:
     record : str
         File name.
     station, name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude, longitude : float or None
-        Degrees north and east; None where the file does not say: the station is listed, and on no map.
+        Degrees north and east; None if not in the file: the station is listed, but not on the map.
     epicentral_distance_km : float or None
     local_start : str
-        Time of the first sample on the network's own clock.
+        Local time of the first sample.
     pga_m_s2, pgv_m_s : float or None
         The larger of the horizontal components.
     jma_intensity : float or None, 1
-        None where it needs components, or samples, that are not there.
+        None for missing components or too few samples.
     effect : StationResult
     failure : str or None
-        Why there is no answer, or no effect.
+        Reason of a missing result.
     doubts : tuple of str
-        What a careful reader notices about the record, and which directions or versions of the body have no answer.
+        Quality flags of the record, and directions or samples without a result.
     history : tuple of str
-        What was done to it, the storey on which a body stands among it.
+        Processing steps, including floor motion.
     earthquake : Earthquake or None
     origin_told : str
-        When that was on the network's own clock.
+        Local origin time.
     outline : tuple of pairs of float, m/s^2
-        Least and largest acceleration of the horizontal of the larger peak, in equal stretches of the record.
+        Minima and maxima of the horizontal with the larger peak, over equal intervals of the record.
     duration_s : float
-        That of the record.
+        Of the record, s.
     start : datetime or None
         Of the record, UTC.
     """
@@ -120,7 +120,7 @@ class Stations:
     answers : tuple of StationReport
     earthquake : Earthquake or None
     origin_told : str
-        When that was on the clock of the network that tells it.
+        Local origin time.
     """
 
     answers: tuple[StationReport, ...]
@@ -149,34 +149,34 @@ def survey_stations(
 ) -> Stations:
     """Return the measures at each station of an earthquake, and the response of a body or a cemetery.
 
-    A record that cannot be read, and one with which a subject can do nothing, is an answer with its reason; the others are answered.
+    Unreadable records and failed solutions give a report with a reason; the others are not affected.
 
     Parameters
     ----------
     records : path, RecordSource or Record, or several
-        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; taken as they are needed.
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; read lazily.
     subject : StationBody, StationCemetery or None
-        What stands at each station; None for what was measured alone.
+        Body or cemetery at each station; None for measures only.
     preparation : Preparation
-        What is done to each record before.
+        Processing of each record.
     read_options : ReadOptions
-        What the caller says of files that do not say it themselves.
+        Properties of files that lack them.
     strict : bool
-        Whether a record about which there is any doubt has no answer.
+        Whether records with quality flags fail.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: number of cores.
     progress : callable
-        Told the number of stations done, and the number known of.
+        Called with the number of finished stations and of known ones.
 
     Raises
     ------
     ParameterError
-        If the records are of two earthquakes, or there is none, or a solver refuses an option of the body whatever the station.
+        If the records are of two earthquakes, there are none, or an option of the body is invalid.
 
     Examples
     --------
-    >>> found = survey_stations("hanmer_springs_2016")
-    >>> found.answers[0].station, found.answers[0].latitude, round(found.answers[0].jma_intensity, 1)
+    >>> survey = survey_stations("hanmer_springs_2016")
+    >>> survey.answers[0].station, survey.answers[0].latitude, round(survey.answers[0].jma_intensity, 1)
     ('HSES', -42.52333, 5.4)
     """
     checks.instance(preparation, Preparation)
@@ -233,33 +233,33 @@ def _assess_station(
             return None
         if strict:
             require_clean(record)
-        prepared = preparation.apply(record)
+        processed_record = preparation.apply(record)
     except SeisblockError as error:
-        is_other_station = reading.station is not None and isinstance(error, ComponentError)  # a file without that station
+        is_other_station = reading.station is not None and isinstance(error, ComponentError)  # the file lacks the requested station
         return None if is_other_station else StationReport(name, failure=error.message)
-    site, earthquake = get_site(prepared), get_earthquake(prepared)
+    site, earthquake = get_site(processed_record), get_earthquake(processed_record)
     site_fields: dict[str, object] = {
         "station": site.code,
         "name": site.name,
         "latitude": site.latitude_deg,
         "longitude": site.longitude_deg,
-        "epicentral_distance_km": epicentral_distance_km(prepared),
-        "start": prepared.start,
-        "local_start": format_local_time(prepared, prepared.start),
-        "doubts": tuple(qc_summary([prepared])),
-        "history": prepared.history,
+        "epicentral_distance_km": epicentral_distance_km(processed_record),
+        "start": processed_record.start,
+        "local_start": format_local_time(processed_record, processed_record.start),
+        "doubts": tuple(qc_summary([processed_record])),
+        "history": processed_record.history,
         "earthquake": earthquake,
-        "origin_told": "" if earthquake is None else format_local_time(prepared, earthquake.origin_time),
+        "origin_told": "" if earthquake is None else format_local_time(processed_record, earthquake.origin_time),
     }
     try:
-        measured_fields = _measure_record(prepared)
+        measured_fields = _measure_record(processed_record)
     except SeisblockError as error:
         return StationReport(name, **site_fields, failure=error.message)  # type: ignore[arg-type]
     try:
-        effect, failure = subject.evaluate(prepared) if subject is not None else StationResult(), None
+        effect, failure = subject.evaluate(processed_record) if subject is not None else StationResult(), None
     except SeisblockError as error:
         effect, failure = StationResult(), error.message
-    site_fields["doubts"] = (*qc_summary([prepared]), *effect.remarks)
+    site_fields["doubts"] = (*qc_summary([processed_record]), *effect.remarks)
     return StationReport(name, **site_fields, **measured_fields, effect=effect, failure=failure)  # type: ignore[arg-type]
 
 

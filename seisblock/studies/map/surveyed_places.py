@@ -96,11 +96,11 @@ class SurveyComparison:
     estimate : ShakingEstimate
         Of the fallen stones alone.
     neighbours : tuple of Neighbour
-        The nearest stations with an intensity, the nearest first, none further than ``REACH_KM``.
+        Stations with an intensity, nearest first, within ``MAX_NEIGHBOUR_KM``.
     expected_intensity : float or None, 1
-        Theirs, weighted by the inverse of the distance.
+        Mean of the stations, weighted by inverse distance.
     residual : float or None, 1
-        The estimate's intensity less that; None where the stones tell only a bound.
+        Estimated minus expected intensity; None for one-sided estimates.
     """
 
     surveyed: SurveyedPlace
@@ -116,7 +116,7 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
     Raises
     ------
     BodyError
-        If the file cannot be read, a column is missing, or a row holds what cannot be; the message names the line.
+        If the file cannot be read, a column is missing, or a row is invalid; the message names the line.
     """
     path = Path(name)
     data = read_bytes(path, str(path), BodyError)
@@ -172,21 +172,21 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
 
 
 def compare_surveys(
-    surveyed: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
+    places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
 ) -> tuple[SurveyComparison, ...]:
-    """Return the comparison of each surveyed place, in the given order.
+    """Return the comparison of each places place, in the given order.
 
     Parameters
     ----------
-    surveyed : iterable of SurveyedPlace
+    places : iterable of SurveyedPlace
     station_survey : Stations
     cemetery : Cemetery
-        The population of stones of which each survey counted some.
+        Population of stones, sampled by each survey.
     assumptions : Assumptions
-        Behind the estimates.
+        Of the estimates.
     """
     stations = [answer for answer in station_survey.mapped if answer.jma_intensity is not None]
-    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in surveyed)
+    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in places)
 
 
 def _compare_place(
@@ -216,8 +216,8 @@ def _distance_km(place: SurveyedPlace, station: StationReport) -> float:
 def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
     """Return a sentence for each inconsistent pair of nearby places, or of a place and a station.
 
-    Two surveyed places contradict each other where their intervals of intensity have nothing in common, a place and a station where the
-    station's intensity lies more than ``ALIKE`` outside the place's interval; pairs further apart than ``NEAR_KM`` are not compared.
+    Two surveyed places are inconsistent if their intensity intervals are disjoint, a place and a station if the intensity of the station
+    lies more than ``INTENSITY_TOLERANCE`` outside the interval; pairs more than ``MAX_COMPARISON_KM`` apart are not compared.
 
     Parameters
     ----------
