@@ -99,10 +99,10 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     low, high = min(opinion.rate for opinion in rates), max(opinion.rate for opinion in rates)
     values = {"rates": texts, "made": gettext(GRAVESTONES)}
     if low > 0.0:
-        text = N_("Overturning rate of the stones: {rates} (largest over smallest {spread:.1f}). The {made} was derived for gravestones.")
+        text = N_("Overturning rate of the stones: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
         sentence = gettext(text, **values, spread=high / low)
     else:
-        sentence = gettext("Overturning rate of the stones: {rates}. The {made} was derived for gravestones.", **values)
+        sentence = gettext("Overturning rate of the stones: {rates}. Derived for gravestones: {made}.", **values)
     return gettext("{name}: {text}", name=name, text=sentence) if name else sentence
 
 

@@ -215,7 +215,7 @@ def variation_text(probability: Probability, block: Block) -> str:
     versions, ranges = probability.versions, probability.ranges or ParameterRanges()
     return gettext(
         "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution "
-        "±{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees. In shaking-table runs of two "
+        "±{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees. In 490 shaking-table runs of two "
         "granite rocks, 3 % of those predicted 0/20 did overturn and 2 % of those predicted 20/20 did not",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
@@ -250,7 +250,7 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
         (gettext("peak tilt (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
         (gettext("  over alpha"), [tilt_ratio_cell(o.max_rotation_ratio, overturned=o.overturned) for o in outcomes]),
         (gettext("residual ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),
-        (gettext("furthest from start ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
+        (gettext("max. displacement ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
         (gettext("slip path ({unit})", unit=unit.name), [length_cell(o.slip_path_m, unit) for o in outcomes]),
         (gettext("flights, impacts"), [f"{o.flights}, {o.impacts}" for o in outcomes]),
         (gettext("  slide, rock (s)"), [f"{format_seconds(s['slide'])}, {format_seconds(s['rock'])}" for s in mode_times]),

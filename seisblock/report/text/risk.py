@@ -63,7 +63,7 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
         _measure_heading(measure, gettext("median"), gal=gal),
         "beta",
         gettext("rate (1/year)"),
-        gettext("return period"),
+        gettext("period (years)"),
     ]
     rows = [
         [

@@ -166,7 +166,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     rates = np.array([row.sum() for row in shares])
     total = float(weights @ rates)
     outside_rate = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
-    standing = None if stood_years is None else np.exp(-rates * stood_years)
+    no_event_probability = None if stood_years is None else np.exp(-rates * stood_years)
     posterior_weights = None if stood_years is None else _posterior_weights(weights, -rates * stood_years)
     return Risk(
         fragility=fragility,
@@ -179,7 +179,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
                 branch.name,
                 float(weights[i]),
                 float(rates[i]),
-                None if standing is None else float(standing[i]),
+                None if no_event_probability is None else float(no_event_probability[i]),
                 None if posterior_weights is None else float(posterior_weights[i]),
             )
             for i, branch in enumerate(hazard.branches)

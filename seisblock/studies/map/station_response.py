@@ -189,8 +189,8 @@ class StationBody:
 
     def _respond_result(self, record: Record) -> StationResult:
         """Return the full response in the worst direction, with the probability there."""
-        found = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
-        worst, share, remarks = found[0], None, left_out_directions(found)
+        results = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
+        worst, share, remarks = results[0], None, left_out_directions(results)
         if self.runs:
             motion = motion_of(record, f"{worst.azimuth_deg:g}")
             block = block_for_motion(self.body, motion)

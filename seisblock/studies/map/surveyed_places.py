@@ -174,7 +174,7 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
 def compare_surveys(
     places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
 ) -> tuple[SurveyComparison, ...]:
-    """Return the comparison of each places place, in the given order.
+    """Return the comparison of each surveyed place, in the given order.
 
     Parameters
     ----------
