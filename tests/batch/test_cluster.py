@@ -43,7 +43,7 @@ def test_what_is_no_scheduler_is_said_in_a_sentence():
     with socket.create_server(("127.0.0.1", 0)) as listening:
         threading.Thread(target=answer, daemon=True).start()
         address = "{}:{}".format(*listening.getsockname())
-        with pytest.raises(ParameterError, match=f"no Dask scheduler answers at {address}"), cluster.connect(address):
+        with pytest.raises(ParameterError, match=f"no Dask scheduler responds at {address}"), cluster.connect(address):
             pass
         listening.shutdown(socket.SHUT_RDWR)
 

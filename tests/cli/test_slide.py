@@ -40,8 +40,8 @@ def test_mu_alone_uses_the_bundled_record():
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ((), "over a path of 196.1 cm, while the record lasts, and comes to rest 294.2 cm to +EW from where it stood"),
-        (("--slope", "10", "--mu-kinetic", "0.1"), "and does not come to rest"),
+        ((), "path 196.1 cm during the record, residual displacement 294.2 cm to +EW at rest"),
+        (("--slope", "10", "--mu-kinetic", "0.1"), "; not at rest at the end"),
     ],
 )
 def test_what_slides_on_after_the_record_is_told_as_such(tmp_path, arguments, says):

@@ -88,7 +88,7 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
         size, unit = shaking if row.unit == ACCELERATION else speed
         threshold_text = f"{format_number(row.threshold / size)} {unit}"
         cells.append([gettext(row.criterion), _formula(row), threshold_text, format_ratio(row), _verdict(row, card)])
-    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio"), gettext("says")], cells)
+    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio"), gettext("verdict")], cells)
 
     frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
     columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]

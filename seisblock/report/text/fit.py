@@ -84,7 +84,7 @@ def tables(fit: BlockFit, outcomes: OutcomeTable, name: str) -> Iterator[Any]:
         gettext("parameter"),
         gettext("median"),
         gettext("{level:g%} interval", level=fit.level),
-        gettext("before"),
+        gettext("prior"),
         gettext("width ratio"),
     ]
     yield table("", header, [_row(marginal) for marginal in fit.marginals])
@@ -149,7 +149,7 @@ def _prediction_tables(fit: BlockFit, held_out: HeldOutScores, outcomes: Outcome
         gettext(_HEADING[fit.experiment.kind]),
         gettext("95 % interval"),
     ]
-    yield table(gettext("calibration, records held out"), header, steps)
+    yield table(gettext("Calibration in cross-validation"), header, steps)
     mispredicted = _mispredicted(fit)
     if mispredicted.size:
         labels = [

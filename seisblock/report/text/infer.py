@@ -142,7 +142,7 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
                     f"{f.scale:.4f}",
                     acceleration_cell(f.pga_m_s2, gal=gal),
                     length_cell(f.displacement_m, unit),
-                    gettext("leaps across") if f.leaps else "",
+                    gettext("discontinuity") if f.leaps else "",
                 )
                 for f in result.scale_factors
             ]

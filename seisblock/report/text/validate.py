@@ -11,8 +11,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.core.i18n import N_, gettext, join_sentences, lazy_gettext
-from seisblock.report.text.tables import styled_line, table
+from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.report.text.tables import styled_line, table, with_notes
 from seisblock.validation.case import (
     EVIDENCE_KINDS,
     VERDICTS,
@@ -71,7 +71,7 @@ def _explained_cases(results: Sequence[CaseResult]) -> Iterator[Any]:
     for note in dict.fromkeys(map(explanation, results)):
         yield _case_table([result for result in results if explanation(result) == note])
         if note:
-            yield Constrain(Padding(styled_line(gettext("why: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
+            yield Constrain(Padding(styled_line(gettext("cause: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
 
 
 def explanation(result: CaseResult) -> str:
@@ -164,7 +164,7 @@ def _count_line(results: Sequence[CaseResult], *, all_cases: bool) -> Text:
         gettext(singular if len(results) == 1 else plural, all=len(results), verdicts=verdict_counts_text(verdict_counts)),
         "bold red" * bool(verdict_counts["fails"]),
     )
-    return text if all_cases else text.append(join_sentences(["", gettext("--all lists the cases that hold.")]), style="dim")
+    return text if all_cases else text.append(with_notes("", [gettext("--all lists the cases that hold.")]), style="dim")
 
 
 def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:
