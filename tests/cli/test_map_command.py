@@ -79,7 +79,7 @@ def test_what_is_shown(tmp_path, monkeypatch):
             (tmp_path / name).write_bytes(data)
     shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
     assert shown.exit_code == 0, shown.stderr
-    assert "of 2 stations, most at SYA001" in shown.stdout
+    assert "of 2 stations, largest rate at SYA001" in shown.stdout
     assert "earthquake of magnitude 6.8, 13 km deep, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
     peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
     assert "2 stations, largest shaking at SYA001" in peaks.stdout
@@ -91,7 +91,7 @@ def test_what_is_shown(tmp_path, monkeypatch):
         (["EMPTY"], 3, "no record in this folder"),
         (["hanmer_springs_2016", "shafter_1989"], 3, "records of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
         (["shafter_1989", "--cemetery", "aoyama.csv", "--block", "gravestone"], 2, "give either --cemetery or a body, not both"),
-        (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "friction required: give mu"),
+        (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "how rough is it under the body?"),
         (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "give either --cemetery or a body, not both"),
         (["shafter_1989", "--solver", "rock"], 3, "which body? --width, --height missing"),
         (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu; remove it"),

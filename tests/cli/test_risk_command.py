@@ -69,7 +69,7 @@ def test_files(run, tmp_path):
         ((*LINE, "--fragility", "f.json"), "give --fragility FILE, or --median and --beta"),
         ((*LINE, "--years", "0"), "must be positive"),
         ((*LINE, "--stood", "-5"), "must be positive"),
-        ((*LINE, "--im", "pga"), "synthetic_hazard.csv: the levels are of pgv, but pga is required; give a hazard in pga, or"),
+        ((*LINE, "--im", "pga"), "synthetic_hazard.csv: the levels are of pgv, but pga is required; give a hazard in pga or"),
         ((*LINE, "--im", "sa"), "needs its period"),
         (("--median", "0.6", "--beta", "0", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
         ((*LINE[:4], "--hazard", "."), "cannot read"),
@@ -90,7 +90,7 @@ def test_a_fragility_in_another_measure_than_the_hazard(run, tmp_path):
     (tmp_path / "h.csv").write_text("pga_g,annual_rate\n0.1,0.01\n0.4,0.000625\n")
     done = run("--fragility", "f.json", "--hazard", "h.csv")
     assert done.exit_code == 3
-    told = "h.csv: the levels are of pga, but pgv is required; give a hazard in pgv, or a fragility in pga"
+    told = "h.csv: the levels are of pga, but pgv is required; give a hazard in pgv or a fragility in pga"
     assert told in " ".join(done.stderr.split())
 
 

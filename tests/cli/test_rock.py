@@ -189,7 +189,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
     assert answer.exit_code == 0, answer.output
     assert re.match(r"NS: overturns to -NS at \d+\.\d\d s\.\n", answer.stdout)  # the answer first, with its number
-    assert "EW: stands still; rocks from 2.9420 m/s² on." in answer.stdout
+    assert "EW: remains at rest; rocking threshold 2.9420 m/s²." in answer.stdout
     assert "m/s²" in answer.stdout
     assert (tmp_path / "rock.png").stat().st_size > 10_000
     rows = list(csv.DictReader((tmp_path / "rock.csv").open()))

@@ -197,7 +197,7 @@ def test_nothing_to_survey():
     """No record at all, and stones that are to be simulated, are refused."""
     with pytest.raises(ParameterError, match="no records"):
         survey_stations([])
-    with pytest.raises(ParameterError, match="by a criterion"):
+    with pytest.raises(ParameterError, match="closed-form criterion"):
         StationCemetery(read_cemetery("aoyama.csv"), AssessmentMethod("simulate"))
 
 

@@ -25,6 +25,8 @@ def agreement_line(name: str, agreement: ModelComparison) -> str:
     agreement : ModelComparison
     """
     factors = [opinion.factor for opinion in agreement.opinions if opinion.factor is not None]
+    if not agreement.models:
+        return gettext("{name}: no model comparison.", name=name)
     if not agreement.opinions or agreement.spread is None:
         return gettext("{name}: overturns in {falls} of {models} models.", name=name, falls=agreement.falls, models=agreement.models)
     values = {"name": name, "models": agreement.models, "spread": agreement.spread}

@@ -35,7 +35,9 @@ def _slip_table(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
     unit = length_unit((point.max_slip_m for point in points), gal=True)
     rows = [[f"{points[i].mu:.4g}", length_cell(points[i].max_slip_m, unit), length_cell(points[i].residual_slip_m, unit)] for i in indices]
     title = gettext("{name}: sliding against friction", name=motion.name)
-    yield table(title, ["μ", gettext("max. displacement ({unit})", unit=unit.name), gettext("residual slip ({unit})", unit=unit.name)], rows)
+    yield table(
+        title, ["μ", gettext("max. displacement ({unit})", unit=unit.name), gettext("residual slip ({unit})", unit=unit.name)], rows
+    )
     yield styled_line()
 
 
