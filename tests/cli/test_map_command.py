@@ -80,7 +80,7 @@ def test_what_is_shown(tmp_path, monkeypatch):
     shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
     assert shown.exit_code == 0, shown.stderr
     assert "of 2 stations, largest rate at SYA001" in shown.stdout
-    assert "earthquake of magnitude 6.8, 13 km deep, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
+    assert "earthquake of magnitude 6.8, depth 13 km, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
     peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
     assert "2 stations, largest shaking at SYA001" in peaks.stdout
 
