@@ -77,7 +77,7 @@ def test_the_models_of_the_top_stone_are_told(pulse):
     assert models["pile of stones"] is True
     assert found["agreement"]["models"] == 6
     shown = " ".join(run(pulse).stdout.split())
-    assert "sao, NS: falls in" in shown
+    assert "sao, NS: overturns in" in shown
     assert "pile of stones" in shown
     dowelled = answer(pulse, "--reinforced")["results"][0]["agreement"]
     factors = {opinion["model"]: opinion["factor"] for opinion in dowelled["opinions"]}

@@ -61,7 +61,9 @@ def test_tables_and_documents_tell_it(jma):
     entry = json.loads(CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4", "--json"]).stdout)["record"]
     assert entry["station_name"] == "大阪市中央区" and entry["latitude_deg"] == 34.6819 and entry["longitude_deg"] == 135.5183
     assert entry["start"] == "2016-04-15T16:25:00+00:00" and entry["local_start"] == "2016-04-16 01:25:00 JST"
-    assert entry["epicentral_distance_km"] == pytest.approx(486.1, abs=0.1) and "epicentral distance 486 km" in " ".join(told.stdout.split())
+    assert entry["epicentral_distance_km"] == pytest.approx(486.1, abs=0.1) and "epicentral distance 486 km" in " ".join(
+        told.stdout.split()
+    )
     assert "station at 34.6819 N 135.518 E" in told.stdout
     assert entry["earthquake"]["magnitude"] == 7.3 and entry["earthquake"]["origin_time"].startswith("2016-04-15T16:25:2")
 
