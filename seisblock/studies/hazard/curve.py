@@ -21,7 +21,7 @@ class HazardCurve:
     Parameters
     ----------
     levels : (n,) array
-        Positive, increasing intensities, SI.
+        Positive, increasing intensities, in units of SI.
     rates : (n,) array, 1/year
         Positive, non-increasing.
     name : str
