@@ -127,7 +127,7 @@ def test_a_scheduler_that_goes_away_is_no_fault_of_a_record(records):
     found, read = [], [seisblock.read(name) for name in records]
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     local = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60)
-    with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped answering"):
+    with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped responding"):
         for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
             found += rows
             local.sync(local.scheduler.close)
