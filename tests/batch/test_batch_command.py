@@ -62,7 +62,7 @@ def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
     line = line if "--solver" not in change else line.replace("--solver rock ", "")
     answer = run(f"{line} {change}")
     assert answer.exit_code == 3 and said in answer.stderr
-    assert [line[:10] for line in answer.stderr.splitlines() if "no notice" not in line] == ["seisblock:"]
+    assert [line[:10] for line in answer.stderr.splitlines() if "does not use" not in line] == ["seisblock:"]
     assert not Path("t.csv").exists() and not Path("t.csv.journal").exists()
 
 
