@@ -43,7 +43,7 @@ def test_what_is_no_scheduler_is_said_in_a_sentence():
     with socket.create_server(("127.0.0.1", 0)) as listening:
         threading.Thread(target=answer, daemon=True).start()
         address = "{}:{}".format(*listening.getsockname())
-        with pytest.raises(ParameterError, match=f"no Dask scheduler answers at {address}"), cluster.connect(address):
+        with pytest.raises(ParameterError, match=f"no Dask scheduler responds at {address}"), cluster.connect(address):
             pass
         listening.shutdown(socket.SHUT_RDWR)
 
@@ -127,7 +127,7 @@ def test_a_scheduler_that_goes_away_is_no_fault_of_a_record(records):
     found, read = [], [seisblock.read(name) for name in records]
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
     local = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60)
-    with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped answering"):
+    with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped responding"):
         for rows in run.iter_record_rows(iter(read), plan, total=12, client=client):
             found += rows
             local.sync(local.scheduler.close)

@@ -49,9 +49,9 @@ def test_table_file_and_figure(run, tmp_path):
     """The table ends with the simulated outcome; the files hold all rows and the figure."""
     answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3)
     assert answer.exit_code == 0, answer.output
-    assert "EW, simulated:" in answer.stdout
+    assert "EW, simulation:" in answer.stdout
     assert "of 14 criteria agree" in " ".join(answer.stdout.split())
-    assert "a factor of" in " ".join(answer.stdout.split())
+    assert "largest over smallest" in " ".join(answer.stdout.split())
     assert "half sine, nonlinear" in answer.stdout
     rows = list(csv.DictReader((tmp_path / "card.csv").open()))
     assert len(rows) == 30
@@ -71,7 +71,7 @@ def test_bad_input_is_one_sentence(run, words):
 def test_beside_the_criteria_stands_what_the_body_does():
     """In one sentence and in the document: with the friction given, the body's own, or that of feet that hold."""
     shown = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
-    assert "With all motions and friction 0.2 (respond): NS: slides" in " ".join(shown.stdout.split())
+    assert "Full response (respond) with friction 0.2: NS: slides" in " ".join(shown.stdout.split())
     for words, mu, known in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
         found = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
         assert found["mu"] == pytest.approx(mu) and found["friction_known"] is known

@@ -139,8 +139,8 @@ def test_margin_and_perturbation(run, pulse):
 def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
     """It falls from some factor on, the first one found; the share of versions stands beside it, with what was varied (N11, N12)."""
     shown = " ".join(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin").stdout.split())
-    assert "falls from 1.13 times this record on (first found, looked at every 0.002 up to 3)" in shown
-    assert shown.index("falls from 1.13") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
+    assert "scale factor to overturning 1.13 (first found in steps of 0.002 up to 3)" in shown
+    assert shown.index("overturning 1.13") < shown.index("overturning at scale factors") < shown.index("overturning probability")
     assert "is the 95 % interval of parameter variation only, no more" in shown
     assert "varied: size ±5 %" in shown
 
@@ -149,20 +149,23 @@ def test_no_share_below_three_hundredths_is_a_chance(run):
     """None of 60 versions falls, and the line says what that is worth on real rocks, not 0.000 (N12)."""
     words = ("elcentro_1940_ns.csv", "--width", "40cm", "--height", "80cm", "--perturb", 60)
     shown = " ".join(run(*words).stdout.split())
-    assert "falls in 0 of 60 versions of body and shaking: below 0.03; of real rocks 3 % fell where no version did." in shown
-    assert "versions of body and shaking: 0" not in shown
+    assert (
+        "overturning probability below 0.03 (0 of 60 samples). On shaking tables, 3 % of the runs with no overturning sample did overturn."
+        in shown
+    )
+    assert "overturning probability 0" not in shown
     assert json.loads(run(*words, "--json").stdout)["results"][0]["perturbation"]["probability"] == 0.0
 
 
 def test_the_first_line_says_that_friction_does_not_suffice(run):
     """With --mu the verdict says whether rocking needs more, before any number; without it nothing was asked (DESIGN.md section 11)."""
     words = ("synthetic_jma.csv", "--width", "8sun", "--height", "80cm", "--component", "NS")
-    for mu, says in ((0.2, "less than b/h, 0.303, it would slide and not rock"), (0.32, "and there is 0.32: it would slip while it rocks")):
+    for mu, says in ((0.2, "0.2 < b/h = 0.303 the block slides instead of rocking"), (0.32, "with 0.32 the block slides while it rocks")):
         shown = " ".join(run(*words, "--mu", mu).stdout.split())
         assert says in shown
-        assert shown.index(says) < shown.index("rocking starts")
+        assert shown.index(says) < shown.index("rocking start (s)")
         assert json.loads(run(*words, "--mu", mu, "--json").stdout)["results"][0]["friction_suffices"] is False
-    assert "it would sl" not in run(*words, "--mu", 2).stdout
+    assert "the block slides" not in run(*words, "--mu", 2).stdout
     found = json.loads(run(*words, "--mu", 2, "--json").stdout)
     assert (found["results"][0]["friction_suffices"], found["parameters"]["mu"]) == (True, 2.0)
     assert "friction_suffices" not in json.loads(run(*words, "--json").stdout)["results"][0]
@@ -173,9 +176,9 @@ def test_models_that_disagree_are_named(run):
     """One sentence: in how many models it falls, which, and by what factor they are apart (N15)."""
     answer = run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm")
     shown = " ".join(answer.stdout.split())
-    assert "NS: falls in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in shown
-    assert "velocity with sharp edges (0.95); stands in the others:" in shown
-    assert "the largest is 2.0 times the smallest. The gravestone criterion, made for this, says that it falls." in shown
+    assert "NS: overturns in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in shown
+    assert "velocity with sharp edges (0.95); stable in the others:" in shown
+    assert "largest over smallest 2.0. The gravestone criterion, derived for such objects, predicts overturning." in shown
     (found,) = json.loads(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--json").stdout)["results"]
     assert (found["agreement"]["falls"], found["agreement"]["models"]) == (2, 5)
     assert found["agreement"]["spread"] == pytest.approx(1.98, abs=0.01)
@@ -186,7 +189,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
     assert answer.exit_code == 0, answer.output
     assert re.match(r"NS: overturns to -NS at \d+\.\d\d s\.\n", answer.stdout)  # the answer first, with its number
-    assert "EW: stands still; rocks from 2.9420 m/s² on." in answer.stdout
+    assert "EW: remains at rest; rocking threshold 2.9420 m/s²." in answer.stdout
     assert "m/s²" in answer.stdout
     assert (tmp_path / "rock.png").stat().st_size > 10_000
     rows = list(csv.DictReader((tmp_path / "rock.csv").open()))
@@ -260,9 +263,9 @@ def test_fragile_verdict_is_said_everywhere(run):
     assert found["results"][0]["verdict_flips_within_2_percent"] is True
     assert any("2 %" in text for text in found["warnings"])
     factor = found["results"][0]["flips_at_factor"]
-    would = "stand" if found["results"][0]["overturned"] else "fall"
-    assert f"it would {would} at {factor:.3f} times this record" in " ".join(shown.stdout.split())
-    assert f"2 % of the record, at {factor:.3f} times its amplitude" in shown.stderr
+    would = "does not overturn" if found["results"][0]["overturned"] else "overturns"
+    assert f"; {would} at a scale factor of {factor:.3f}" in " ".join(shown.stdout.split())
+    assert f"2 %, to {factor:.3f} times itself" in shown.stderr
 
 
 def test_animation_of_the_first_component(run, pulse, tmp_path):

@@ -40,8 +40,8 @@ def test_mu_alone_uses_the_bundled_record():
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ((), "over a path of 196.1 cm, while the record lasts, and comes to rest 294.2 cm to +EW from where it stood"),
-        (("--slope", "10", "--mu-kinetic", "0.1"), "and does not come to rest"),
+        ((), "path 196.1 cm during the record, residual displacement 294.2 cm to +EW at rest"),
+        (("--slope", "10", "--mu-kinetic", "0.1"), "; not at rest at the end"),
     ],
 )
 def test_what_slides_on_after_the_record_is_told_as_such(tmp_path, arguments, says):
@@ -205,6 +205,6 @@ def test_progress_is_told_to_the_end():
 def test_the_answer_comes_first_and_of_several_records_the_record():
     """One record: the verdict is the first line. Two: each begins with the line that says which it is."""
     one = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
-    assert one[0].startswith("NS: slides up to 3.25 mm") and one[2].startswith("elcentro_1940_ns")
+    assert one[0].startswith("NS: slides, maximum displacement 3.25 mm") and one[2].startswith("elcentro_1940_ns")
     two = run("elcentro_1940_ns", "synthetic_jma", "--mu", "0.2", "--component", "NS", "--quiet").stdout.splitlines()
     assert [line[:3] for line in two if line.startswith(("elcentro", "SYN", "NS: "))] == ["elc", "NS:", "SYN", "NS:"]

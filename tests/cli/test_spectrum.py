@@ -126,7 +126,7 @@ def test_modes(run, tmp_path):
     for axis in (("--steps", "12"), ("--sizes", "0.5,1,2", "--height-over-width", "3", "--mu", "0.2,0.5"), ("--mu", "0.3", "--steps", "2")):
         drawn = run("--kind", "modes", *axis, "--plot", "m.png")
         assert drawn.exit_code == 0, drawn.output
-        assert "bodies" in drawn.stdout and "of the weight" in drawn.stdout
+        assert "bodies" in drawn.stdout and "of the effective weight" in drawn.stdout
         assert (tmp_path / "m.png").stat().st_size > 10_000
 
 

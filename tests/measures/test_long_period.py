@@ -108,4 +108,4 @@ def test_measure_tells_it():
     told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--json", "--quiet"]).stdout)["long_period"]
     assert told["long_period_class"] == "4" and told["floor_velocity_m_s"] > 1.0 and told["period_s"] in PERIODS
     said = CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--quiet"]).stdout
-    assert "JMA class of long-period motion 4" in said
+    assert "JMA class of long-period ground motion 4" in said

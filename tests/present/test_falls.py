@@ -51,10 +51,10 @@ def lantern(*names, each=0.05, azimuth=0.0):
     [
         (lantern(), ""),
         (lantern("hoju"), "hoju fell at 3.20 s to azimuth 214 (SW), onto the ground."),
-        (lantern(*LANTERN), "All 6 stones fell together at 3.20 s, to about azimuth 204 (SSW)."),
-        (lantern(*LANTERN[:5]), "All above kiso fell together at 3.20 s, to about azimuth 206 (SSW)."),
-        (lantern("kasa", "hoju"), "All above hibukuro fell together at 3.20 s, to about azimuth 212 (SSW)."),
-        (lantern("hoju", "hibukuro"), "hoju, hibukuro fell together at 3.20 s, to about azimuth 212 (SSW)."),
+        (lantern(*LANTERN), "All 6 stones fell together at 3.20 s, approximately to azimuth 204 (SSW)."),
+        (lantern(*LANTERN[:5]), "All stones above kiso fell together at 3.20 s, approximately to azimuth 206 (SSW)."),
+        (lantern("kasa", "hoju"), "All stones above hibukuro fell together at 3.20 s, approximately to azimuth 212 (SSW)."),
+        (lantern("hoju", "hibukuro"), "hoju, hibukuro fell together at 3.20 s, approximately to azimuth 212 (SSW)."),
         (lantern("hoju", "kasa", each=0.6), "hoju fell first, at 3.20 s to azimuth 214 (SW); then kasa, at 3.80 s to azimuth 210 (SSW)."),
         (
             lantern(*LANTERN[:5], each=0.13),
@@ -64,7 +64,7 @@ def lantern(*names, each=0.05, azimuth=0.0):
             fell("lantern", ("hoju", 3.2, 10.0), ("kasa", 3.3, 190.0)),
             "hoju fell first, at 3.20 s to azimuth 10 (N); then kasa, at 3.30 s to azimuth 190 (S).",
         ),
-        (lantern("hoju", "kasa", azimuth=None), "All above hibukuro fell together at 3.20 s, to about -x+y."),
+        (lantern("hoju", "kasa", azimuth=None), "All stones above hibukuro fell together at 3.20 s, approximately to -x+y."),
     ],
 )
 def test_falls_are_one_sentence(answer, sentence):

@@ -57,11 +57,13 @@ def test_tables_and_documents_tell_it(jma):
     """P4: name, local time, magnitude, depth and epicentre stand above the table and in the document."""
     told = CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4"])
     assert "47772 大阪市中央区  2016-04-16 01:25:00 JST" in told.stdout
-    assert "earthquake of magnitude 7.3, 12 km deep, 32.7417 N 130.808 E" in " ".join(told.stdout.split())
+    assert "earthquake of magnitude 7.3, depth 12 km, 32.7417 N 130.808 E" in " ".join(told.stdout.split())
     entry = json.loads(CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4", "--json"]).stdout)["record"]
     assert entry["station_name"] == "大阪市中央区" and entry["latitude_deg"] == 34.6819 and entry["longitude_deg"] == 135.5183
     assert entry["start"] == "2016-04-15T16:25:00+00:00" and entry["local_start"] == "2016-04-16 01:25:00 JST"
-    assert entry["epicentral_distance_km"] == pytest.approx(486.1, abs=0.1) and "486 km away" in " ".join(told.stdout.split())
+    assert entry["epicentral_distance_km"] == pytest.approx(486.1, abs=0.1) and "epicentral distance 486 km" in " ".join(
+        told.stdout.split()
+    )
     assert "station at 34.6819 N 135.518 E" in told.stdout
     assert entry["earthquake"]["magnitude"] == 7.3 and entry["earthquake"]["origin_time"].startswith("2016-04-15T16:25:2")
 
@@ -75,7 +77,7 @@ def test_a_real_record_tells_where_and_of_what_earthquake_everywhere(tmp_path):
     assert (entry["epicentral_distance_km"], entry["latitude_deg"]) == (25.0, -42.52333)
     shown = " ".join(CliRunner().invoke(main, ["measure", "--window", "45:60"]).stdout.split())
     assert "station at 42.5233 S 172.831 E" in shown
-    assert "earthquake of magnitude 7.82, 5 km south-west of Waiau, 15 km deep, 42.6925 S 173.022 E, 25 km away" in shown
+    assert "earthquake of magnitude 7.82, 5 km south-west of Waiau, depth 15 km, 42.6925 S 173.022 E, epicentral distance 25 km" in shown
     record = read("hanmer_springs_2016")
     assert "M 7.8, 25 km" in heading(record)
     assert record_info(record)[0] == "station at 42.5233 S 172.831 E"

@@ -126,7 +126,7 @@ def test_a_closed_form_says_of_which_frequency_and_edges_it_is():
     assert sharp[PULSE].frequency_hz == pytest.approx(frequency)
     for stone, edges in ((STONE, "sharp"), (STONE.with_wear(0.1), "worn")):
         told = agreement_line("NS", compare_models(stone, MOTION))
-        assert f"half sine of {frequency:.3g} Hz with {edges} edges (" in told
+        assert f"half-sine pulse of {frequency:.3g} Hz with {edges} edges (" in told
         assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in told
     rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)
-    assert "by the half sine of 1.2 Hz with worn edges" in rates_line("NS", rates)
+    assert "by the half-sine pulse of 1.2 Hz with worn edges" in rates_line("NS", rates)

@@ -485,7 +485,7 @@ def test_every_direction_counts_where_they_are_asked_for():
             assert (level.exceeding, level.runs) == (falls, 3)
     counts = [level.exceeding for level in curve.levels]
     assert counts[0] < counts[-1]
-    with pytest.raises(ParameterError, match="stack does not look in every direction"):
+    with pytest.raises(ParameterError, match="stack does not support all azimuths"):
         run_fragility(few, seisblock.load_pile("wagata"), "stack", components="all-azimuths")
 
 

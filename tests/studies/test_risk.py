@@ -74,7 +74,7 @@ def test_what_is_far_away_has_no_rounding():
     found = find_risk(Lognormal(1e4, 0.1), site())
     assert 0.0 < found.annual_rate < 1e-20 and found.beyond_levels_share > 0.999
     assert all(each.annual_rate >= 0.0 for each in found.disaggregation)
-    assert "far from every level" in found.notes[0]
+    assert "far from all levels" in found.notes[0]
 
 
 def test_branches_and_what_stood():
@@ -124,28 +124,28 @@ def test_tables_as_people_keep_them(text, tmp_path):
 
 
 WRONG = {
-    "pgv_m_s,annual_rate\n0.2,0.01\n": "two levels or more",
-    "pgv_m_s,annual_rate\n": "there is no hazard in it",
-    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.02\n": "cannot be more frequent than weaker, as it is in this hazard curve from 0.2 to 0.6",
-    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.01\n": "does not fall at its end",
-    "pgv_m_s,annual_rate\n0.2,0.01\n0.2,0.001\n": "0.2 is there twice",
-    "pga_g,annual_rate\n0.1,0.01\n0.2,0.02\n": "in this hazard curve from 0.1 to 0.2",
-    "pga_gal,annual_rate\n100,0.01\n100,0.001\n": "100 is there twice",
+    "pgv_m_s,annual_rate\n0.2,0.01\n": "at least two levels",
+    "pgv_m_s,annual_rate\n": "the table is empty",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.02\n": "must not increase with intensity: this one rises from 0.2 to 0.6",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.01\n": "does not decrease at its end",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.2,0.001\n": "0.2 is duplicated",
+    "pga_g,annual_rate\n0.1,0.01\n0.2,0.02\n": "this one rises from 0.1 to 0.2",
+    "pga_gal,annual_rate\n100,0.01\n100,0.001\n": "100 is duplicated",
     "pgv,annual_rate\n0.2,0.01\n0.6,0.001\n": "'pgv' has no unit",
-    "pgv_furlong,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'furlong'",
-    "pgv_g,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'g'",
+    "pgv_furlong,annual_rate\n0.2,0.01\n0.6,0.001\n": "unknown unit 'furlong'",
+    "pgv_g,annual_rate\n0.2,0.01\n0.6,0.001\n": "unknown unit 'g'",
     "depth,annual_rate\n0.2,0.01\n": "one column of levels",
     "pgv_m_s,pga_g,annual_rate\n0.2,1,0.01\n": "one column of levels",
-    "pgv_m_s,x\n0.2,0.01\n": "one column annual_rate",
+    "pgv_m_s,x\n0.2,0.01\n": "one of the columns annual_rate",
     "pgv_m_s,annual_rate\n0.2,-0.01\n0.6,0.001\n": "line 2: the annual frequency must be zero or more",
-    "pgv_m_s,annual_poe\n0.2,1.5\n0.6,0.001\n": "line 2: the probability of being exceeded must lie in",
+    "pgv_m_s,annual_poe\n0.2,1.5\n0.6,0.001\n": "line 2: the exceedance probability must lie in",
     "pgv_m_s,annual_rate\n0.2,nan\n0.6,0.001\n": "line 2",
     "pgv_m_s,annual_rate\n0.2,often\n0.6,0.001\n": "line 2: rate must be a number",
     "pgv_m_s,annual_rate\n0,0.1\n0.6,0.001\n": "line 2: the level must be positive",
-    "branch,weight,pgv_m_s,annual_rate\na,0.5,0.2,0.01\na,0.5,0.6,0.001\n": "have the sum 0.5",
-    "branch,pgv_m_s,annual_rate\na,0.2,0.01\na,0.6,0.001\nb,0.2,0.01\nb,0.6,0.001\n": "the branch 'a' has no weight",
+    "branch,weight,pgv_m_s,annual_rate\na,0.5,0.2,0.01\na,0.5,0.6,0.001\n": "must sum to 1; found 0.5",
+    "branch,pgv_m_s,annual_rate\na,0.2,0.01\na,0.6,0.001\nb,0.2,0.01\nb,0.6,0.001\n": "branch 'a' has no weight",
     "branch,weight,pgv_m_s,annual_rate\na,0.5,0.2,0.01\na,0.6,0.6,0.001\n": "several weights",
-    "branch,weight,pgv_m_s,annual_rate\na,1,0.2,0.01\na,1,0.6,0.02\n": "the branch 'a': stronger shaking",
+    "branch,weight,pgv_m_s,annual_rate\na,1,0.2,0.01\na,1,0.6,0.02\n": "branch 'a': the frequencies of a hazard curve must not increase",
 }
 
 

@@ -56,7 +56,7 @@ def test_pairs_that_contradict_each_other_are_named():
     (low, _), (_, high) = (answer.estimate.jma_intensity_interval for answer in answers[:2])
     assert 6.7 > low > high
     told = contradictions(answers)
-    assert [text.split(",")[0] for text in told] == ["stands and station A", "fell and stands"]
+    assert [text.split(" (")[0] for text in told] == ["stands and station A", "fell and stands"]
     agreeing = compare_surveys(places[:1], Stations((station("A", 35.0, 139.0, float(low)),), None), AOYAMA)
     assert contradictions(agreeing) == []
 
@@ -71,12 +71,12 @@ def test_lists_in_either_language(tmp_path):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("place,latitude,longitude,stones\nA,35,139,10\n", "it lacks .*fallen"),
-        ("place,latitude,longitude,stones,fallen\n", "names no place"),
+        ("place,latitude,longitude,stones\nA,35,139,10\n", "missing: .*fallen"),
+        ("place,latitude,longitude,stones,fallen\n", "list of surveys is empty"),
         ("place,latitude,longitude,stones,fallen\nA,35,139,10,x\n", "line 2: expected degrees and whole numbers"),
-        ("place,latitude,longitude,stones,fallen\nA,95,139,10,1\n", "line 2: A lies at 95.0, 139.0, which is not on the Earth"),
-        ("place,latitude,longitude,stones,fallen\nA,35,139,10,11\n", "line 2: 11 of 10 stones cannot have fallen"),
-        ("place,latitude,longitude,stones,fallen\nA,nan,139,10,1\n", "not on the Earth"),
+        ("place,latitude,longitude,stones,fallen\nA,95,139,10,1\n", "line 2: A: 95.0, 139.0 is not a valid position"),
+        ("place,latitude,longitude,stones,fallen\nA,35,139,10,11\n", "line 2: 11 of 10 stones overturned is impossible"),
+        ("place,latitude,longitude,stones,fallen\nA,nan,139,10,1\n", "not a valid position"),
     ],
 )
 def test_lists_that_cannot_be(text, says, tmp_path):

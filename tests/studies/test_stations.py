@@ -124,9 +124,9 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
 
 def test_what_no_solver_follows_is_refused():
     """A solver that follows no body, and versions where there are none, in one sentence."""
-    with pytest.raises(ParameterError, match="'stack' follows no body at a station"):
+    with pytest.raises(ParameterError, match="'stack' is not available for stations"):
         StationBody(Block(0.24, 0.8), {}, solver="stack")
-    with pytest.raises(ParameterError, match="slide has no perturbed versions"):
+    with pytest.raises(ParameterError, match="slide has no samples"):
         StationBody(0.2, {}, runs=5, solver="slide")
 
 
@@ -195,9 +195,9 @@ def test_a_station_without_a_place_is_listed_and_not_mapped(found):
 
 def test_nothing_to_survey():
     """No record at all, and stones that are to be simulated, are refused."""
-    with pytest.raises(ParameterError, match="there is no record"):
+    with pytest.raises(ParameterError, match="no records"):
         survey_stations([])
-    with pytest.raises(ParameterError, match="by a criterion"):
+    with pytest.raises(ParameterError, match="closed-form criterion"):
         StationCemetery(read_cemetery("aoyama.csv"), AssessmentMethod("simulate"))
 
 

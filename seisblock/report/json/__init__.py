@@ -1,5 +1,5 @@
-"""What a command answers, as one typed document: SI, the unit in each key's name, a schema that follows from the same types.
+"""JSON documents of the commands: SI units, the unit in each key, a schema generated from the same types.
 
-``kind`` says what a document is made of, ``entry`` makes keys of results and bodies, one file per command says which, ``catalogue`` lists
-them, and ``schema`` prints them as JSON Schema. A new command adds its file and its line in the catalogue.
+``schema`` defines documents, ``entries`` and ``bodies`` make the keys of results and bodies, one module per command defines its parameters
+and results, ``registry`` lists them and prints JSON Schema. A new command adds its module and its line in the registry.
 """

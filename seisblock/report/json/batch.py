@@ -1,4 +1,4 @@
-"""What ``seisblock batch`` answers beside its table: how often it happened to each body."""
+"""JSON document of ``seisblock batch``: event counts of each body."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from seisblock.studies.batch.task import Plan
 
 
 class BatchParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     solver : str
     table : str
-        The file with a row for each record, component and body; it is not written where no row has an answer.
+        File with a row for each record, component and body; not written if no row has a result.
     components : list of str
         Codes or azimuths; empty for all horizontals.
     runs, seed : int
-        Perturbed runs behind a probability, and their seed.
+        Number of samples of a probability, and their seed.
     """
 
     solver: str
@@ -35,15 +35,15 @@ class BatchParameters(Struct, frozen=True, kw_only=True):
 
 
 class BatchEntry(Result, frozen=True, kw_only=True):
-    """One body.
+    """Counts of one body.
 
     Parameters
     ----------
     body : str
     answers_count, failures_count : int
-        Rows with an answer, and without.
+        Rows with and without a result.
     happened_count : int
-        Rows in which what is asked about happened: it overturned, slipped, jumped, lifted, or a stone fell.
+        Rows with the event of the solver: overturning, sliding, jump, uplift, or fall of a stone.
     """
 
     body: str
@@ -53,17 +53,17 @@ class BatchEntry(Result, frozen=True, kw_only=True):
 
 
 TOTALS = {
-    "records_count": Annotated[int, Meta(description="Records.")],
-    "unread_count": Annotated[int, Meta(description="Records, and components, that could not be read.")],
+    "records_count": Annotated[int, Meta(description="Number of records.")],
+    "unread_count": Annotated[int, Meta(description="Records and components that could not be read.")],
 }
 BATCH = DocumentSchema("batch", BatchParameters, BatchEntry, TOTALS)
 
 
 def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
-    """Return the document of a batch that is done."""
+    """Return the document of a finished batch."""
     entries = (
-        (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.happened))
-        for c in tally.ranked()
+        (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.events))
+        for c in tally.sorted_counts()
     )
     return BATCH.document(
         BatchParameters(solver=plan.solver, table=table, components=plan.components, runs=plan.runs, seed=plan.seed),

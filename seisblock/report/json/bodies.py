@@ -1,4 +1,4 @@
-"""What stands there, as a document says it: the unit in each key."""
+"""JSON entries of the bodies."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
     centroid_height_m, centroid_offset_m : float
         Of the centre of gravity, above the base and towards +x from its middle.
     inset_m : float
-        How far the edges about which it turns lie inside the drawing, at each side.
+        Inset of the rotation edges from each side.
     centroid_inertia_kg_m2 : float
         About the centre of gravity.
     slenderness_right_rad, slenderness_left_rad : float
@@ -45,7 +45,7 @@ class BlockEntry(Struct, frozen=True, kw_only=True):
 
 
 def block_entry(block: Block) -> BlockEntry:
-    """Return what defines a block."""
+    """Return the entry of a block."""
     right, left = block.slendernesses
     return BlockEntry(
         name=block.name,
@@ -86,7 +86,7 @@ class TwoLayerEntry(Struct, frozen=True, kw_only=True):
 
 
 def two_layer_entry(block: TwoLayerBlock) -> TwoLayerEntry:
-    """Return what defines a two-layer block."""
+    """Return the entry of a two-layer block."""
     return TwoLayerEntry(
         name=block.name,
         width_m=block.width,
@@ -129,7 +129,7 @@ class SpringBlockEntry(Struct, frozen=True, kw_only=True):
 
 
 def spring_block_entry(body: SpringBlock) -> SpringBlockEntry:
-    """Return what defines a block on corner springs."""
+    """Return the entry of a block on corner springs."""
     return SpringBlockEntry(
         width_m=body.width,
         depth_m=body.depth,
@@ -150,20 +150,20 @@ class StoneEntry(Struct, frozen=True, kw_only=True):
     Parameters
     ----------
     name, on : str
-        What it is called, and what it stands on.
+        Name, and name of the supporting stone or ground.
     width_m, depth_m, height_m : float
         Along x, y and z.
     offset_m : two floats
-        From the centre of what it stands on, along x and y.
+        From the centre of the support, along x and y.
     density_kg_m3 : float
     mu, mu_kinetic : float or None
-        Friction of the joint under it, and of what slides on it; null: those of the pile.
+        Static and kinetic friction of the joint below; null: those of the pile.
     bottom_m : float or None
-        Height of its lower face above the ground; null: the upper face of what it stands on.
+        Height of its lower face above the ground; null: upper face of the support.
     shape : str
         In plan: rectangular or round.
     inset_m : two floats
-        How far in from the sides of its base it turns, along x and y.
+        Inset of the rotation edges from the sides of the base, along x and y.
     """
 
     name: str
@@ -187,11 +187,11 @@ class PileEntry(Struct, frozen=True, kw_only=True):
     ----------
     name : str
     mu, mu_kinetic : float
-        Friction of its joints, and of what slides on them.
+        Static and kinetic friction of its joints.
     stones : list of StoneEntry
-        From below upwards.
+        From bottom to top.
     dowels : list of lists of str
-        Stones that dowels hold together.
+        Stones connected by dowels.
     fixed : list of str
         Stones that move with the ground.
     """
@@ -205,7 +205,7 @@ class PileEntry(Struct, frozen=True, kw_only=True):
 
 
 def pile_entry(pile: Pile) -> PileEntry:
-    """Return what defines a pile."""
+    """Return the entry of a pile."""
     stones = tuple(
         StoneEntry(
             name=stone.name,
@@ -238,7 +238,7 @@ class PileContactEntry(Struct, frozen=True, kw_only=True):
     young_pa, stiffness_n_m3 : float or None
         Young's modulus, or the joints' stiffness per area, that replace the four above.
     damping_ratio, shear_ratio : float
-        For those: damping of a stone on its joint, and shear over normal stiffness.
+        Damping ratio of a stone on its joint, and shear over normal stiffness, for these two.
     """
 
     normal_per_s2: float
@@ -252,7 +252,7 @@ class PileContactEntry(Struct, frozen=True, kw_only=True):
 
 
 def pile_contact_entry(contact: PileContact) -> PileContactEntry:
-    """Return how the stones press on each other."""
+    """Return the entry of the spring contact of a pile."""
     return PileContactEntry(
         normal_per_s2=contact.normal,
         shear_per_s2=contact.shear,

@@ -1,4 +1,4 @@
-"""What ``seisblock body`` answers."""
+"""JSON document of ``seisblock body``."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from seisblock.report.json.schema import Document, DocumentSchema, Result
 
 
 class BodyParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     density_kg_m3 : float
     tolerance_m : float
-        How far above the ground a point may lie that carries.
+        Largest height above the ground of a contact point.
     inset_m : float
-        How far in from each side of the base the worn body turns.
+        Inset of the rotation lines from each side of the base.
     unit, up : str
         Of the file's numbers, and its axis that points upwards.
     facing_deg : float
@@ -45,7 +45,7 @@ class BodyParameters(Struct, frozen=True, kw_only=True):
 
 
 class ScanResult(Result, frozen=True, kw_only=True):
-    """One scanned body; x and y are the scan's, z is above the ground.
+    """One scanned body; x and y as in the scan, z above the ground.
 
     Parameters
     ----------
@@ -62,17 +62,17 @@ class ScanResult(Result, frozen=True, kw_only=True):
     inertia_kg_m2 : three rows of three floats
         Tensor about it.
     tilt_deg : float
-        By how much the scan was turned so that it rests.
+        Rotation of the scan to its rest position.
     base_m, carrying_m : list of pairs
-        Corners of the polygon that carries, sharp, and within its worn edges; counter-clockwise.
+        Corners of the base polygon, sharp and with worn edges; counter-clockwise.
     base_area_m2 : float
         Within its worn edges.
     slenderness_rad, slenderness_azimuth_deg : float
-        The least alpha in any direction, and towards which azimuth.
+        Smallest overturning angle alpha, and its azimuth.
     slenderness_interval_rad : list of two floats or None
-        The least alpha, of sharp edges, with half and with twice the tolerance; null where it would not stand.
+        Smallest alpha of sharp edges with half and with twice the tolerance; null if unstable.
     directions : list
-        All around, from north.
+        By azimuth, from north.
     """
 
     name: str
@@ -140,5 +140,4 @@ def document(scan: Scan, directions: list[ScanAzimuth], *, step_deg: float, grav
 
 
 def _finite_or_none(value: float) -> float | None:
-    """Return a number, None for one that is none."""
     return None if math.isnan(value) else value

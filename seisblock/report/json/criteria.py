@@ -1,4 +1,4 @@
-"""What ``seisblock criteria`` answers."""
+"""JSON document of ``seisblock criteria``."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from seisblock.studies.model_comparison import ModelComparison
 
 
 class CriteriaParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -42,30 +42,30 @@ class CriteriaParameters(Struct, frozen=True, kw_only=True):
     velocity_highpass_hz: float | None
 
 
-AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="What other models of the same block say.")]
+AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="Results of other models of the same block.")]
 SIMULATED: Any = entry_type("Simulated", RockOutcome, extra={"agreement": AGREEMENT_KEY})
 
 
 class RespondEntry(Struct, frozen=True, kw_only=True):
-    """What the body does with all of its motions together, as ``seisblock respond`` answers.
+    """Full response of the body as in ``seisblock respond``.
 
     Parameters
     ----------
     mu : float
     friction_known : bool
-        False where nothing is known of it, and feet that hold are taken.
+        False if unknown; non-sliding feet are then assumed.
     outcome : str
-        In words.
+        As text.
     overturned : bool
     overturned_towards : str or None
         ``+x`` or ``-x``.
     overturning_time_s : float or None
     max_rotation_ratio : float
-        Largest lean over alpha.
+        Peak tilt over alpha.
     slip_path_m, final_displacement_m : float
-        Length slid, and where it ends, signed.
+        Slip path length, and signed residual displacement.
     criteria_agree : bool
-        Whether more than half of the criteria, each counted once, say the same of its fall.
+        Whether more than half of the criteria, each counted once, agree on overturning.
     """
 
     mu: float
@@ -81,7 +81,6 @@ class RespondEntry(Struct, frozen=True, kw_only=True):
 
 
 def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
-    """Return what the body does with all of its motions together, where that was asked."""
     if card.governing is None:
         return None
     outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
@@ -100,7 +99,7 @@ def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
 
 
 class CriteriaResult(Result, frozen=True, kw_only=True):
-    """One direction.
+    """Result of one direction.
 
     Parameters
     ----------
@@ -109,11 +108,11 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     pga_m_s2, pgv_m_s : float
     equivalent_frequency_hz : EquivalentFrequency
     criteria : list of Row
-        Threshold and demand are in the unit that the row names.
+        Threshold and demand in the unit of the row.
     simulated : Simulated
-        What ``seisblock rock`` answers.
+        Result as in ``seisblock rock``.
     respond : RespondEntry or None
-        What ``seisblock respond`` answers.
+        Result as in ``seisblock respond``.
     """
 
     component: str
@@ -129,7 +128,7 @@ CRITERIA = DocumentSchema("criteria", CriteriaParameters, CriteriaResult)
 
 
 def document(cards: Sequence[CriteriaComparison], options: Mapping[str, Any], *, gravity: float) -> Document:
-    """Return the document of one card per direction."""
+    """Return the document of the criteria comparisons of each direction."""
     first = cards[0]
     parameters = CriteriaParameters(
         **options, gravity_m_s2=gravity, block=block_entry(first.block), velocity_highpass_hz=first.velocity_highpass_hz

@@ -1,4 +1,4 @@
-"""A document as text: numbers keep all their digits, what is not a number is null."""
+"""JSON encoding of documents: numbers keep all digits, NaN and infinity are null."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ import numpy as np
 from seisblock.report.json.schema import Document
 
 _CONTROL_CHARACTERS = re.compile("[\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb]")
-"""Control characters that JSON leaves as they are, and those that turn lines around or cannot be seen."""
+"""Control characters that JSON does not escape, bidirectional and invisible ones."""
 
 
 def to_json(document: Document) -> str:
-    """Return a document as text, in which no text of a file commands the terminal that it may be printed on."""
+    """Return a document as JSON text with control characters escaped."""
     text = msgspec.json.format(msgspec.json.encode(document, enc_hook=_encode_hook), indent=2).decode()
     return _CONTROL_CHARACTERS.sub(lambda match: json.dumps(match[0])[1:-1], text)
 
 
 def to_builtins(value: Any) -> Any:
-    """Return a value as a reader of the document finds it: built of dict, list, str, int, float, bool and None alone."""
+    """Return a value built of dict, list, str, int, float, bool and None only."""
     return msgspec.json.decode(msgspec.json.encode(value, enc_hook=_encode_hook))
 
 
 def _encode_hook(value: Any) -> Any:
-    """Return what JSON has for a value of another kind: a text that remembers its template, a path, numpy's numbers."""
+    """Return the JSON value of a message, path or NumPy number."""
     if isinstance(value, (str, Path)):
         return str(value)
     if isinstance(value, np.generic):

@@ -1,4 +1,4 @@
-"""Keys of a document from the dataclasses of the library: an entry has a key for each field, and says what stands beside them."""
+"""Document entries generated from dataclasses: one key per field, plus extra keys."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.core.results import Response
 from seisblock.report.json.schema import Result, is_optional
 
 COMPONENT_KEY = {"component": Annotated[str, Meta(description="Direction of the record that is +x: a code, or an azimuth in degrees.")]}
-"""The first key of whatever was solved for one direction."""
+"""First key of results of one direction."""
 
 
 def entry_type(
@@ -25,7 +25,7 @@ def entry_type(
     aliases: Mapping[str, str] | None = None,
     exclude: tuple[str, ...] = (),
 ) -> type[Result]:
-    """Return the type of results that have a key for each field of a dataclass.
+    """Return a struct type with a key for each field of a dataclass.
 
     Parameters
     ----------
@@ -50,11 +50,11 @@ def entry_type(
 
 
 def to_entry(kind: type[Result], source: Any, **extra: Any) -> Result:
-    """Return an entry from a dataclass and what stands beside its fields."""
+    """Return an entry with the fields of a dataclass and extra keys."""
     keys = {field.name for field in fields(source)} & set(kind.__struct_fields__)
     return kind(**{key: getattr(source, key) for key in keys} | extra)
 
 
 def to_outcome_entry(kind: type[Result], response: Response[Any], **extra: Any) -> tuple[Any, Result]:
-    """Return the record of a response, and its outcome as an entry, the component first."""
+    """Return the record of a response and its outcome as an entry with the component first."""
     return response.motion.record, to_entry(kind, response.outcome, component=response.motion.name, **extra)

@@ -1,4 +1,4 @@
-"""What ``seisblock fit`` answers: what is known of each parameter, how well it foretells, and each outcome."""
+"""JSON document of ``seisblock fit``: parameters, prediction scores and outcomes."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ UNITS = {ALPHA: "rad", TURNING_ALPHA: "rad", FREQUENCY: "rad/s", TURNING_P: "rad
 
 
 class FixedEntry(Struct, frozen=True, kw_only=True):
-    """What was not looked for; null where it was.
+    """Parameters held fixed; null for fitted ones.
 
     Parameters
     ----------
     alpha_rad, p_rad_s : float or None
         Of sharp edges.
     restitution : float or None
-        Null too where it is that of angular momentum.
+        Also null if derived from angular momentum.
     inset : float or None
         Share of the width per side.
     scatter : float or None
@@ -45,7 +45,7 @@ class FixedEntry(Struct, frozen=True, kw_only=True):
 
 
 class FitParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -54,19 +54,19 @@ class FitParameters(Struct, frozen=True, kw_only=True):
     outcome : str
         ``fell`` or ``moved``.
     free : list of str
-        What was looked for.
+        Fitted parameters.
     fixed : FixedEntry
     block : BlockEntry or None
-        The drawing; null: a homogeneous rectangle.
+        Nominal block; null: a homogeneous rectangle.
     vertical : bool
         Whether the vertical component acts.
     gravity_m_s2 : float
     confidence : float
         Level of the intervals.
     runs, seed : int
-        Versions of each block under each record, and the seed of what is drawn.
+        Samples of each block under each record, and the random seed.
     prior : str
-        What was thought before.
+        Prior distributions.
     """
 
     table: str
@@ -83,22 +83,22 @@ class FitParameters(Struct, frozen=True, kw_only=True):
 
 
 class FitResult(Result, frozen=True, kw_only=True):
-    """What is known of one parameter.
+    """Posterior of one parameter.
 
     Parameters
     ----------
     parameter : str
-        ``alpha``, ``p`` (of sharp edges), ``restitution``, ``inset``; ``turning_alpha``, ``turning_p`` (as it turns, its edges worn);
+        ``alpha``, ``p`` (of sharp edges), ``restitution``, ``inset``; ``turning_alpha``, ``turning_p`` (with worn edges);
         ``scatter``, the half width of the changes from run to run; ``lapse``, the share of the outcomes that follow no model.
     unit : str
         ``rad``, ``rad/s``, or ``1`` for shares and ratios.
     median : float
     interval, before : (float, float)
-        Interval of the level asked for, and that before anything was seen.
+        Posterior and prior interval of the requested level.
     narrowed_ratio : float
-        Width of the former over that of the latter.
+        Posterior over prior width.
     identified : bool
-        Whether that is below one half: the outcomes tell much of it.
+        True if below one half.
     """
 
     parameter: str
@@ -117,11 +117,11 @@ class OutcomeEntry(Struct, frozen=True, kw_only=True):
     ----------
     record, component : str
     scale, weight : float
-        Factor on the record, and how often the outcome counts.
+        Scale factor of the record, and multiplicity of the outcome.
     happened : bool
-        Whether it fell, or moved.
+        Whether the block overturned, or moved.
     probability, held_out_probability : float, float or None
-        That it happens, by all outcomes, and by those of other folds.
+        Predicted from all outcomes, and from the other folds.
     pga_m_s2, pgv_m_s : float
         Peaks of the ground.
     """
@@ -138,16 +138,16 @@ class OutcomeEntry(Struct, frozen=True, kw_only=True):
 
 
 EXTRA_KEYS = {
-    "records_count": Annotated[int, Meta(description="Different records.")],
-    "outcomes_count": Annotated[int, Meta(description="Outcomes.")],
-    "happened_count": Annotated[int, Meta(description="Outcomes in which it fell, or moved.")],
-    "blocks_count": Annotated[int, Meta(description="Blocks that were looked at closely.")],
-    "effective_blocks": Annotated[float, Meta(description="How many equally good ones they amount to.")],
-    "block": Annotated[BlockEntry, Meta(description="That of the medians.")],
-    "restitution": Annotated[float | None, Meta(description="Of that block; null: that of angular momentum.")],
-    "correlations": Annotated[tuple[Correlation, ...], Meta(description="How each two parameters go together.")],
-    "held_out": Annotated[HeldOutScores | None, Meta(description="How well records are foretold without them; null with one record only.")],
-    "outcomes": Annotated[list[OutcomeEntry], Meta(description="Each outcome, and how likely it was.")],
+    "records_count": Annotated[int, Meta(description="Number of different records.")],
+    "outcomes_count": Annotated[int, Meta(description="Number of outcomes.")],
+    "happened_count": Annotated[int, Meta(description="Number of outcomes with overturning, or motion.")],
+    "blocks_count": Annotated[int, Meta(description="Number of importance samples.")],
+    "effective_blocks": Annotated[float, Meta(description="Effective sample size.")],
+    "block": Annotated[BlockEntry, Meta(description="Block with the median parameters.")],
+    "restitution": Annotated[float | None, Meta(description="Restitution of that block; null: from angular momentum.")],
+    "correlations": Annotated[tuple[Correlation, ...], Meta(description="Correlations of the parameters.")],
+    "held_out": Annotated[HeldOutScores | None, Meta(description="Cross-validation scores; null with one record only.")],
+    "outcomes": Annotated[list[OutcomeEntry], Meta(description="Outcomes with predicted probabilities.")],
 }
 FIT = DocumentSchema("fit", FitParameters, FitResult, EXTRA_KEYS)
 
@@ -199,7 +199,6 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
 
 
 def _outcome_entries(fit: BlockFit) -> list[OutcomeEntry]:
-    """Return the outcomes, one by one."""
     held_out = [None] * len(fit.probability) if fit.probability_held_out is None else fit.probability_held_out.tolist()
     return [
         OutcomeEntry(

@@ -1,4 +1,4 @@
-"""What ``seisblock fragility`` answers: curves, and what they rest on."""
+"""JSON document of ``seisblock fragility``: curves and their basis."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 
 CITATION_TOPICS = {"respond": "all modes", "rock": "rocking", "slide": "sliding", "stack": "pile"}
-"""What the runs of each solver rest on."""
+"""Citation topics of each solver."""
 
 
 class FragilityBody(Struct, frozen=True, kw_only=True):
-    """What stands there.
+    """One body.
 
     Parameters
     ----------
     name : str
     block : BlockEntry or None
-        Null where it is no block.
+        Null for other bodies than blocks.
     mu, mu_kinetic : float or None
-        Friction under it, where the solver asks.
+        Friction, if the solver uses it.
     """
 
     name: str
@@ -56,25 +56,25 @@ class CurveEntry(Struct, frozen=True, kw_only=True):
 
 
 class FragilityParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     solver, method : str
     bodies : list of FragilityBody
     limits, im : list of str
-        Limits in the order in which they are passed; measures of intensity, the curves' own first.
+        Limit states in increasing order; intensity measures, that of the curves first.
     vertical : bool or None
-        Whether the vertical component acts; null: as the solver has it.
+        Whether the vertical component acts; null: default of the solver.
     gravity_m_s2 : float
     perturb, bootstrap, seed : int
-        Versions of each body, samples of the records, and the seed of all dice.
+        Samples of each body, bootstrap samples of the records, and the random seed.
     confidence : float
         Level of the intervals.
     least_scale, largest_scale : float
         Smallest and largest factor on a record.
     compare : CurveEntry or None
-        The curve that these are compared with.
+        Reference curve.
     suite : str or None
         Magnitude, distance and count of synthetic records, ``synthetic:M7:R20:40``; null where records were given.
     """
@@ -108,12 +108,12 @@ def document(
     compare: Lognormal | None = None,
     notes: Sequence[str] = (),
 ) -> Document:
-    """Return the document of some curves.
+    """Return the document of fragility curves.
 
     Parameters
     ----------
     study : FragilityStudy
-    bodies : sequence of Placed
+    bodies : sequence of SolverBody
     options : mapping
         ``im``, ``perturb``, ``bootstrap``, ``seed``, ``vertical``, ``gravity``, ``suite``.
     compare : Lognormal or None
@@ -150,7 +150,6 @@ def document(
 
 
 def _body_entry(body: SolverBody) -> FragilityBody:
-    """Return what stands there."""
     block = block_entry(body.body) if isinstance(body.body, Block) else None
     mu, kinetic = (body.options.get(key, getattr(body.body, key, None)) for key in ("mu", "mu_kinetic"))
     return FragilityBody(name=body.name, block=block, mu=mu, mu_kinetic=kinetic)

@@ -1,4 +1,4 @@
-"""What ``seisblock infer`` answers: shaking from stones, or factors on records from a displacement."""
+"""JSON documents of ``seisblock infer``: ground motion from stones, or scale factors from a displacement."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from seisblock.studies.survey.scale_search import ScaleFactors
 
 
 class StonesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     cemetery : str
         File of the stones.
     stones, unknown_stones : int
-        How many there are, and of how many nobody says what became of them.
+        Number of stones, and of those with unknown outcome.
     rate : str or None
-        Fallen of all, where they were counted.
+        Number fallen and total, if given as counts.
     confidence : float
         Level of the intervals.
     common_error_ln_pga, stone_error_ln_pga : float
         Standard deviations in ln PGA, of a cemetery and of each stone.
     bias_ln_pga, frequency_error_ln_f : float
-        How much more PGA than the criterion's the ground must have; standard deviation of a given frequency.
+        Bias of the PGA relative to the criterion; standard deviation of a given frequency.
     criterion, prior, intensity : str
-        What the estimate rests on.
+        Criterion, prior and intensity relation of the estimate.
     inset : Inset or None
-        How far the edges are worn, for the criteria that ask.
+        Edge wear, for criteria that use it.
     """
 
     cemetery: str
@@ -59,16 +59,16 @@ class StonesParameters(Struct, frozen=True, kw_only=True):
 
 
 class SlidParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     observed_m : float
-        How far the object slid.
+        Observed slip.
     object : str
         ``slid``.
     largest : bool
-        Whether the largest slip counts, not the one left at the end.
+        Whether the maximum rather than the residual slip is compared.
     mu, mu_kinetic : float
         Static and kinetic friction; null: one friction.
     vertical : bool
@@ -93,20 +93,20 @@ Windows = tuple[tuple[float | None, float | None], ...]
 
 
 class JumpedParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     observed_m : float
-        How far the block was displaced.
+        Observed displacement of the block.
     object : str
         ``jumped``.
     block : TwoLayerEntry
     contact : Contact
     flight_only, first : bool
-        Whether the jump alone counts, and whether only the first chain of motion does.
+        Whether only the flight, and only the first chain of motion, is compared.
     windows_s : list of pairs
-        Stretches in which a chain may start; all of the record without any.
+        Time windows of the start of a chain; empty: the entire record.
     drop_m : float
         Height of the floor above the ground.
     spin, landing : str
@@ -133,20 +133,20 @@ class JumpedParameters(Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class ScanPoint:
-    """The displacement at one factor on the record."""
+    """Displacement at one scale factor."""
 
     scale: float
     displacement_m: float
 
 
 CONTOUR_KEYS = {
-    "contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")],
-    "joint": Annotated[list[JointEstimate], Meta(description="What several cemeteries say together, at each frequency; empty for one.")],
+    "contour": Annotated[list[ShakingEstimate], Meta(description="Estimates by frequency.")],
+    "joint": Annotated[list[JointEstimate], Meta(description="Joint estimates of several cemeteries by frequency; empty for one.")],
 }
 STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
 STONES = DocumentSchema("infer", StonesParameters, STONES_RESULT, CONTOUR_KEYS, name="stones")
 
-SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against the factor on the record.")]}
+SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against scale factor.")]}
 FACTORS_RESULT = entry_type("FactorsResult", ScaleFactors, exclude=("curve",), extra=SCAN_KEYS)
 SLID = DocumentSchema("infer", SlidParameters, FACTORS_RESULT, name="slid")
 JUMPED = DocumentSchema("infer", JumpedParameters, FACTORS_RESULT, name="jumped")
@@ -161,7 +161,7 @@ def stones_document(
     warnings: Sequence[str],
     joint: Sequence[JointEstimate] = (),
 ) -> Document:
-    """Return the document of what fallen stones say of the shaking."""
+    """Return the document of the ground motion inferred from stones."""
     entries = ((None, to_entry(STONES_RESULT, estimate)) for estimate in estimates)
     stones = "gravestones as blocks" if parameters.criterion == "rigid" else "gravestones as fitted"
     citations = papers(stones, "intensity of a velocity")
@@ -169,18 +169,17 @@ def stones_document(
 
 
 def slid_document(factors: RecordFactors, **options: Any) -> Document:
-    """Return the document of every factor at which an object slides so far; `chosen` are the parameters."""
+    """Return the document of the scale factors that reproduce a slip; `options` are the parameters."""
     return SLID.document(SlidParameters(**options), _factor_entries(factors), citations=papers("sliding"))
 
 
 def jumped_document(factors: RecordFactors, block: TwoLayerBlock, contact: Contact, **options: Any) -> Document:
-    """Return the document of every factor at which a two-layer block is displaced so far; `chosen` are the other parameters."""
+    """Return the document of the scale factors that reproduce a jump; `options` are the other parameters."""
     parameters = JumpedParameters(**options, block=two_layer_entry(block), contact=contact)
     return JUMPED.document(parameters, _factor_entries(factors), citations=papers("jump"))
 
 
 def _factor_entries(factors: RecordFactors) -> Any:
-    """Return the factors as results."""
     return (
         (record, to_entry(FACTORS_RESULT, factor, curve=tuple(ScanPoint(s, d) for s, d in zip(*factor.curve, strict=True))))
         for record, factor in factors

@@ -1,4 +1,4 @@
-"""What ``seisblock jump`` answers."""
+"""JSON document of ``seisblock jump``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seisblock.report.json.schema import Document, DocumentSchema
 
 
 class JumpParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -28,9 +28,9 @@ class JumpParameters(Struct, frozen=True, kw_only=True):
     spin, direction, landing : str
         Rule of the spin after the impact, sign of the acceleration that starts a chain, rule of the landing.
     first : bool
-        Whether only the first chain of motion was followed.
+        Whether only the first chain of motion is simulated.
     windows_s : list of pairs
-        Stretches in which a chain may start; all of the record without any.
+        Time windows of the start of a chain; empty: the entire record.
     gravity_m_s2 : float
     block : TwoLayerEntry
     tenon_m : float or None

@@ -1,4 +1,4 @@
-"""What ``seisblock cite`` and ``seisblock samples`` answer."""
+"""JSON documents of ``seisblock cite`` and ``seisblock samples``."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from seisblock.samples import Sample, sample_directory
 
 
 class CiteParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     command : str or None
-        Whose papers; null: all there are.
+        Command of the references; null: all references.
     """
 
     command: str | None
 
 
 class SamplesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class SampleResult(Result, frozen=True, kw_only=True):
     ----------
     name, kind, description, origin, licence, sha256 : str
     pga_m_s2 : dict
-        Of each component; empty where the file is no record.
+        PGA of each component; empty for files other than records.
     path : str
     """
 
@@ -73,7 +73,7 @@ SAMPLES = DocumentSchema("samples", SamplesParameters, SampleResult)
 
 
 def cite_document(command: str | None, references: Sequence[Reference], keys: Sequence[str]) -> Document:
-    """Return the document of some references."""
+    """Return the document of references."""
     entries = ((None, to_entry(REFERENCE_RESULT, reference, text=reference.text(), bibtex=reference.bibtex())) for reference in references)
     return CITE.document(CiteParameters(command=command), entries, citations=keys)
 

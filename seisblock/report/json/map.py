@@ -1,4 +1,4 @@
-"""What ``seisblock map`` answers: an earthquake's stations, and what each did."""
+"""JSON document of ``seisblock map``: stations of an earthquake with their results."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from seisblock.studies.map.surveyed_places import SurveyComparison, contradictio
 
 
 class MapParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     subject : str
-        What stands at each station; empty where only the shaking was asked for.
+        Body or cemetery at each station; empty for measures only.
     solver : str
-        Which model follows it: that of a body, ``gravestones`` of a cemetery; empty for none.
+        Solver of a body, ``gravestones`` for a cemetery; empty for none.
     runs, seed : int
-        Plausible versions behind a probability, and their seed.
+        Number of samples, and their seed.
     step_deg : float
-        Between the directions that are looked in; 0 where only the components are (``jump``, ``uplift``).
+        Step of the azimuths; 0 for components only (``jump``, ``uplift``).
     """
 
     subject: str
@@ -47,12 +47,12 @@ class StationEntry(Result, frozen=True, kw_only=True):
     record : str
         File name.
     station, name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude, longitude : float or None
-        Degrees north and east; null where the file does not say.
+        Degrees north and east; null if not in the file.
     epicentral_distance_km : float or None
     local_start : str
-        Time of the first sample on the network's own clock.
+        Local time of the first sample.
     pga_m_s2, pgv_m_s : float or None
         The larger of the horizontal components.
     jma_intensity : float or None, 1
@@ -61,21 +61,21 @@ class StationEntry(Result, frozen=True, kw_only=True):
     rate : float or None
         Share of the cemetery's stones that fall.
     happened : bool or None
-        Whether what the solver is asked about happened: the body overturns (respond, rock), slips, jumps, lifts.
+        Whether the event of the solver occurred: overturning (respond, rock), sliding, jump, uplift.
     overturned : bool or None
-        Null of a solver in which nothing falls.
+        Null for solvers without overturning.
     probability : float or None
-        Share of the plausible versions of body and shaking that fall.
+        Overturning probability.
     max_slip_m : float or None
-        Furthest displacement of the body from where it stood.
+        Maximum displacement of the body.
     max_uplift_m : float or None
-        How far a corner of a body on springs rose.
+        Maximum uplift of a corner of a body on springs.
     failure : str or None
-        Why there is no answer.
+        Reason of a missing result.
     doubts : str or None
-        What a careful reader notices about the record.
+        Quality flags of the record.
     history : str or None
-        What was done to it, the storey on which a body stands among it.
+        Processing steps, including floor motion.
     """
 
     record: str
@@ -109,7 +109,7 @@ class NeighbourEntry(Struct, frozen=True, kw_only=True):
 
 
 class SurveyEntry(Struct, frozen=True, kw_only=True):
-    """A surveyed place beside the stations around it.
+    """A surveyed place with the stations around it.
 
     Parameters
     ----------
@@ -118,16 +118,16 @@ class SurveyEntry(Struct, frozen=True, kw_only=True):
         Degrees north and east.
     stones_count, fallen_count : int
     pga_m_s2 : float or None
-        By the fallen stones; null where they tell only a bound.
+        From the fallen stones; null for one-sided estimates.
     pga_interval_m_s2 : two floats or None
     jma_intensity : float or None, 1
     jma_intensity_interval : two floats or None, 1
     neighbours : list of Neighbour
         The nearest stations.
     expected_jma_intensity : float or None, 1
-        Theirs, weighted by the inverse of the distance.
+        Mean of the stations, weighted by inverse distance.
     residual_jma_intensity : float or None, 1
-        The estimate less that.
+        Estimate minus expected value.
     """
 
     place: str
@@ -145,37 +145,33 @@ class SurveyEntry(Struct, frozen=True, kw_only=True):
 
 
 EXTRA_KEYS = {
-    "earthquake": Annotated[EarthquakeEntry | None, Meta(description="What shook.")],
-    "surveys": Annotated[tuple[SurveyEntry, ...], Meta(description="Surveyed cemeteries beside the stations around them.")],
-    "contradictions": Annotated[
-        tuple[str, ...], Meta(description="Pairs of places, or of a place and a station, that cannot both be right.")
-    ],
+    "earthquake": Annotated[EarthquakeEntry | None, Meta(description="Earthquake.")],
+    "surveys": Annotated[tuple[SurveyEntry, ...], Meta(description="Surveyed cemeteries with nearby stations.")],
+    "contradictions": Annotated[tuple[str, ...], Meta(description="Inconsistent pairs of places, or of a place and a station.")],
 }
 MAP = DocumentSchema("map", MapParameters, StationEntry, EXTRA_KEYS)
 
 _SURVEY_CITATIONS = papers("gravestones as fitted", "intensity of a velocity")
 
-UNMAPPED = N_("{station}: its file does not say where it is: it is listed, and on no map")
+UNMAPPED = N_("{station}: no coordinates in the file; listed, not on the map")
 FAILED = N_("{station}: {failure}")
-QC_FLAGGED = N_("{count} record(s) are doubtful; {station}: {doubt}")
+QC_FLAGGED = N_("{count} record(s) with warnings; {station}: {doubt}")
 
-DATES_APART = N_(
-    "the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}): a map is of one earthquake, are these of two?"
-)
+DATES_APART = N_("the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}); a map requires records of one earthquake")
 
 
 def document(
     stations: Stations, model: StationModel | None, surveys: Sequence[SurveyComparison] = (), *, upstairs: bool = False
 ) -> Document:
-    """Return the document of an earthquake's stations, the worst first.
+    """Return the document of the stations of an earthquake, largest response first.
 
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
-    surveys : sequence of SurveyAnswer
+    model : StationBody, StationCemetery or None
+    surveys : sequence of SurveyComparison
     upstairs : bool
-        Whether they stand on a storey.
+        Whether the motions are floor motions.
     """
     body = model if isinstance(model, StationBody) else None
     parameters = MapParameters(
@@ -198,7 +194,7 @@ def document(
 
 
 def survey_entry(answer: SurveyComparison) -> SurveyEntry:
-    """Return a surveyed place as documents tell it."""
+    """Return the entry of a surveyed place."""
     survey, estimate = answer.surveyed, answer.estimate
     return SurveyEntry(
         place=survey.place,
@@ -220,7 +216,7 @@ def survey_entry(answer: SurveyComparison) -> SurveyEntry:
 
 
 def warnings(stations: Stations) -> list[str]:
-    """Return what is to be known of some stations, a sentence each: no answer, no place, other days; how many records are doubtful."""
+    """Return warnings on stations: no result, no coordinates, different dates, number of records with warnings."""
     texts: list[str] = _date_warnings(stations)
     texts += [_failure_text(answer) for answer in stations.answers if answer.failure]
     texts += [
@@ -233,7 +229,7 @@ def warnings(stations: Stations) -> list[str]:
 
 
 def _date_warnings(stations: Stations) -> list[str]:
-    """Return that some records began on other days than others, which no header of an earthquake tells."""
+    """Return a warning if records without earthquake header begin on different days."""
     starts = sorted(((answer.start, answer) for answer in stations.answers if answer.start is not None), key=lambda pair: pair[0])
     if not starts or starts[-1][0] - starts[0][0] <= ONE_DAY:
         return []
@@ -245,6 +241,6 @@ def _date_warnings(stations: Stations) -> list[str]:
 
 
 def _failure_text(answer: StationReport) -> str:
-    """Return why a station has no answer, its file or its name said once."""
+    """Return the reason of a missing result, prefixed by station or file once."""
     failure = answer.failure or ""
     return failure if answer.record in failure else lazy_gettext(FAILED, station=answer.label, failure=failure)

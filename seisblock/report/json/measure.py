@@ -1,4 +1,4 @@
-"""What ``seisblock measure`` answers."""
+"""JSON document of ``seisblock measure``."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from seisblock.report.json.schema import Document, DocumentSchema
 
 
 class MeasureParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     threshold_m_s2, threshold_from : float and str
-        Threshold of the durations, and where it comes from.
+        Threshold of the durations, and its source.
     velocity_highpass_hz, velocity_baseline : float or None, str
-        What was done before PGV and PGD were taken.
+        Processing before PGV and PGD are computed.
     fourier_smoothing, fourier_smoothing_hz, fourier_band_hz : str, float, two floats
-        Window of the Fourier amplitude, its bandwidth, and where the dominant frequency was looked for.
+        Window of the Fourier amplitude, its bandwidth, and the search band of the dominant frequency.
     threshold_side : str
-        Which sign of the acceleration counts.
+        Sign of the acceleration that is counted.
     gravity_m_s2 : float
     """
 
@@ -48,11 +48,11 @@ EXTRA_KEYS = {
     "jma_class": Annotated[str | list[str | None] | None, Meta(description="Class of that intensity.")],
     "long_period": Annotated[
         LongPeriodMotion | list[LongPeriodMotion | None] | None,
-        Meta(description="JMA's class of long-period ground motion, and the floor velocity behind it."),
+        Meta(description="JMA class of long-period ground motion, and the floor velocity."),
     ],
-    "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="The longest horizontal vector.")],
+    "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="Peak horizontal vector.")],
 }
-"""What belongs to a record, not to a component; lists where there are several records."""
+"""Keys of the record rather than of a component; lists for several records."""
 
 MEASURE_RESULT = entry_type("MeasureResult", ComponentMeasures)
 MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEYS)
@@ -61,7 +61,7 @@ MEASURE = DocumentSchema("measure", MeasureParameters, MEASURE_RESULT, EXTRA_KEY
 def document(
     records: Sequence[Record], answers: Sequence[RecordMeasures], conventions: Conventions, *, threshold: float, threshold_from: str
 ) -> Document:
-    """Return the document of some records: one result per component; what belongs to a record stands beside them."""
+    """Return the document of records: one result per component, record keys beside the results."""
     entries = [
         (r, to_entry(MEASURE_RESULT, component)) for r, measures in zip(records, answers, strict=True) for component in measures.components
     ]

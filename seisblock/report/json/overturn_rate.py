@@ -1,4 +1,4 @@
-"""What ``seisblock overturn-rate`` answers: rates of some shakings, or the curve alone."""
+"""JSON document of ``seisblock overturn-rate``: rates of given motions, or the curve."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from seisblock.studies.survey.overturning_rate import CurvePoint
 
 
 class RateParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     cemetery : str
         File of the stones.
     stones, reinforced_stones, compared_with_reinforced_stones : int
-        How many there are, with dowels, and with dowels in the comparison.
+        Number of stones, of those with dowels, and of those with dowels in the comparison.
     criterion : str
         ``furukawa``, ``rigid`` or ``simulate``.
     fit, fit_reinforced : GravestoneFit
         Parameters of eq. (8) without and with a dowel.
     inset : Inset or None
-        How far the edges are worn, for the criteria that ask.
+        Edge wear, for criteria that use it.
     stone_width_m : float
-        Of stones whose width is not in the file.
+        Width of stones without a width in the file.
     gravity_m_s2 : float
     confidence : float
         Level of the interval of a rate.
     equivalent_frequency : str
-        Which definition, or that it was given.
+        Definition of the frequency, or ``given``.
     velocity_highpass_hz, velocity_baseline : float or None, str
-        What was done before PGV was taken.
+        Processing before PGV is computed.
     """
 
     cemetery: str
@@ -61,19 +61,19 @@ class RateParameters(Struct, frozen=True, kw_only=True):
 
 
 class CurveResult(Result, frozen=True, kw_only=True):
-    """The rate against PGA, where no shaking was named."""
+    """Rate against PGA without given motions."""
 
     curve: tuple[CurvePoint, ...]
 
 
-CURVE_KEY = {"curve": Annotated[tuple[CurvePoint, ...], Meta(description="The rate against PGA at the frequencies asked for.")]}
+CURVE_KEY = {"curve": Annotated[tuple[CurvePoint, ...], Meta(description="Rate against PGA at the requested frequencies.")]}
 RATE_RESULT = entry_type("RateResult", CemeteryRate)
 RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY)
 CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve")
 
 
 def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, frequency_kind: str) -> RateParameters:
-    """Return everything that determines the answer."""
+    """Return all parameters that determine the result."""
     rules = Conventions()
     return RateParameters(
         cemetery=stones.source,
@@ -101,7 +101,7 @@ def document(
     citations: Sequence[str],
     warnings: Sequence[str],
 ) -> Document:
-    """Return the document of some rates, or of the curve where no shaking was named."""
+    """Return the document of rates, or of the curve without given motions."""
     points = tuple(curve)
     if not groups:
         return CURVE_ALONE.document(parameters, [(None, CurveResult(curve=points))], citations=citations, warnings=warnings, curve=points)

@@ -1,4 +1,4 @@
-"""Every kind of document, and its schema."""
+"""Registry of document kinds and their JSON Schemas."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ DOCUMENTS: dict[str, tuple[str, ...]] = {
     "cite": ("library:CITE",),
     "samples": ("library:SAMPLES",),
 }
-"""Command: module of this package and name of each kind of document it answers with. Kept as text so that a list costs no import."""
+"""Module and name of each document schema by command; text, so that listing needs no import."""
 
 JSON_SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def document_schemas(command: str) -> list[DocumentSchema]:
-    """Return the kinds of documents of a command.
+    """Return the document schemas of a command.
 
     Raises
     ------
@@ -50,16 +50,15 @@ def document_schemas(command: str) -> list[DocumentSchema]:
         If it answers with none.
     """
     if command not in DOCUMENTS:
-        raise ParameterError("{command!r} answers with no document; those that do are {known}", command=command, known=list(DOCUMENTS))
+        raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(DOCUMENTS))
     pairs = (name.split(":") for name in DOCUMENTS[command])
     return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
 
 
 def json_schema(command: str) -> dict[str, Any]:
-    """Return the JSON Schema of a command's documents.
+    """Return the JSON Schema of the documents of a command.
 
-    Keys, their units and what they mean follow from the types that the documents are made of. A key that is not required is left out
-    where it says nothing.
+    Keys, units and descriptions are generated from the types of the documents. Keys that are not required may be absent.
 
     Raises
     ------
@@ -75,7 +74,7 @@ def json_schema(command: str) -> dict[str, Any]:
 
 
 def _add_descriptions(definition: dict[str, Any]) -> None:
-    """Give each key of an object its description and unit; a key with a default is always written."""
+    """Add description and unit to each key; keys with a default are always written."""
     summary, docs = _parse_docstring(definition.get("description", ""))
     definition.pop("description", None)
     if summary:
@@ -94,7 +93,7 @@ def _add_descriptions(definition: dict[str, Any]) -> None:
 
 
 def _parse_docstring(docstring: str) -> tuple[str, dict[str, str]]:
-    """Return the first line of a numpydoc docstring, and what its Parameters say."""
+    """Return the summary of a numpydoc docstring and its parameter descriptions."""
     # Python 3.13 and later strip the indentation when they compile, earlier ones do not
     text = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", inspect.cleandoc(docstring).replace("]_", "]"))
     summary, _, body = text.partition("\n")
@@ -103,7 +102,7 @@ def _parse_docstring(docstring: str) -> tuple[str, dict[str, str]]:
 
 
 def _parameter_docs(section: str) -> Iterator[tuple[str, str]]:
-    """Yield each name of a Parameters section with its text."""
+    """Yield each name of a Parameters section with its description."""
     for names, text in re.findall(r"^(\w[\w, ]*?)(?: : .*)?\n((?: {4,}.*\n?)*)", section.rstrip() + "\n", re.MULTILINE):
         for name in names.split(", "):
             if text.strip():

@@ -1,4 +1,4 @@
-"""What ``seisblock respond`` answers."""
+"""JSON document of ``seisblock respond``."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from seisblock.studies.respond.probability import Probability
 
 
 class RespondParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -32,15 +32,15 @@ class RespondParameters(Struct, frozen=True, kw_only=True):
         Whether the vertical component acts.
     gravity_m_s2 : float
     initial : six floats or None
-        Place and lean at the first sample, and their rates; null: upright, at rest.
+        Position and tilt at the first sample, and their rates; null: upright, at rest.
     settle_s : float
-        How long it is followed after the record.
+        Simulated time after the record.
     tenon_m : float
-        Depth of tenons that hold the feet; 0 without.
+        Depth of the tenons of the feet; 0 without.
     further_points_m : list of pairs
-        Points of the body that end the motion when they meet the ground.
+        Further contact points of the body that end the motion at ground contact.
     block : BlockEntry
-        That of the first result.
+        Block of the first result.
     """
 
     mu: float
@@ -61,9 +61,8 @@ RESPOND_RESULT = entry_type(
     RespondOutcome,
     leading=COMPONENT_KEY,
     extra={
-        "block": Annotated[BlockEntry, Meta(description="Of a scan: the block that it is in this direction.")] | UnsetType,
-        "probability": Annotated[Probability, Meta(description="Share of plausible versions that fall; left out with --runs 0.")]
-        | UnsetType,
+        "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
+        "probability": Annotated[Probability, Meta(description="Overturning probability; absent with --runs 0.")] | UnsetType,
         "directions": Annotated[list[RespondAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
     },
 )
@@ -71,7 +70,7 @@ RESPOND = DocumentSchema("respond", RespondParameters, RESPOND_RESULT)
 
 
 def document(responses: Sequence[Response[RespondOutcome]], block: Block, extras: Sequence[Mapping[str, Any]]) -> Document:
-    """Return the document of one run per direction, with its probability and the directions that were looked in."""
+    """Return the document of one run per direction, with probability and azimuth sweep."""
     return RESPOND.document(
         RespondParameters(**{**responses[0].options, "vertical": bool(responses[0].options["vertical"])}, block=block_entry(block)),
         (to_outcome_entry(RESPOND_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),

@@ -1,4 +1,4 @@
-"""What ``seisblock risk`` answers: how often it happens at a site."""
+"""JSON document of ``seisblock risk``: annual frequency at a site."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class HazardBranch(Struct, frozen=True, kw_only=True):
 
 
 class RiskParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ class RiskParameters(Struct, frozen=True, kw_only=True):
     hazard_source : str
     hazard : list of HazardBranch
     years : float
-        For which the probability is told.
+        Period of the probability.
     stood_years : float or None
-        In which it did not happen.
+        Observed period without occurrence.
     """
 
     im: str
@@ -60,19 +60,19 @@ class RiskParameters(Struct, frozen=True, kw_only=True):
 
 
 LEADING_KEYS = {
-    "body": Annotated[str, Meta(description="What the fragility is of; empty where nobody said.")],
-    "limit": Annotated[str, Meta(description="What happens; empty where nobody said.")],
+    "body": Annotated[str, Meta(description="Body of the fragility; empty if unknown.")],
+    "limit": Annotated[str, Meta(description="Limit state; empty if unknown.")],
 }
 RISK_RESULT = entry_type("RiskResult", Risk, leading=LEADING_KEYS, exclude=("hazard", "stood_years", "notes"))
 RISK = DocumentSchema("risk", RiskParameters, RISK_RESULT)
 
 
 def document(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, source: str) -> Document:
-    """Return the document of some risks at one site.
+    """Return the document of risks at one site.
 
     Parameters
     ----------
-    risks : sequence of (GivenFragility, Risk)
+    risks : sequence of (FragilityCurve, Risk)
     hazard : Hazard
     source : str
         Name of its file.
@@ -97,7 +97,6 @@ def document(risks: Sequence[tuple[FragilityCurve, Risk]], hazard: Hazard, sourc
 
 
 def _branch(index: int, weight: float, hazard: Hazard) -> HazardBranch:
-    """Return one branch with its weight."""
     curve = hazard.branches[index]
     levels, rates = (tuple(float(value) for value in row) for row in map(np.asarray, (curve.levels, curve.rates)))
     return HazardBranch(branch=curve.name, weight=weight, levels=levels, annual_rates=rates)

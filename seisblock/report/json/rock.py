@@ -1,4 +1,4 @@
-"""What ``seisblock rock`` answers."""
+"""JSON document of ``seisblock rock``."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from seisblock.studies.rocking.perturb import Perturbation
 
 
 class RockParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -30,11 +30,11 @@ class RockParameters(Struct, frozen=True, kw_only=True):
         Whether the equation is linear, and whether the vertical component acts.
     gravity_m_s2 : float
     block : BlockEntry
-        That of the first result.
+        Block of the first result.
     margin_limit : float or None
         Largest factor of the search for margins; null without one.
     mu : float or None
-        The friction there is; null where nobody said.
+        Available friction; null if not given.
     """
 
     restitution: Restitution
@@ -51,9 +51,9 @@ ROCK_RESULT = entry_type(
     RockOutcome,
     leading=COMPONENT_KEY,
     extra={
-        "block": Annotated[BlockEntry, Meta(description="Of a scan: the block that it is in this direction.")] | UnsetType,
-        "agreement": Annotated[ModelComparison, Meta(description="What other models of the same block say.")] | UnsetType,
-        "friction_suffices": Annotated[bool, Meta(description="With --mu: whether it lets the block do this.")] | UnsetType,
+        "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
+        "agreement": Annotated[ModelComparison, Meta(description="Results of other models of the same block.")] | UnsetType,
+        "friction_suffices": Annotated[bool, Meta(description="With --mu: whether the friction suffices for the motion.")] | UnsetType,
         "margin": Annotated[Margin, Meta(description="With --margin.")] | UnsetType,
         "directions": Annotated[list[RockAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
         "perturbation": Annotated[Perturbation, Meta(description="With --perturb, or --margin.")] | UnsetType,
@@ -70,7 +70,7 @@ def document(
     margin_limit: float | None = None,
     mu: float | None = None,
 ) -> Document:
-    """Return the document of one run per direction, and of the margin and the perturbation that were looked for around each."""
+    """Return the document of one run per direction, with margin and perturbation."""
     options = responses[0].options
     return ROCK.document(
         RockParameters(**{**options, "vertical": bool(options["vertical"])}, block=block_entry(block), margin_limit=margin_limit, mu=mu),

@@ -1,4 +1,4 @@
-"""What a document is made of: a command, and the types of its parameters and results."""
+"""Document schemas: command, parameter type, result type and record entries."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.report.json.versions import schema_name
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
-    """One answer, ready to be written.
+    """One document ready to be written.
 
     Its type is made by a :class:`DocumentSchema`; ``schema``, the first key, names the command and the version of the keys.
     """
@@ -36,12 +36,12 @@ class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisb
 
     @property
     def command(self) -> str:
-        """The command that answers so."""
+        """Name of the command."""
         return str(type(self).__struct_config__.tag).split("/")[1]
 
 
 class EarthquakeEntry(Struct, frozen=True, kw_only=True):
-    """What shook, as far as the record's file says.
+    """Earthquake of a record, as far as its file contains it.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
     depth_km : float or None
     magnitude : float or None
     name : str
-        Empty where the file has none.
+        Empty if not in the file.
     """
 
     origin_time: str | None
@@ -64,13 +64,12 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
 
 
 def _record_earthquake(record: Record) -> EarthquakeEntry | None:
-    """Return what shook, or None where the file does not say."""
     earthquake = get_earthquake(record)
     return None if earthquake is None else earthquake_entry(earthquake)
 
 
 def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
-    """Return what shook, as documents tell it."""
+    """Return the entry of an earthquake."""
     return EarthquakeEntry(
         origin_time=earthquake.origin_time.isoformat() if earthquake.origin_time else None,
         latitude_deg=earthquake.latitude_deg,
@@ -82,19 +81,19 @@ def earthquake_entry(earthquake: Earthquake) -> EarthquakeEntry:
 
 
 class RecordEntry(Struct, frozen=True, kw_only=True):
-    """What identifies a record.
+    """Identification of a record.
 
     Parameters
     ----------
     station : str
     station_name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude_deg, longitude_deg : float or None
         Of the station, degrees north and east.
     start : str or None
         Time of the first sample, ISO 8601, UTC.
     local_start : str
-        The same as the network's own clock tells it, with the name of the clock; empty where it is unknown.
+        The same in the local time of the network, with the time zone; empty if unknown.
     earthquake : Earthquake or None
     epicentral_distance_km : float or None
         From the epicentre to the station.
@@ -104,16 +103,16 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     sha256 : str
         Of the file.
     format, source : str
-        How it was read, and the file's name.
+        Name of the format and of the file.
     components : list of str
     offset_s : float
         Time of the first sample used, from the record's first.
     history : list of str
-        What was done to it, in this order.
+        Processing steps, in order.
     azimuths_deg : list of float or None
-        Of the components, clockwise from north; null where vertical or not known.
+        Azimuths of the components, clockwise from north; null if vertical or unknown.
     doubts : list of Doubt
-        What a careful reader notices before he believes it; in words also among the warnings.
+        Quality flags; their messages are also among the warnings.
     """
 
     station: str
@@ -137,7 +136,7 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
 
 
 def record_entry(record: Record) -> RecordEntry:
-    """Return what identifies a record."""
+    """Return the entry of a record."""
     site = get_site(record)
     return RecordEntry(
         station=record.station,
@@ -164,31 +163,31 @@ def record_entry(record: Record) -> RecordEntry:
 class Result(Struct, frozen=True, kw_only=True):
     """One entry of ``results``."""
 
-    record_index: Annotated[int, Meta(description="Which of the records it is of, where there are several.")] | UnsetType = UNSET
+    record_index: Annotated[int, Meta(description="Index of the record, if there are several.")] | UnsetType = UNSET
 
 
 def is_optional(kind: Any) -> bool:
-    """Whether a key of this type is missing from documents in which it says nothing."""
+    """Return whether a key of this type may be absent from documents."""
     return UnsetType in getattr(kind, "__args__", ())
 
 
 RecordResult = tuple[Record | None, Result]
-"""A result, and the record it is of."""
+"""A result with its record."""
 
 
 @dataclass(frozen=True)
 class DocumentSchema:
-    """One kind of document.
+    """Definition of one kind of document.
 
     Parameters
     ----------
     command : str
     parameters, result : type
-        What the user could have chosen, and one entry of ``results``.
+        Parameters of the command, and one entry of ``results``.
     extra : mapping of str to type
         Further keys, between the results and the warnings.
     name : str
-        Tells several kinds of one command apart.
+        Distinguishes several kinds of one command.
     """
 
     command: str
@@ -199,22 +198,20 @@ class DocumentSchema:
 
     @property
     def schema(self) -> str:
-        """What stands under the key ``schema``."""
+        """Value of the key ``schema``."""
         return schema_name(self.command)
 
     @cached_property
     def type(self) -> type[Document]:
-        """The type of such documents; its fields are the keys."""
+        """Struct type of the document; its fields are the keys."""
         fields = {
-            "version": Annotated[str, Meta(description="Of seisblock.")],
-            "record": Annotated[
-                RecordEntry | list[RecordEntry] | None, Meta(description="The record used, a list of several, null without any.")
-            ],
+            "version": Annotated[str, Meta(description="Version of seisblock.")],
+            "record": Annotated[RecordEntry | list[RecordEntry] | None, Meta(description="Record, list of records, or null.")],
             "parameters": self.parameters,
             "results": list[self.result],  # type: ignore[name-defined]
             **self.extra,
-            "warnings": Annotated[list[str], Meta(description="What to know before believing the numbers.")],
-            "citations": Annotated[list[str], Meta(description="Keys of the papers relied on; seisblock cite prints them.")],
+            "warnings": Annotated[list[str], Meta(description="Warnings on the results.")],
+            "citations": Annotated[list[str], Meta(description="Keys of the cited papers; seisblock cite prints them.")],
         }
         declared = [(key, kind, UNSET) if is_optional(kind) else (key, kind) for key, kind in fields.items()]
         name = "".join(part.capitalize() for part in f"{self.command}-{self.name}".replace("-", " ").split()) + "Document"
@@ -232,22 +229,22 @@ class DocumentSchema:
         upstairs: bool = False,
         **extra: Any,
     ) -> Document:
-        """Return the document of some results; with several records each result says which it is of.
+        """Return the document of results; with several records each result holds its record index.
 
         Parameters
         ----------
         parameters : Struct
-            Everything the user could have chosen.
+            Parameters of the command.
         results : iterable of (Record or None, Result)
-            In the order asked.
+            In the requested order.
         records : sequence of Record
-            Those that no single result is of.
+            Records without a result of their own.
         citations, warnings : sequences of str
-            Each is said once.
+            Duplicates are removed.
         upstairs : bool
-            Whether the motions are those of a storey, where no record here says so.
+            Whether the motions are floor motions although no record is marked as one.
         beside
-            The further keys.
+            Values of the extra keys.
         """
         pairs = list(results)
         records = list({id(record): record for record in (*(r for r, _ in pairs), *records) if record is not None}.values())

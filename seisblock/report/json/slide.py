@@ -1,4 +1,4 @@
-"""What ``seisblock slide`` answers: one run per direction, or a study."""
+"""JSON documents of ``seisblock slide``: one run per direction, or a parameter study."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ SCALE_KEY = "vertical_scale"
 
 
 class SlideParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
     mu, mu_kinetic, kappa : float
         Static and kinetic friction, and the kinetic over the static.
     vertical_scale : float
-        Factor on the vertical component, 0 where it does not act.
+        Factor on the vertical component, 0 if ignored.
     slope_deg, slope_length_m : float
         Angle of the base, and the distance to its foot; null without an end.
     one_way : bool
@@ -47,14 +47,14 @@ class SlideParameters(Struct, frozen=True, kw_only=True):
 
 
 class SlideStudyParameters(Struct, frozen=True, kw_only=True):
-    """What was combined; null: what the others give.
+    """Values of the parameter study; null where derived from the others.
 
     Parameters
     ----------
     mu, mu_kinetic, kappa : list of float
         Static and kinetic friction, and the kinetic over the static.
     vertical_scale : list of float
-        Factors on the vertical component, 0 where it does not act.
+        Factors on the vertical component, 0 if ignored.
     slope_deg, slope_length_m : list of float, float
         Angles of the base, and the distance to its foot; null without an end.
     one_way : bool
@@ -74,14 +74,14 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
 SLIDE_RESULT = entry_type("SlideResult", SlideOutcome, leading=COMPONENT_KEY)
 SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": SCALE_KEY})
 AZIMUTHS_KEY: dict[str, Any] = {
-    "azimuths": Annotated[list[SLIDE_POINT], Meta(description="Every direction of a sweep.")] | UnsetType  # type: ignore[valid-type]
+    "azimuths": Annotated[list[SLIDE_POINT], Meta(description="All directions of a sweep.")] | UnsetType  # type: ignore[valid-type]
 }
 SLIDE = DocumentSchema("slide", SlideParameters, SLIDE_RESULT, AZIMUTHS_KEY)
 STUDY = DocumentSchema("slide", SlideStudyParameters, SLIDE_POINT, name="study")
 
 
 def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlidePoint] = ()) -> Document:
-    """Return the document of one run per direction, and of the sweep that found the worst."""
+    """Return the document of one run per direction, and of the azimuth sweep."""
     return SLIDE.document(
         SlideParameters(**_with_scale_key(responses[0].options)),
         (to_outcome_entry(SLIDE_RESULT, response) for response in responses),
@@ -92,16 +92,16 @@ def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlideP
 
 
 def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record, SlidePoint]], warnings: Sequence[str]) -> Document:
-    """Return the document of a study, point by point."""
+    """Return the document of a parameter study, point by point."""
     entries = ((record, point_entry(point)) for record, point in points)
     return STUDY.document(SlideStudyParameters(**_with_scale_key(parameters)), entries, citations=papers("sliding"), warnings=warnings)
 
 
 def point_entry(point: SlidePoint) -> Result:
-    """Return one point of a study."""
+    """Return the entry of one point of a study."""
     return to_entry(SLIDE_POINT, point, vertical_scale=point.vertical)
 
 
 def _with_scale_key(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return options with the factor on the vertical component under its key."""
+    """Return options with the vertical factor under its document key."""
     return {SCALE_KEY if key == "vertical" else key: value for key, value in options.items()}

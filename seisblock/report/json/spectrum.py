@@ -1,4 +1,4 @@
-"""What ``seisblock spectrum`` answers: blocks of all sizes, or all frictions."""
+"""JSON documents of ``seisblock spectrum``: block sizes and slendernesses, or friction coefficients."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.studies.sliding import SlidePoint
 
 
 class RockingParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class RockingParameters(Struct, frozen=True, kw_only=True):
     linear, vertical : bool
         Whether the equation is linear, and whether the vertical component acts.
     inset : Inset
-        How far the edges are worn.
+        Edge wear.
     """
 
     kind: str
@@ -45,7 +45,7 @@ class RockingParameters(Struct, frozen=True, kw_only=True):
 
 
 class SlidingParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class SlidingParameters(Struct, frozen=True, kw_only=True):
 
 
 class RockingResult(Result, frozen=True, kw_only=True):
-    """One direction: axes, and matrices with a row per size and a column per slenderness.
+    """Result of one direction: axes, and matrices with a row per size and a column per slenderness.
 
     Parameters
     ----------
@@ -72,14 +72,14 @@ class RockingResult(Result, frozen=True, kw_only=True):
     slenderness_rad, height_over_width : list of float
         alpha, and H/B of the same blocks.
     max_rotation_ratio : matrix of float
-        Largest lean over alpha.
+        Peak tilt over alpha.
     overturned : matrix of bool
     azimuths_deg : list of float
-        With --component all-azimuths: the directions; the leans are then those of the worst, and what falls in any has overturned.
+        With --component all-azimuths: directions; tilts are then maxima over them, and overturned means in any of them.
     overturning_rate : matrix of float
-        Share of the directions in which a block falls.
+        Share of directions with overturning.
     worst_azimuth_deg : matrix of float
-        Direction in which it falls first, or leans furthest.
+        Direction of the first overturning, or of the largest tilt.
     """
 
     component: str
@@ -95,14 +95,14 @@ class RockingResult(Result, frozen=True, kw_only=True):
 
 
 class SlidingResult(Result, frozen=True, kw_only=True):
-    """One direction.
+    """Result of one direction.
 
     Parameters
     ----------
     component : str
     mu : list of float
     max_slip_m, residual_slip_m : list of float
-        At each of these frictions; null where friction does not hold at rest.
+        At each friction; null if friction does not hold the object at rest.
     """
 
     component: str
@@ -112,7 +112,7 @@ class SlidingResult(Result, frozen=True, kw_only=True):
 
 
 class ModesParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -122,9 +122,9 @@ class ModesParameters(Struct, frozen=True, kw_only=True):
     restitution : float
         Poisson's, of an impact at one corner.
     vertical : bool
-        Whether the vertical component acts, where the record has one.
+        Whether the vertical component acts, if the record has one.
     inset : Inset
-        How far the edges are worn.
+        Edge wear.
     """
 
     kind: str
@@ -141,12 +141,12 @@ class InitiationEntry(Struct, frozen=True, kw_only=True):
     ----------
     acceleration_ratio : float or None
         Largest horizontal acceleration over the weight per unit mass, abs(a)/(g + a_y); a block rests throughout if neither mu nor b/h
-        is below it; null where the ground falls faster than gravity.
+        is below it; null if the downward ground acceleration exceeds gravity.
     time_s : float
-        When.
+        Time of this maximum.
     friction_to_rock : list of float or None
         Friction that the corner of each row's block needs if that comes as a jump: with less it slides while it rocks, or slides; null
-        where the block would not rock.
+        for a block that does not rock.
     """
 
     acceleration_ratio: float | None
@@ -155,7 +155,7 @@ class InitiationEntry(Struct, frozen=True, kw_only=True):
 
 
 class ModesResult(Result, frozen=True, kw_only=True):
-    """One direction: axes, and matrices with a row per block and a column per friction.
+    """Result of one direction: axes, and matrices with a row per block and a column per friction.
 
     Parameters
     ----------
@@ -165,11 +165,11 @@ class ModesResult(Result, frozen=True, kw_only=True):
     size_m, b_over_h : list of float
         2R, and half of the base that is left over the height of the centre of gravity, of each row's block.
     mode : matrix of str
-        The worst that one could see: rest, slide, rock, slide-rock, flight, overturned.
+        Most severe mode: rest, slide, rock, slide-rock, flight, overturned.
     max_rotation_ratio : matrix of float
-        Largest lean over alpha.
+        Peak tilt over alpha.
     slip_path_m, final_displacement_m : matrix of float
-        Length slid, and where it ends, signed.
+        Slip path length, and signed residual displacement.
     initiation : InitiationEntry
     """
 
@@ -213,12 +213,11 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
 
 
 def _to_list(values: FloatArray | None) -> Any:
-    """Return an array as a list, nothing for none."""
     return UNSET if values is None else values.tolist()
 
 
 def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, gravity: float, vertical: bool) -> Document:
-    """Return the document of slips against friction, one curve per direction."""
+    """Return the document of sliding spectra, one per direction."""
     entries = (
         (
             motion.record,
@@ -238,7 +237,7 @@ def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, g
 def modes_document(
     maps: Sequence[tuple[Motion, ModeMap]], *, gravity: float, restitution: float, inset: EdgeWear, vertical: bool
 ) -> Document:
-    """Return the document of maps of modes, one per direction."""
+    """Return the document of mode maps, one per direction."""
     entries = (
         (
             motion.record,

@@ -1,4 +1,4 @@
-"""What ``seisblock stack`` answers: a pile under a record, or the criterion study."""
+"""JSON documents of ``seisblock stack``: a pile under a record, or the criterion study."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from seisblock.studies.respond.pile_probability import PileProbability
 
 
 class StackParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -34,16 +34,16 @@ class StackParameters(Struct, frozen=True, kw_only=True):
     points : int
         Contact points along each side of a joint; 2: its edges.
     mu, mu_kinetic : float
-        Friction of the joints that have none of their own, and of what slides on them.
+        Default static and kinetic friction of the joints.
     restitution : float or None
-        Of the joints, a ratio of velocities; null: what angular momentum gives.
+        Velocity ratio of the joints; null: from angular momentum.
     base : Base
-        What the contact points make of the top stone's base.
+        Effective base of the top stone.
     vertical, across : bool
         Whether the vertical and the other horizontal component act.
     gravity_m_s2, step_s : float
     contact : PileContactEntry or None
-        Null where stones are rigid.
+        Null for rigid contact.
     pile : PileEntry
     """
 
@@ -62,7 +62,7 @@ class StackParameters(Struct, frozen=True, kw_only=True):
 
 
 class StudyParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen for the criterion study.
+    """Parameters of the criterion study.
 
     Parameters
     ----------
@@ -74,9 +74,9 @@ class StudyParameters(Struct, frozen=True, kw_only=True):
     criterion : bool
         True.
     grid : int
-        Every so many-th amplitude and height was taken.
+        Stride of the amplitudes and heights.
     contact : PileContactEntry or None
-        Null where stones are rigid.
+        Null for rigid contact.
     pile : PileEntry
     """
 
@@ -96,7 +96,7 @@ class LevelEntry(Struct, frozen=True, kw_only=True):
     ----------
     frequency_hz : float
     level_m_s2 : float or None
-        Of the pile, eq. (7); null where nothing fell.
+        Of the pile, eq. (7); null without overturning.
     rigid_block_m_s2 : float or None
         Of one rigid block on the outermost points.
     published_m_s2 : float
@@ -116,7 +116,7 @@ class PublishedEntry(Struct, frozen=True, kw_only=True):
 
 
 class ScaledEntry(Struct, frozen=True, kw_only=True):
-    """One record, scaled, and the thresholds found with it."""
+    """One scaled record and its thresholds."""
 
     record: str
     thresholds: tuple[Threshold, ...]
@@ -142,10 +142,8 @@ class StudyResult(Result, frozen=True, kw_only=True):
     scaled_records: tuple[ScaledEntry, ...]
 
 
-AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="What the models of the top stone say; null where it is held.")]
-PROBABILITY_KEY = (
-    Annotated[PileProbability, Meta(description="Share of plausible versions in which stones fall; left out with --runs 0.")] | UnsetType
-)
+AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="Results of models of the top stone; null if the stone is restrained.")]
+PROBABILITY_KEY = Annotated[PileProbability, Meta(description="Probabilities of falling stones; absent with --runs 0.")] | UnsetType
 STACK_RESULT = entry_type(
     "StackResult", StackOutcome, leading=COMPONENT_KEY, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY}
 )
@@ -156,10 +154,11 @@ STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion")
 def document(
     responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, extras: Sequence[Mapping[str, Any]]
 ) -> Document:
-    """Return the document of one run per direction, with what its models and its versions say; a contact of None is rigid."""
+    """Return the document of one run per direction, with model comparison and probability; a contact of None is rigid."""
     options: dict[str, Any] = {**responses[0].options, "base": effective_base(responses[0])}
     if contact is None and options["law"] == SPRINGS:
-        contact = PileContact()  # where rigid stones created energy
+        # rigid contact was replaced by springs because it created energy
+        contact = PileContact()
     options["contact"] = None if contact is None else pile_contact_entry(contact)
     options |= {name: bool(options[name]) for name in ("vertical", "across")}
     return STACK.document(
@@ -184,7 +183,7 @@ def study_document(
     gravity: float,
     grid: int,
 ) -> Document:
-    """Return the document of the criterion study, of levels of one rigid block, and of thresholds of scaled records by their names."""
+    """Return the document of the criterion study, with levels of one rigid block and thresholds of scaled records."""
     fit, equation = furukawa_fit(reinforced)
     result = StudyResult(
         thresholds=study.thresholds,

@@ -1,4 +1,4 @@
-"""The unit that ends a key."""
+"""Units of document keys by their suffix."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ UNITS = {
     "_j": "J",
     "_s": "s",
 }
-"""Endings of keys, the longer before the shorter, and their units."""
+"""Key suffixes, longer before shorter, and their units."""
 
 
 def split_unit(key: str) -> tuple[str, str]:
-    """Return a key without the ending that names its unit, and the unit, empty where it has none.
+    """Return a key without its unit suffix, and the unit; empty without one.
 
     Examples
     --------

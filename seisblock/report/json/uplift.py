@@ -1,4 +1,4 @@
-"""What ``seisblock uplift`` answers: under a record, or under harmonic shaking."""
+"""JSON documents of ``seisblock uplift``: under a record, or under harmonic motion."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.uplift_regions import UpliftRegion
 
 RATIO_KEYS = {"alpha": "alpha", "gamma": "gamma", "beta": "beta", "damping": "damping", "phi": "phi_deg", "rho": "rho_deg"}
-"""Keys of what may be varied under harmonic shaking."""
+"""Keys of the parameters that may vary under harmonic motion."""
 
 ScalarOrTuple = float | tuple[float, ...]
 
 
 class UpliftParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class UpliftParameters(Struct, frozen=True, kw_only=True):
 
 
 class HarmonicParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen; a list where it was varied.
+    """Parameters of the command; a list for each varied one.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class HarmonicParameters(Struct, frozen=True, kw_only=True):
     phi_deg, rho_deg : float
         Azimuth of the shaking from x towards y, and its angle from the vertical.
     corner : int or None
-        The corner looked at; null: whichever lifts first.
+        Selected corner; null: the first to lift.
     block : SpringBlockEntry or None
         Null where several were combined.
     """
@@ -89,7 +89,7 @@ class CurvePointEntry(Struct, frozen=True, kw_only=True):
     frequency_ratio : float
         theta/omega_1.
     acceleration_ratio : float or None
-        Least A/g that lifts a corner; null where none does.
+        Smallest A/g with uplift; null if there is none.
     """
 
     frequency_ratio: float
@@ -97,7 +97,7 @@ class CurvePointEntry(Struct, frozen=True, kw_only=True):
 
 
 class HarmonicResult(Result, frozen=True, kw_only=True):
-    """One combination of parameters.
+    """Result of one combination of parameters.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def document(responses: Sequence[Response[UpliftOutcome]], body: SpringBlock) ->
 
 
 def harmonic_document(regions: Sequence[UpliftRegion]) -> Document:
-    """Return the document of harmonic shaking, one result per combination of parameters."""
+    """Return the document of harmonic motion, one result per combination of parameters."""
     ratios = {key: tuple(sorted({region.ratios[name] for region in regions})) for name, key in RATIO_KEYS.items()}
     parameters = HarmonicParameters(
         **{key: values if len(values) > 1 else values[0] for key, values in ratios.items()},
@@ -151,7 +151,6 @@ def harmonic_document(regions: Sequence[UpliftRegion]) -> Document:
 
 
 def _harmonic_result(region: UpliftRegion) -> HarmonicResult:
-    """Return one combination of parameters."""
     modes, vertical = region.modes, region.body.omega[2]
     ratios: dict[str, Any] = {key: region.ratios[name] for name, key in RATIO_KEYS.items()}
     return HarmonicResult(

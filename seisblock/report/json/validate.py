@@ -1,4 +1,4 @@
-"""What ``seisblock validate`` answers."""
+"""JSON document of ``seisblock validate``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.validation.case import CaseResult, count_verdicts, count_verdicts
 
 
 class ValidateParameters(Struct, frozen=True, kw_only=True):
-    """What was chosen.
+    """Parameters of the command.
 
     Parameters
     ----------
@@ -33,16 +33,16 @@ class CaseEntry(Result, frozen=True, kw_only=True):
     key, paper, where : str
         Identifier, paper, and equation, table or figure.
     quantity, unit : str
-        What is compared, and the unit of the four numbers.
+        Compared quantity, and the unit of the four numbers.
     expected, computed, error, tolerance : float
-        The paper's value and this machine's, their difference, and what is allowed; null where nothing could be computed.
+        Published and computed value, difference and tolerance; null if not computed.
     status, verdict : str
-        What is claimed (``holds``, ``differs``), and what this machine found (``fails`` too).
+        Claimed (``holds``, ``differs``) and actual verdict (``fails`` in addition).
     kind : str
         What it is worth: ``computed`` by the program against what the paper states; from an input ``rebuilt`` or replaced; against what was
         ``derived`` here; or the ``print`` checked against itself.
     today : float or None
-        The computed value when a difference was explained; null where it should hold.
+        Computed value at the time of the explanation of a difference; null for ``holds``.
     note : str
     """
 
@@ -63,14 +63,14 @@ class CaseEntry(Result, frozen=True, kw_only=True):
 
 
 COUNT_KEYS = {
-    "counts": Annotated[dict[str, int], Meta(description="How many cases of each verdict.")],
-    "counts_by_kind": Annotated[dict[str, dict[str, int]], Meta(description="The same for each kind.")],
+    "counts": Annotated[dict[str, int], Meta(description="Number of cases of each verdict.")],
+    "counts_by_kind": Annotated[dict[str, dict[str, int]], Meta(description="The same by kind of evidence.")],
 }
 VALIDATE = DocumentSchema("validate", ValidateParameters, CaseEntry, COUNT_KEYS)
 
 
 def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
-    """Return the document of the evidence: what fails first, then what differs."""
+    """Return the document of the evidence: failures first, then differences."""
     papers = tuple(dict.fromkeys(result.case.paper for result in results))
     entries = (
         (

@@ -1,4 +1,4 @@
-"""The versions of the documents, one number per command."""
+"""Document versions by command."""
 
 VERSIONS = {
     "measure": 1,
@@ -22,9 +22,9 @@ VERSIONS = {
     "cite": 1,
     "samples": 1,
 }
-"""Stepped when a key goes, or changes its name, unit or type; a key that is added leaves it."""
+"""Incremented when a key is removed or changes name, unit or type; not when one is added."""
 
 
 def schema_name(command: str) -> str:
-    """Return what stands under the key ``schema``."""
+    """Return the value of the key ``schema``."""
     return f"seisblock/{command}/{VERSIONS[command]}"

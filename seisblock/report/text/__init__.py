@@ -1,1 +1,1 @@
-"""Answers as tables and sentences."""
+"""Text reports: tables and sentences of each command."""

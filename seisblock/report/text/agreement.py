@@ -1,98 +1,99 @@
-"""How it is told that models disagree, and of what a share of runs is the share."""
+"""Sentences on model comparison and on the overturning probability of perturbed runs."""
 
 from __future__ import annotations
 
 from seisblock.bodies.block import Block
-from seisblock.core.i18n import N_, format_share, gettext, join_sentences, lazy_gettext
+from seisblock.core.i18n import N_, format_share, gettext, lazy_gettext
 from seisblock.report.describe_wear import sampled_edges
+from seisblock.report.text.tables import with_notes
 from seisblock.studies.model_comparison import GRAVESTONES, ModelComparison, ModelResult
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.rocking.perturb import Perturbation
 from seisblock.studies.survey.model_rates import ModelRate
 
 MIN_SHARE, MAX_SHARE = 0.03, 0.98
-"""Shares of perturbed runs beyond which no share is a chance: of fitted real rocks 3 % fell where no version did, and 2 % stood where
-all of them fell."""
+"""Range of meaningful shares: of fitted real rocks 3 % overturned where no sample did, and 2 % did not where all samples did."""
 
 
 def agreement_line(name: str, agreement: ModelComparison) -> str:
-    """Return in a sentence how many models let an object fall, which, and how far apart they are.
+    """Return a sentence on the models that predict overturning and the spread of their scale factors.
 
     Parameters
     ----------
     name : str
         Direction of the record.
-    agreement : Agreement
+    agreement : ModelComparison
     """
     factors = [opinion.factor for opinion in agreement.opinions if opinion.factor is not None]
+    if not agreement.models:
+        return gettext("{name}: no model comparison.", name=name)
     if not agreement.opinions or agreement.spread is None:
-        return gettext("{name}: falls in {falls} of {models} models.", name=name, falls=agreement.falls, models=agreement.models)
+        return gettext("{name}: overturns in {falls} of {models} models.", name=name, falls=agreement.falls, models=agreement.models)
     values = {"name": name, "models": agreement.models, "spread": agreement.spread}
     if agreement.unanimous:
         ends = {"low": min(factors), "high": max(factors)}
         if agreement.falls:
             text = N_(
-                "{name}: falls in all {models} models; {low:.2f} to {high:.2f} times this record is enough, depending on the model "
-                "(a factor of {spread:.1f})."
+                "{name}: overturns in all {models} models; scale factor to overturning {low:.2f}-{high:.2f} (largest "
+                "over smallest {spread:.1f})."
             )
         else:
             text = N_(
-                "{name}: stands in all {models} models; to fall it takes {low:.2f} to {high:.2f} times this record, depending on the model "
-                "(a factor of {spread:.1f})."
+                "{name}: stable in all {models} models; scale factor to overturning {low:.2f}-{high:.2f} (largest over "
+                "smallest {spread:.1f})."
             )
         return gettext(text, **values, **ends)
     text = N_(
-        "{name}: falls in {falls} of {models} models: {falling}; stands in the others: {standing}. In brackets: how many times this "
-        "record each takes to let it fall; the largest is {spread:.1f} times the smallest."
+        "{name}: overturns in {falls} of {models} models: {falling}; stable in the others: {standing}. In brackets: "
+        "scale factor to overturning of each model, largest over smallest {spread:.1f}."
     )
     falling_models, stable_models = ([_opinion_text(o) for o in agreement.opinions if o.falls is falls] for falls in (True, False))
     sentence = gettext(text, **values, falls=agreement.falls, falling=falling_models, standing=stable_models)
     purpose_built = next((opinion for opinion in agreement.opinions if opinion.made_for_it), None)
-    return sentence if purpose_built is None else join_sentences([sentence, _purpose_built_text(purpose_built)])
+    return sentence if purpose_built is None else with_notes(sentence, [_purpose_built_text(purpose_built)])
 
 
 def _opinion_text(opinion: ModelResult) -> str:
-    """Return a model with the factor from which on it lets the object fall."""
+    """Return the label of a model with its scale factor to overturning."""
     if opinion.factor is None:
         return model_label(opinion)
     return gettext("{model} ({factor:.2f})", model=model_label(opinion), factor=opinion.factor)
 
 
 def model_label(opinion: ModelResult | ModelRate) -> str:
-    """Return the name of a model, with the frequency and the edges that it was asked about.
+    """Return the name of a model with the pulse frequency and the edge wear it was evaluated for.
 
     Parameters
     ----------
-    opinion : Opinion or RateOpinion
+    opinion : ModelResult or ModelRate
 
     Examples
     --------
     >>> model_label(ModelResult("half-sine pulse", True, 0.9, frequency_hz=0.75, worn=True))
-    'half sine of 0.75 Hz with worn edges'
+    'half-sine pulse of 0.75 Hz with worn edges'
     """
     name = gettext(opinion.model)
     if opinion.frequency_hz is not None:
-        name = gettext("half sine of {frequency:.3g} Hz", frequency=opinion.frequency_hz)
+        name = gettext("half-sine pulse of {frequency:.3g} Hz", frequency=opinion.frequency_hz)
     if opinion.worn is None:
         return name
     return gettext("{model} with worn edges", model=name) if opinion.worn else gettext("{model} with sharp edges", model=name)
 
 
 def _purpose_built_text(opinion: ModelResult) -> str:
-    """Return what the model says that was made for such objects."""
     if opinion.falls:
-        return gettext("The {model}, made for this, says that it falls.", model=gettext(opinion.model))
-    return gettext("The {model}, made for this, says that it stands.", model=gettext(opinion.model))
+        return gettext("The {model}, derived for such objects, predicts overturning.", model=gettext(opinion.model))
+    return gettext("The {model}, derived for such objects, predicts no overturning.", model=gettext(opinion.model))
 
 
 def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
-    """Return in a sentence which share of a cemetery falls by each model, empty where only one was asked.
+    """Return a sentence on the overturning rates of a cemetery by model; empty for a single model.
 
     Parameters
     ----------
     name : str
         Direction of the record; empty for bare numbers.
-    rates : tuple of RateOpinion
+    rates : tuple of ModelRate
     """
     if len(rates) < 2:
         return ""
@@ -100,17 +101,15 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     low, high = min(opinion.rate for opinion in rates), max(opinion.rate for opinion in rates)
     values = {"rates": texts, "made": gettext(GRAVESTONES)}
     if low > 0.0:
-        text = N_(
-            "share of the stones that falls: {rates}, {spread:.1f} times as many in one model as in another; the {made} is made for them."
-        )
+        text = N_("Overturning rate of the stones: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
         sentence = gettext(text, **values, spread=high / low)
     else:
-        sentence = gettext("share of the stones that falls: {rates}; the {made} is made for them.", **values)
+        sentence = gettext("Overturning rate of the stones: {rates}. Derived for gravestones: {made}.", **values)
     return gettext("{name}: {text}", name=name, text=sentence) if name else sentence
 
 
 def format_chance(share: float) -> str:
-    """Return a share of perturbed runs as what can be said of it.
+    """Return a share of perturbed runs, truncated to the range in which it is meaningful.
 
     Examples
     --------
@@ -123,7 +122,7 @@ def format_chance(share: float) -> str:
 
 
 def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, str]:
-    """Return how often a perturbed block fell, of what that is the share, and what was varied.
+    """Return a sentence on the overturning probability of a perturbed block, and one on the varied parameters.
 
     Parameters
     ----------
@@ -139,13 +138,17 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     }
     low, high = perturbation.probability_interval
     if perturbation.probability < MIN_SHARE:
-        text = N_("falls in {fallen} of {runs} versions of body and shaking: {share}; of real rocks 3 % fell where no version did.")
-    elif perturbation.probability > MAX_SHARE:
-        text = N_("falls in {fallen} of {runs} versions of body and shaking: {share}; of real rocks 2 % stood where every version fell.")
-    else:
         text = N_(
-            "falls in {fallen} of {runs} versions of body and shaking: {share}; {low} to {high} is the 95 % interval of {of}, no more."
+            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, 3 % of the runs with no "
+            "overturning sample did overturn."
         )
+    elif perturbation.probability > MAX_SHARE:
+        text = N_(
+            "overturning probability {share} ({fallen} of {runs} samples). On shaking tables, 2 % of the runs with all "
+            "samples overturning did not overturn."
+        )
+    else:
+        text = N_("overturning probability {share} ({fallen} of {runs} samples); {low} to {high} is the 95 % interval of {of} only.")
     s = perturbation.spread
     sizes = lazy_gettext("size ±{size}, slenderness ±{slenderness}", size=format_share(s.size), slenderness=format_share(s.slenderness))
     variation = gettext(
@@ -156,8 +159,8 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
         amplitude=format_share(s.amplitude),
         azimuth=s.azimuth_deg,
     )
-    whole, left_out = (
+    text, left_out = (
         gettext(text, **values, low=format_chance(low), high=format_chance(high)),
         left_out_versions(perturbation.no_answer, perturbation.runs),
     )
-    return whole if left_out is None else join_sentences([whole, f"{gettext(left_out)}."]), variation
+    return with_notes(text, [] if left_out is None else [gettext("{note}.", note=left_out)]), variation

@@ -1,4 +1,4 @@
-"""How a scanned body is told: what it is, on what it stands, and how easily it turns in each direction."""
+"""Text report of a scanned body: properties, base polygon and overturning angle by azimuth."""
 
 from __future__ import annotations
 
@@ -16,18 +16,19 @@ from seisblock.report.text.tables import acceleration_cell, format_fixed, format
 from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit
 
 PLANE = N_(
-    "in the vertical plane of the azimuth: about the level line across it that touches the base; turning aside about a corner is left out"
+    "in the vertical plane of the azimuth, about the horizontal tangent line of the base; rotation about a corner to "
+    "one side is not considered"
 )
-"""What the numbers of a direction hold for."""
+"""Validity of the values by azimuth."""
 
 
 def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Iterator[Any]:
-    """Yield what the body is in a sentence, its numbers, and a row for each azimuth."""
+    """Yield a summary sentence, the table of properties and a row for each azimuth."""
     body = scan.body
     alpha, azimuth = min_slenderness(body)
     yield styled_line(
         gettext(
-            "{name}: {mass:.4g} kg; alpha is least towards azimuth {azimuth:.0f}: {alpha:.2f} degrees.",
+            "{name}: {mass:.4g} kg, smallest overturning angle {alpha:.2f} degrees towards azimuth {azimuth:.0f}.",
             name=body.name,
             mass=body.mass,
             azimuth=azimuth,
@@ -53,23 +54,23 @@ def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Itera
         ]
         for direction in directions
     ]
-    yield table(gettext("Towards each azimuth"), headings, rows, caption=gettext(PLANE))
+    yield table(gettext("By azimuth"), headings, rows, caption=gettext(PLANE))
 
 
 def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:
-    """Yield what is the same in all directions."""
+    """Yield the properties that do not depend on the azimuth."""
     body = scan.body
     yield N_("volume (m³)"), [format_number(scan.volume)]
     yield N_("height (m)"), [format_number(body.height)]
     yield N_("centre of gravity x, y, z (m)"), [", ".join(format_fixed(value, 4) for value in body.centre)]
     yield N_("inertia about it xx, yy, zz (kg m²)"), [", ".join(format_number(body.inertia[i][i]) for i in range(3))]
     yield N_("  xy, xz, yz (kg m²)"), [", ".join(format_number(body.inertia[i][k]) for i, k in ((0, 1), (0, 2), (1, 2)))]
-    yield N_("base: corners, points that touch"), [f"{len(body.base)}, {scan.touching}"]
+    yield N_("base: corners, contact points"), [f"{len(body.base)}, {scan.touching}"]
     unit = length_unit([body.inset_m, scan.tolerance], gal=gal)
     yield N_("  inset, tolerance"), [f"{format_length(body.inset_m, unit)}, {format_length(scan.tolerance, unit)}"]
 
 
 def write_csv(path: Path, directions: Sequence[ScanAzimuth]) -> None:
-    """Write the rows of the azimuths, SI units."""
+    """Write the values by azimuth as CSV, SI units."""
     names = list(vars(directions[0]))
     write_table(path, names, ([getattr(direction, name) for name in names] for direction in directions))

@@ -1,4 +1,4 @@
-"""The papers an answer relies on, as they are printed."""
+"""Printed list of references."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.report.text.tables import styled_line
 
 
 def reference_lines(references: Sequence[Reference]) -> Iterator[Any]:
-    """Yield what is printed: the key of each reference, and the reference below it."""
+    """Yield the key of each reference with the reference indented below it."""
     for reference in references:
         yield styled_line(f"[{reference.key}]", "bold")
         yield Padding(styled_line(reference.text()), (0, 0, 0, 2))

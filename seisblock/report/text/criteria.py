@@ -1,4 +1,4 @@
-"""How the criteria card is told: one table per component, the simulated outcome on top."""
+"""Text report of the criteria comparison: simulated outcome and one table per component."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.respond.best_estimate import BestEstimate
 
 HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": N_("pulse")}
-"""The equivalent frequencies, as short as a column."""
+"""Short column headings of the equivalent frequencies."""
 MAX_DECIMALS = 6
-"""Of a ratio that is all but 1, or 0."""
+"""Most decimals of a ratio close to 1 or 0."""
 
 DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": N_("pulse width")}
 
 
 def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
-    """Yield the record's line, then per component the simulated outcome, the tables, and how far the models of it are apart."""
+    """Yield the record, then per component the simulated outcome, the tables of criteria and the model comparison."""
     for heading, part in group_answers(cards, lambda card: card.record, lambda card: _summary(card, gal=gal)):
         yield from heading
         for card in part:
@@ -40,17 +40,16 @@ def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
 
 
 def _summary(card: CriteriaComparison, *, gal: bool) -> Iterator[Text]:
-    """Yield what the simulation says, and what governs."""
     yield styled_line(simulated_text(card))
     if card.governing is not None:
         yield styled_line(respond_text(card, card.governing, gal=gal))
 
 
 def simulated_text(card: CriteriaComparison) -> str:
-    """Return the simulated outcome in words, and how many criteria say so, each counted once."""
+    """Return the simulated outcome and the number of criteria that agree, each counted once."""
     rows = unique_criteria(card.rows)
     return gettext(
-        "{name}, simulated: {verdict}. {right} of {all} criteria agree.",
+        "{name}, simulation: {verdict}. {right} of {all} criteria agree.",
         name=card.component,
         verdict=verdict(card.outcome, card.component),
         right=sum(row.overturns == card.outcome.overturned for row in rows),
@@ -59,19 +58,19 @@ def simulated_text(card: CriteriaComparison) -> str:
 
 
 def respond_text(card: CriteriaComparison, best_estimate: BestEstimate, *, gal: bool) -> str:
-    """Return what the body does with all of its motions together, and how many criteria say so, each counted once."""
+    """Return the outcome of the full response and the number of criteria that agree, each counted once."""
     rows = unique_criteria(card.rows)
     outcome, mu = best_estimate.response.outcome, best_estimate.response.options["mu"]
     right = sum(row.overturns == outcome.overturned for row in rows)
     if best_estimate.friction_known:
-        text = N_("With all motions and friction {mu:g} (respond): {verdict} {right} of {all} criteria agree.")
+        text = N_("Full response (respond) with friction {mu:g}: {verdict} {right} of {all} criteria agree.")
     else:
-        text = N_("With all motions and feet that hold, friction {mu:.2f} (respond): {verdict} {right} of {all} criteria agree.")
+        text = N_("Full response (respond) with non-sliding feet, friction {mu:.2f}: {verdict} {right} of {all} criteria agree.")
     return gettext(text, mu=mu, verdict=fate(best_estimate.response, gal=gal), right=right, all=len(rows))
 
 
 def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
-    """Yield the criteria that ask for no frequency, then those that do, with a column per equivalent frequency."""
+    """Yield the criteria without a frequency, then those with one, a column per equivalent frequency."""
     m = card.measures
     shaking, speed = acceleration_unit(gal=gal), velocity_unit(gal=gal)
     title = gettext(
@@ -89,7 +88,7 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
         size, unit = shaking if row.unit == ACCELERATION else speed
         threshold_text = f"{format_number(row.threshold / size)} {unit}"
         cells.append([gettext(row.criterion), _formula(row), threshold_text, format_ratio(row), _verdict(row, card)])
-    yield table(title, [gettext("criterion"), gettext("formula"), gettext("falls above"), gettext("ratio"), gettext("says")], cells)
+    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio"), gettext("verdict")], cells)
 
     frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
     columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]
@@ -103,12 +102,12 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
             row_cells.append("-" if match is None else f"{format_ratio(match)} {_verdict(match, card)}")
         body.append(row_cells)
     if body:
-        caption = gettext("ratio: demand over threshold. ! : not what the simulation says. Thresholds of the lower table: --csv, --json")
+        caption = gettext("ratio: demand over threshold; !: differs from the simulation. Thresholds of the lower table: --csv, --json")
         yield table("", [gettext("ratio at f ="), gettext("formula"), *columns], body, caption=caption)
 
 
 def format_ratio(row: CriterionResult) -> str:
-    """Return demand over threshold, to as many digits as tell it apart from 1, just below which a criterion says stands, and from 0.
+    """Return demand over threshold, with enough decimals to distinguish the value from 0 and 1.
 
     Examples
     --------
@@ -122,24 +121,23 @@ def format_ratio(row: CriterionResult) -> str:
 
 
 def _formula(row: CriterionResult) -> str:
-    """Return where a criterion is printed, without the brackets of the citation."""
+    """Return the source of a criterion without citation brackets."""
     return row.where.replace("[", "").replace("]_", "")
 
 
 def _verdict(row: CriterionResult, card: CriteriaComparison) -> str:
-    """Return what a criterion says, marked where the simulation says otherwise."""
+    """Return the prediction of a criterion, marked "!" where it differs from the simulation."""
     mark = " " if row.overturns == card.outcome.overturned else "!"
     return (gettext("falls ") if row.overturns else gettext("stands")) + mark
 
 
 def write_csv(path: Path, cards: Sequence[CriteriaComparison]) -> None:
-    """Write all rows as CSV, SI; of several records the first column says which."""
+    """Write all rows as CSV, SI; for several records the first column is the record index."""
     header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
     write_by_record(path, header, cards, lambda card: card.record, _csv_rows)
 
 
 def _csv_rows(card: CriteriaComparison) -> Iterator[list[Any]]:
-    """Yield what is written of each criterion."""
     for row in card.rows:
         yield [
             card.component,

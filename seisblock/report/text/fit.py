@@ -1,4 +1,4 @@
-"""How a fit is told: what block it is and how well it foretells, its parameters, and where probabilities go wrong."""
+"""Text report of a fit: fitted parameters, cross-validation scores and calibration."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ NAMES = {
     FREQUENCY: N_("p (rad/s)"),
     RESTITUTION: N_("restitution"),
     INSET: N_("inset per side"),
-    TURNING_ALPHA: N_("alpha, turning (rad)"),
-    TURNING_P: N_("p, turning (rad/s)"),
+    TURNING_ALPHA: N_("alpha, worn (rad)"),
+    TURNING_P: N_("p, worn (rad/s)"),
     SCATTER: N_("scatter"),
     LAPSE: N_("lapses"),
 }
-"""Parameters as a table calls them."""
+"""Parameter names in tables."""
 
 SHORT = {
     ALPHA: N_("alpha {median} rad ({low} to {high})"),
@@ -35,46 +35,47 @@ SHORT = {
     RESTITUTION: N_("restitution {median} ({low} to {high})"),
     INSET: N_("inset {median} of the width ({low} to {high})"),
 }
-"""Parameters as a sentence names them."""
+"""Parameters in sentences."""
 
 MIN_CORRELATION = 0.5
-"""Correlations below this are left to the document."""
+"""Smallest correlation that is printed; the document contains all."""
 
 MAX_MISPREDICTED = 5
-"""Outcomes that are named of those foretold wrongly."""
+"""Most outcomes listed as wrong predictions."""
 
 _TOTALS = {
-    FELL: N_("{table}: it fell in {happened} of {outcomes} outcomes, {records} records."),
-    MOVED: N_("{table}: it moved in {happened} of {outcomes} outcomes, {records} records."),
+    FELL: N_("{table}: {outcomes} outcomes of {records} records, overturned in {happened}."),
+    MOVED: N_("{table}: {outcomes} outcomes of {records} records, moved in {happened}."),
 }
 _HEADING = {FELL: N_("fell"), MOVED: N_("moved")}
 
 
 def verdict(fit: BlockFit) -> str:
-    """Return which block it is, and how well it foretells, in a sentence."""
+    """Return a sentence on the fitted block and its prediction score."""
     parts = [gettext(SHORT[marginal.name], **_interval_texts(marginal)) for marginal in fit.marginals if marginal.name in SHORT]
     if fit.held_out is None:
-        return gettext("a block of {parts}.", parts=parts) if parts else gettext("the block as it is given.")
+        return gettext("fitted block: {parts}.", parts=parts) if parts else gettext("block with all parameters fixed.")
     right, brier = format_percent(fit.held_out.accuracy), f"{fit.held_out.brier:.2f}"
     if not parts:
-        return gettext("the block as it is given foretells {right} of the records, Brier score {brier}.", right=right, brier=brier)
-    text = N_("a block of {parts}: foretells {right} of the outcomes of records held out, Brier score {brier}.")
+        return gettext(
+            "block with all parameters fixed: {right} of the outcomes predicted correctly, Brier score {brier}.", right=right, brier=brier
+        )
+    text = N_("fitted block: {parts}; {right} of the outcomes predicted correctly in cross-validation, Brier score {brier}.")
     return gettext(text, parts=parts, right=right, brier=brier)
 
 
 def _interval_texts(marginal: Marginal) -> dict[str, str]:
-    """Return a median and its interval as texts."""
     low, high = marginal.interval
     return {"median": _format_value(marginal, marginal.median), "low": _format_value(marginal, low), "high": _format_value(marginal, high)}
 
 
 def _format_value(marginal: Marginal, value: float) -> str:
-    """Return a value of a parameter: shares and ratios with three decimals, what has a unit with three digits."""
+    """Return a parameter value: three decimals for shares and ratios, three digits for values with a unit."""
     return format_number(value, 3) if marginal.name in (ALPHA, FREQUENCY, TURNING_ALPHA, TURNING_P) else f"{value:.3f}"
 
 
 def tables(fit: BlockFit, outcomes: OutcomeTable, name: str) -> Iterator[Any]:
-    """Yield the verdict, the parameters, how well outcomes are foretold, and which are not."""
+    """Yield the verdict, the parameter table, the prediction scores and the wrong predictions."""
     experiment = fit.experiment
     yield styled_line(verdict(fit), "bold")
     counts = {"happened": int(experiment.happened.sum()), "outcomes": len(experiment.outcomes), "records": experiment.records}
@@ -83,13 +84,13 @@ def tables(fit: BlockFit, outcomes: OutcomeTable, name: str) -> Iterator[Any]:
         gettext("parameter"),
         gettext("median"),
         gettext("{level:g%} interval", level=fit.level),
-        gettext("before"),
-        gettext("narrowed to"),
+        gettext("prior"),
+        gettext("width ratio"),
     ]
     yield table("", header, [_row(marginal) for marginal in fit.marginals])
     strong = [pair for pair in fit.correlations if abs(pair.coefficient) > MIN_CORRELATION]
     for pair in sorted(strong, key=lambda pair: -abs(pair.coefficient)):
-        text = N_("{first} and {second} go together, correlation {coefficient:.2f}")
+        text = N_("correlation of {first} and {second}: {coefficient:.2f}")
         yield styled_line(
             gettext(
                 text,
@@ -101,11 +102,10 @@ def tables(fit: BlockFit, outcomes: OutcomeTable, name: str) -> Iterator[Any]:
         )
     if fit.held_out is not None:
         yield from _prediction_tables(fit, fit.held_out, outcomes)
-    yield styled_line(gettext("The block of these medians, for rock, respond, fragility and others: {options}", options=as_options(fit)))
+    yield styled_line(gettext("Options for rock, respond, fragility etc. with these medians: {options}", options=as_options(fit)))
 
 
 def _row(marginal: Marginal) -> list[str]:
-    """Return the row of one parameter."""
     texts = _interval_texts(marginal)
     low, high = (_format_value(marginal, end) for end in marginal.before)
     return [
@@ -118,20 +118,20 @@ def _row(marginal: Marginal) -> list[str]:
 
 
 def _prediction_tables(fit: BlockFit, held_out: HeldOutScores, outcomes: OutcomeTable) -> Iterator[Any]:
-    """Yield how well outcomes are foretold without their records."""
-    title = gettext("each of {folds} parts of the records foretold by the others", folds=held_out.folds)
+    """Yield the cross-validation scores and the calibration table."""
+    title = gettext("Cross-validation, {folds} folds of records", folds=held_out.folds)
     low, high = held_out.accuracy_interval
     rows = [
         [
-            gettext("this block"),
+            gettext("fitted block"),
             format_percent(held_out.accuracy),
             f"{format_percent(low)} - {format_percent(high)}",
             f"{held_out.brier:.3f}",
         ],
-        [gettext("above one peak velocity"), format_percent(held_out.threshold_accuracy), DASH, DASH],
-        [gettext("always the share of the others"), format_percent(held_out.rate_accuracy), DASH, f"{held_out.rate_brier:.3f}"],
+        [gettext("PGV threshold"), format_percent(held_out.threshold_accuracy), DASH, DASH],
+        [gettext("overall rate"), format_percent(held_out.rate_accuracy), DASH, f"{held_out.rate_brier:.3f}"],
     ]
-    yield table(title, [gettext("foretold by"), gettext("right"), gettext("95 % interval"), gettext("Brier score")], rows)
+    yield table(title, [gettext("predictor"), gettext("correct"), gettext("95 % interval"), gettext("Brier score")], rows)
     steps = [
         [
             f"{step.low:g} - {step.high:g}",
@@ -145,36 +145,36 @@ def _prediction_tables(fit: BlockFit, held_out: HeldOutScores, outcomes: Outcome
     header = [
         gettext("probability"),
         gettext("outcomes"),
-        gettext("foretold"),
+        gettext("predicted"),
         gettext(_HEADING[fit.experiment.kind]),
         gettext("95 % interval"),
     ]
-    yield table(gettext("calibration, records held out"), header, steps)
+    yield table(gettext("Calibration in cross-validation"), header, steps)
     mispredicted = _mispredicted(fit)
     if mispredicted.size:
         labels = [
             gettext("line {line} ({chance})", line=outcomes.lines[k], chance=format_percent(float(_held_out_probabilities(fit)[k])))
             for k in mispredicted[:MAX_MISPREDICTED]
         ]
-        text = N_("foretold wrongly: {count}, the worst {named}")
+        text = N_("wrong predictions: {count}, largest errors {named}")
         yield styled_line(gettext(text, count=int(mispredicted.size), named=labels))
 
 
 def _held_out_probabilities(fit: BlockFit) -> Any:
-    """Return the probabilities without each record."""
+    """Return the cross-validated probabilities, (n,)."""
     assert fit.probability_held_out is not None
     return fit.probability_held_out
 
 
 def _mispredicted(fit: BlockFit) -> Any:
-    """Return the outcomes that were foretold wrongly, the worst first."""
+    """Return the indices of the wrong predictions, largest error first."""
     off = np.abs(_held_out_probabilities(fit) - fit.experiment.happened)
     order = np.argsort(-off)
     return order[off[order] >= 0.5]
 
 
 def as_options(fit: BlockFit) -> str:
-    """Return the options that describe the block of the medians to other commands."""
+    """Return the command-line options of the block with the median parameters."""
     block = fit.block
     options = [f"--width {block.width:.4g} --height {block.height:.4g}"]
     if block.centroid_height is not None:
@@ -189,7 +189,7 @@ def as_options(fit: BlockFit) -> str:
 
 
 def csv_columns(fit: BlockFit, outcomes: OutcomeTable) -> tuple[list[str], list[list[Any]]]:
-    """Return the header and the rows of ``--csv``: each outcome and how likely it was, SI."""
+    """Return header and rows of ``--csv``: each outcome with its predicted probability, SI."""
     kind = fit.experiment.kind
     header = ["line", "record", "component", "scale", "weight", kind, "probability", "held_out_probability", "pga_m_s2", "pgv_m_s"]
     held_out = [None] * len(fit.probability) if fit.probability_held_out is None else fit.probability_held_out.tolist()

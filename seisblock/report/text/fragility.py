@@ -1,4 +1,4 @@
-"""How fragilities are told: where half of the motions do it, how wide the scatter is, and how far that is to be trusted."""
+"""Text report of fragility curves: median, dispersion and diagnostics."""
 
 from __future__ import annotations
 
@@ -14,35 +14,35 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy, Interval
 
 MAX_VERDICTS = 4
-"""Curves each of which has a sentence of its own."""
+"""Most curves with a sentence each."""
 
 _METHODS = {
-    STRIPES: N_("every record at every level, maximum likelihood"),
-    IDA: N_("the level at which each record does it first"),
-    CLOUD: N_("records as they are, probit regression"),
+    STRIPES: N_("all records at all levels, maximum likelihood"),
+    IDA: N_("first level of each record at which the limit state is reached"),
+    CLOUD: N_("unscaled records, probit regression"),
 }
 
 
 def limit_label(name: str, *, gal: bool = True) -> str:
-    """Return a limit as it is told: ``overturn`` as overturns, ``slip=0.05m`` as moved 5 cm, or 0.05 m."""
+    """Return the label of a limit state: ``overturn`` as overturns, ``slip=0.05m`` with the length in cm or m."""
     kind, _, threshold = name.partition("=")
     if kind != SLIP:
         return gettext(describe_limit(name))
     threshold_m = float(threshold.removesuffix("m"))
     size, unit = length_unit([threshold_m], gal=gal)
-    return gettext("moved {length}", length=f"{round(threshold_m / size, 6):g} {unit}")
+    return gettext("displacement > {length}", length=f"{round(threshold_m / size, 6):g} {unit}")
 
 
 def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None) -> Iterator[Any]:
-    """Yield what is printed: the median of each curve, the table of all, what the scatter comes from, and the measures side by side.
+    """Yield the median of each curve, the table of all curves, the components of beta and the comparison of intensity measures.
 
     Parameters
     ----------
     study : FragilityStudy
     gal : bool
-        Whether intensities are told in gal, kine and cm, else in SI.
+        Intensities in gal, kine and cm; otherwise SI.
     compare : Lognormal or None
-        A curve to tell them beside.
+        Reference curve to compare with.
     """
     with_median = [curve for curve in study.curves if curve.median is not None]
     yield from (styled_line(verdict_text, "bold") for verdict_text in _verdicts(study, with_median, gal=gal))
@@ -50,7 +50,10 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
     yield styled_line(_basis_text(study), "dim")
     if any(curve.beta_alone is not None for curve in study.curves):
         yield styled_line(
-            gettext("The limits share one beta, so that their curves do not cross; a run past a limit is past those before it."), "dim"
+            gettext(
+                "The limit states share one beta so that their curves do not cross; a run that exceeds a limit has exceeded all lower ones."
+            ),
+            "dim",
         )
     yield from (styled_line(text) for curve in with_median if (text := _dispersion_text(curve, is_labelled=len(with_median) > 1, gal=gal)))
     if compare is not None:
@@ -58,22 +61,25 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
     with_measures = [curve for curve in with_median if curve.measures]
     yield from (_measure_table(curve, is_labelled=len(with_median) > 1, gal=gal) for curve in with_measures)
     if with_measures:
-        text = N_("beta: the smaller, the better it tells; slopes of what it leaves unexplained: none is best, p: that it is chance")
+        text = N_(
+            "beta: efficiency, the smaller the better; slopes: sufficiency, trend of the residuals with magnitude and "
+            "distance; p: its p-value"
+        )
         yield styled_line(gettext(text), "dim")
 
 
 def _verdicts(study: FragilityStudy, with_median: Sequence[Fragility], *, gal: bool) -> Iterator[str]:
-    """Yield what each curve says; of many, the one that does it first and the one that does it last."""
+    """Yield a sentence for each curve, or for the lowest and highest median of many curves."""
     if len(with_median) <= MAX_VERDICTS:
         yield from (verdict(study, curve, gal=gal) for curve in with_median)
         return
     by_median = sorted(with_median, key=lambda curve: curve.median or 0.0)
-    yield gettext("first of {count}: {verdict}", count=len(with_median), verdict=verdict(study, by_median[0], gal=gal))
-    yield gettext("last of {count}: {verdict}", count=len(with_median), verdict=verdict(study, by_median[-1], gal=gal))
+    yield gettext("lowest of {count}: {verdict}", count=len(with_median), verdict=verdict(study, by_median[0], gal=gal))
+    yield gettext("highest of {count}: {verdict}", count=len(with_median), verdict=verdict(study, by_median[-1], gal=gal))
 
 
 def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
-    """Return what one curve says."""
+    """Return the sentence of one curve."""
     size, unit = study.measure.display_unit(gal=gal)
     return gettext(
         "{body}, {limit}: median {im} {median}, beta {beta:.2f}",
@@ -86,7 +92,6 @@ def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
 
 
 def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
-    """Return the table of all curves."""
     size, unit = study.measure.display_unit(gal=gal)
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     has_bodies = len(bodies) > 1
@@ -104,25 +109,25 @@ def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
         for curve in study.curves
     ]
     caption = gettext(
-        "median and beta with {level:g%} intervals over records; not monotone: motions that do it, and at a higher level do not",
+        "median and beta with {level:g%} confidence intervals over the records; not monotone: motions that reach the "
+        "limit but not at a higher level",
         level=study.confidence,
     )
     return table("" if has_bodies else gettext(bodies[0]), header, rows, caption=caption)
 
 
 def _format_interval(value: float | None, interval: Interval | None, formatter: Callable[[float], str]) -> str:
-    """Return a value with its interval, as far as they are known."""
     if value is None:
         return DASH
     return formatter(value) if interval is None else f"{formatter(value)} ({formatter(interval[0])}-{formatter(interval[1])})"
 
 
 def _basis_text(study: FragilityStudy) -> str:
-    """Return what the curves rest on."""
+    """Return the description of records, method and levels."""
     first = study.curves[0]
     low, high = study.factors
     return gettext(
-        "{records} records, {motions} motions; {method}; levels: {levels}, factors on the records {low:.2g} to {high:.3g}",
+        "{records} records, {motions} motions; {method}; levels: {levels}, scale factors {low:.2g} to {high:.3g}",
         records=first.records,
         motions=first.motions,
         method=gettext(_METHODS[study.method]),
@@ -133,12 +138,12 @@ def _basis_text(study: FragilityStudy) -> str:
 
 
 def _dispersion_text(curve: Fragility, *, is_labelled: bool, gal: bool) -> str:
-    """Return where the scatter of a curve comes from, empty where nobody asked."""
+    """Return the components of beta of a curve; empty without perturbed samples."""
     dispersion = curve.dispersion
     if dispersion is None:
         return ""
     return gettext(
-        "{curve}: beta {records:.2f} from record to record, {parameter:.2f} from what is not known of the body, {total:.2f} together",
+        "{curve}: beta {records:.2f} between records, {parameter:.2f} from body parameters, {total:.2f} in total",
         curve=_curve_label(curve, is_labelled=is_labelled, gal=gal),
         records=dispersion.beta_record_to_record,
         parameter=dispersion.beta_parameter,
@@ -147,10 +152,9 @@ def _dispersion_text(curve: Fragility, *, is_labelled: bool, gal: bool) -> str:
 
 
 def _comparison_text(study: FragilityStudy, curve: Fragility, compare: Lognormal, *, gal: bool) -> str:
-    """Return a curve beside the one that it is compared with."""
     size, unit = study.measure.display_unit(gal=gal)
     return gettext(
-        "{curve}: {ratio:.3f} times the median compared with, {median}; beta {beta:.2f} against {other:.2f}",
+        "{curve}: median {ratio:.3f} times that of the comparison curve ({median}); beta {beta:.2f}, comparison {other:.2f}",
         curve=_curve_label(curve, is_labelled=True, gal=gal),
         ratio=(curve.median or 0.0) / compare.median,
         median=f"{format_number(compare.median / size, 3)} {unit}".strip(),
@@ -160,13 +164,12 @@ def _comparison_text(study: FragilityStudy, curve: Fragility, compare: Lognormal
 
 
 def _curve_label(curve: Fragility, *, is_labelled: bool, gal: bool) -> str:
-    """Return how a curve is called."""
     limit = limit_label(curve.limit, gal=gal)
     return gettext("{body}, {limit}", body=gettext(curve.body), limit=limit) if is_labelled else limit
 
 
 def _measure_table(curve: Fragility, *, is_labelled: bool, gal: bool) -> Any:
-    """Return the table of the measures that were compared."""
+    """Return the table of efficiency and sufficiency by intensity measure."""
     from seisblock.studies.fragility.intensity import intensity_measure
 
     rows = []
@@ -183,12 +186,12 @@ def _measure_table(curve: Fragility, *, is_labelled: bool, gal: bool) -> Any:
                 *(sufficiency.get(key, DASH) for key in ("ln(pgv/pga)", "magnitude")),
             ]
         )
-    title = gettext("{curve}: measures of intensity", curve=_curve_label(curve, is_labelled=is_labelled, gal=gal))
+    title = gettext("{curve}: intensity measures", curve=_curve_label(curve, is_labelled=is_labelled, gal=gal))
     return table(title, [gettext("measure"), gettext("median"), gettext("beta"), "ln(PGV/PGA)", gettext("magnitude")], rows)
 
 
 def csv_columns(study: FragilityStudy) -> tuple[list[str], list[Sequence[Any]]]:
-    """Return the header and the rows of ``--csv``: the counts at each level, and the curve there."""
+    """Return header and rows of ``--csv``: counts and curve values at each level."""
     header = ["body", "limit", "im", "unit", "level", "runs", "exceeding", "share", "probability", "median", "beta"]
     rows: list[Sequence[Any]] = [
         [

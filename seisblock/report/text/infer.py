@@ -1,4 +1,4 @@
-"""How inferred shaking is told: a table of estimates and their contour as columns, or the factors on records."""
+"""Text report of inferred ground motion: estimates from stones and scale factors of records."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 def estimate_tables(
     name: str, estimates: Sequence[ShakingEstimate], joint: Sequence[JointEstimate], assumptions: Assumptions, *, gal: bool
 ) -> Iterator[Any]:
-    """Yield what all cemeteries say together, one table per group of stones (PGA, PGV, threshold H/B, JMA intensity), and the notes."""
+    """Yield the joint estimates, one table per group of stones (PGA, PGV, threshold H/B, JMA intensity) and the notes."""
     level = assumptions.level
     for estimate in joint[:1]:
         low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
         yield styled_line(
             gettext(
-                "{names} together: PGA {pga} {unit} ({low} to {high}).",
+                "{names} combined: PGA {pga} {unit} ({low} to {high}).",
                 names=list(estimate.names),
                 pga=acceleration_cell(estimate.pga_m_s2, gal=gal),
                 unit=acceleration_unit(gal=gal).name,
@@ -39,12 +39,12 @@ def estimate_tables(
         yield from (styled_line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
     speed, unit = velocity_unit(gal=gal)
     header = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal).name})", "", f"PGV ({unit})", "", "H/B", gettext("JMA intensity"))
-    caption = gettext("median and {level:g%} interval; H/B: stones more slender than this fell", level=level)
+    caption = gettext("median and {level:g%} interval; H/B: stones more slender than this overturned", level=level)
     for stones in dict.fromkeys(estimate.stones for estimate in estimates):
         group = [estimate for estimate in estimates if estimate.stones == stones]
         site, kind = split_stone_label(stones)
         title = gettext(
-            "{cemetery}, stones {stones}: {fallen} of {all} fell",
+            "{cemetery}, stones {stones}: {fallen} of {all} overturned",
             cemetery=site or name,
             stones=gettext(kind),
             fallen=group[0].fallen,
@@ -66,8 +66,8 @@ def estimate_tables(
     if assumptions.bias:
         yield styled_line(
             gettext(
-                "Records need {factor:.2f} times the PGA that the criterion, fitted to sines, says: measured with rigid blocks, and taken "
-                "into account here (--bias 0 leaves it out).",
+                "The criterion was fitted to sine motions; records need {factor:.2f} times its PGA (rigid-block "
+                "simulations). The estimates include this factor (--bias 0 omits it).",
                 factor=math.exp(assumptions.bias),
             ),
             "dim",
@@ -75,7 +75,7 @@ def estimate_tables(
 
 
 def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, level: float) -> Iterator[str]:
-    """Yield the shaking that each group of stones speaks of: over all frequencies, or at the first that was asked for."""
+    """Yield a sentence for each group of stones: over all frequencies, or at the first requested one."""
     first_estimates = {estimate.stones: estimate for estimate in reversed(estimates)}
     for stones in dict.fromkeys(estimate.stones for estimate in estimates):
         estimate = first_estimates[stones]
@@ -85,7 +85,7 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
             if len(first_estimates) == 1
             else gettext("{cemetery}, stones {stones}", cemetery=site or name, stones=gettext(kind))
         )
-        at = gettext("0.5 to 3 Hz") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g} Hz"
+        at = gettext("0.5-3 Hz") if estimate.frequency_hz is None else f"{estimate.frequency_hz:.3g} Hz"
         pga = (
             acceleration_cell(estimate.pga_m_s2, gal=gal)
             if estimate.bound is None
@@ -96,12 +96,11 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
             yield gettext("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
             continue
         low, high = (acceleration_cell(end, gal=gal) for end in estimate.pga_interval_m_s2)
-        text = N_("{who}: PGA {pga} ({low} to {high}, {level:g%}) at {at}; JMA intensity {intensity}.")
+        text = N_("{who}: PGA {pga} ({low} to {high}, {level:g%} interval) at {at}; JMA intensity {intensity}.")
         yield gettext(text, low=low, high=high, level=level, **values)
 
 
 def _format_interval(interval: Interval, unit: float) -> str:
-    """Return an interval, or a bound."""
     low, high = interval
     if low is None:
         return DASH if high is None else f"< {format_number(high / unit, 3)}"
@@ -109,7 +108,7 @@ def _format_interval(interval: Interval, unit: float) -> str:
 
 
 def _intensity(estimate: ShakingEstimate) -> str:
-    """Return the classes of the JMA intensity's interval and its middle."""
+    """Return the JMA classes of the interval, with the intensity of the median."""
     low, high = estimate.jma_classes
     if low is None or high is None:
         return gettext("at most {name}", name=gettext(high)) if high else gettext("at least {name}", name=gettext(low or ""))
@@ -118,7 +117,7 @@ def _intensity(estimate: ShakingEstimate) -> str:
 
 
 def estimate_csv(line: Sequence[ShakingEstimate]) -> tuple[list[str], list[list[Any]]]:
-    """Return the header and the rows of ``--csv``: the contour, SI."""
+    """Return header and rows of ``--csv``: the contour, SI."""
     header = ["frequency_hz", "pga_low_m_s2", "pga_m_s2", "pga_high_m_s2", "pgv_low_m_s", "pgv_m_s", "pgv_high_m_s"]
     rows = [
         [e.frequency_hz, *_interval_cells(e.pga_m_s2, e.pga_interval_m_s2), *_interval_cells(e.pgv_m_s, e.pgv_interval_m_s)] for e in line
@@ -127,12 +126,11 @@ def estimate_csv(line: Sequence[ShakingEstimate]) -> tuple[list[str], list[list[
 
 
 def _interval_cells(middle: float | None, interval: Interval) -> tuple[float | None, float | None, float | None]:
-    """Return lower end, middle and upper end."""
     return interval[0], middle, interval[1]
 
 
 def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, displacement_kind: str) -> Iterator[Any]:
-    """Yield what each component needs in a sentence, and its factors as a table; `displacement_kind` says what was observed."""
+    """Yield a sentence and the table of scale factors for each component; `displacement_kind` names the observed quantity."""
     for heading, part in group_answers(
         results, lambda result: result[0], lambda result: [styled_line(_factor_sentence(result[1], displacement_kind, gal=gal))]
     ):
@@ -144,7 +142,7 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
                     f"{f.scale:.4f}",
                     acceleration_cell(f.pga_m_s2, gal=gal),
                     length_cell(f.displacement_m, unit),
-                    gettext("leaps across") if f.leaps else "",
+                    gettext("discontinuity") if f.leaps else "",
                 )
                 for f in result.scale_factors
             ]
@@ -154,7 +152,7 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
 
 
 def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool) -> str:
-    """Return what the observed displacement needs, in words; `displacement_kind` is a word for it."""
+    """Return a sentence on the scale factors that reproduce the observed displacement."""
     factor_texts = [f"{factor.scale:.3g} ({format_acceleration(factor.pga_m_s2, gal=gal)})" for factor in result.scale_factors]
     size, as_recorded, largest = (
         format_length(length, gal=gal) for length in (result.observed_m, result.displacement_at_1_m, result.largest_displacement_m)
@@ -162,19 +160,19 @@ def _factor_sentence(result: ScaleFactors, displacement_kind: str, *, gal: bool)
     values = {"name": result.component, "size": size, "moved": gettext(displacement_kind), "alone": as_recorded}
     if not factor_texts:
         text = N_(
-            "{name}: {size} of {moved}: no factor up to {limit:g} moves it so far (at most {most}, at {at:g}); as recorded it is {alone}."
+            "{name}: {moved} of {size} not reached by scale factors up to {limit:g} (largest {most} at {at:g}); unscaled record: {alone}."
         )
         return gettext(text, **values, limit=result.limit, most=largest, at=result.largest_at_scale)
     if len(factor_texts) == 1:
-        text = N_("{name}: {size} of {moved} needs {factor:.3g} times this record ({pga}); as recorded it is {alone}.")
+        text = N_("{name}: {moved} of {size} at a scale factor of {factor:.3g} ({pga}); unscaled record: {alone}.")
         pga = format_acceleration(result.scale_factors[0].pga_m_s2, gal=gal)
         return gettext(text, **values, factor=result.scale_factors[0].scale, pga=pga)
-    text = N_("{name}: {size} of {moved} needs this record times one of {factors}; as recorded it is {alone}.")
+    text = N_("{name}: {moved} of {size} at scale factors {factors}; unscaled record: {alone}.")
     return gettext(text, **values, factors=factor_texts)
 
 
 def factor_csv(results: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str], list[list[Any]]]:
-    """Return the header and the rows of ``--csv``: displacement against the factor, per record and component."""
+    """Return header and rows of ``--csv``: displacement against scale factor, by record and component."""
     header = ["record", "component", "scale", "pga_m_s2", "displacement_m"]
     rows = [
         [record.station or record.source, result.component, scale, scale * result.pga_m_s2, value]

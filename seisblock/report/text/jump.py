@@ -1,4 +1,4 @@
-"""How a jump is told: a table like the paper's, and a sentence per chain."""
+"""Text report of a jump: a table as in the paper and a sentence per chain of motion."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.core.i18n import N_, gettext, join_sentences
+from seisblock.core.i18n import N_, gettext
 from seisblock.core.results import Response
 from seisblock.models.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.models.jump.describe import exceeds
 from seisblock.models.jump.solve import JumpOutcome
 from seisblock.report.directions import direction_label, format_displacement
-from seisblock.report.text.tables import format_acceleration, format_seconds, group_answers, side_by_side, styled_line
+from seisblock.report.text.tables import format_acceleration, format_seconds, group_answers, side_by_side, styled_line, with_notes
 from seisblock.report.text.threshold import ROCKS, threshold_text
 from seisblock.report.units_display import format_length, length_cell, length_unit
 
@@ -20,35 +20,35 @@ JumpResponses = Sequence[Response[JumpOutcome]]
 
 
 _ROWS: tuple[tuple[str, str], ...] = (
-    (N_("starts rocking (s)"), "rocking_start_s"),
+    (N_("rocking start (s)"), "rocking_start_s"),
     (N_("impact (s)"), "impact_s"),
     (N_("landing (s)"), "landing_s"),
     (N_("end (s)"), "end_s"),
     (N_("above threshold (s)"), "time_above_threshold_s"),
     (N_("rocking (s)"), "rocking_duration_s"),
     (N_("jump (s)"), "jump_duration_s"),
-    (N_("rock-slide (s)"), "rock_slide_duration_s"),
+    (N_("slide-rock (s)"), "rock_slide_duration_s"),
 )
 
 
 _LENGTHS: tuple[tuple[str, str], ...] = (
     (N_("rise in jump ({unit})"), "max_rise_m"),
     (N_("jump distance ({unit})"), "jump_displacement_m"),
-    (N_("rock-slide distance ({unit})"), "rock_slide_displacement_m"),
+    (N_("slide-rock distance ({unit})"), "rock_slide_displacement_m"),
     (N_("total distance ({unit})"), "total_displacement_m"),
 )
 
 
 MAX_CHAINS = 6
-"""Chains in the table: those that moved the block most, in the order of time."""
+"""Most chains in the table: those with the largest displacement, in order of time."""
 
 
 MIN_VELOCITY = 0.005
-"""Angular velocity that two decimals show, rad/s; one below it has a digit of its own."""
+"""Smallest angular velocity printed with two decimals, rad/s; smaller values are printed with one digit."""
 
 
 def tables(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Iterator[Any]:
-    """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
+    """Yield, per component, the verdict and a table with a column per chain as in [Sugimoto2017]_ table 1."""
     for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(verdict(item, gal=gal))]):
         yield from heading
         for response in part:
@@ -56,12 +56,12 @@ def tables(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Itera
 
 
 def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None) -> Iterator[Any]:
-    """Yield the table of one component, and what there is to say of it."""
+    """Yield the table of one component and the sentences on its chains."""
     outcome = response.outcome
     chain_indices = _table_chains(outcome.chains)
     if chain_indices:
         title = gettext(
-            "{name}: {body}, rocks above {threshold}",
+            "{name}: {body}, rocking threshold {threshold}",
             name=response.motion.name,
             body=gettext(response.body.name),
             threshold=format_acceleration(outcome.rocking_threshold_m_s2, gal=gal),
@@ -74,76 +74,76 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
 
 
 def _table_chains(chains: Sequence[Chain]) -> list[int]:
-    """Return which chains the table shows."""
+    """Return the indices of the chains in the table."""
     by_size = sorted(range(len(chains)), key=lambda i: -abs(chains[i].total_displacement_m or math.inf))
     return sorted(by_size[:MAX_CHAINS])
 
 
 def _cells(chains: Sequence[Chain], name: str, *, gal: bool) -> Iterator[list[str]]:
-    """Yield the rows of the table."""
     yield [gettext("direction"), *(direction_label(name, chain.direction) for chain in chains)]
     for heading, key in _ROWS:
         yield [gettext(heading), *(format_seconds(getattr(chain, key)) for chain in chains)]
-    yield [gettext("largest tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
+    yield [gettext("peak tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
     yield [gettext("impact velocity (rad/s)"), *(_format_or_dash(chain.impact_velocity_rad_s, "{:z.3f}") for chain in chains)]
     unit = length_unit((getattr(chain, key) for chain in chains for _, key in _LENGTHS), gal=gal)
     for heading, key in _LENGTHS:
         yield [gettext(heading, unit=unit.name), *(length_cell(getattr(chain, key), unit) for chain in chains)]
-    yield [gettext("friction its landing needs"), *(_format_friction(chain.friction_needed_at_landing) for chain in chains)]
+    yield [gettext("friction needed to land"), *(_format_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
 def _format_or_dash(value: float | None, form: str) -> str:
-    """Return a number in a form, in which z leaves zero no sign, or a dash."""
     return "-" if value is None else form.format(value)
 
 
 def _format_friction(friction: float | None) -> str:
-    """Return P_x/P_y of a landing; where the ground would have to pull no friction would do."""
-    return "-" if friction is None else f"{friction:.2f}" if math.isfinite(friction) else gettext("none does")
+    """Return P_x/P_y of a landing; infinite if the ground would have to pull."""
+    return "-" if friction is None else f"{friction:.2f}" if math.isfinite(friction) else gettext("none suffices")
 
 
 def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
-    """Return what became of the block in the end, and what friction that takes."""
+    """Return the final outcome and the friction required for it."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
         gravity = response.options["gravity_m_s2"]
         share = outcome.rocking_threshold_m_s2 / gravity
         onset_text = threshold_text(ROCKS, (share, share), response.motion, gravity=gravity, gal=gal)
-        return gettext("{name}: stays where it is; {onset}.", name=name, onset=onset_text)
+        return gettext("{name}: remains at rest; {onset}.", name=name, onset=onset_text)
     jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
     if outcome.outcome not in (JUMPED, NO_JUMP):
-        text = N_("{name}: {outcome}, {moved} from where it stood, in chain {count} of motion.")
+        text = N_("{name}: {outcome} in chain {count} of motion, displacement {moved}.")
     elif jumps == 0:
-        text = N_("{name}: rocked without jumping, in {count} chains of motion.")
+        text = N_("{name}: rocks without jumping, {count} chains of motion.")
     elif len(outcome.chains) == 1:
-        text = N_("{name}: jumped, and in the end stands {moved} from where it stood.")
+        text = N_("{name}: jumps; final displacement {moved}.")
     else:
-        text = N_("{name}: jumped {jumps} times in {count} chains of motion, and in the end stands {moved} from where it stood.")
+        text = N_("{name}: jumps {jumps} times in {count} chains of motion; final displacement {moved}.")
     displacement = format_displacement(outcome.final_displacement_m, name, gal=gal)
     sentence = gettext(text, name=name, outcome=gettext(outcome.outcome), moved=displacement, count=len(outcome.chains), jumps=jumps)
-    return join_sentences([sentence, *_friction_caveats(response)])
+    return with_notes(sentence, [*_friction_caveats(response)])
 
 
 def _friction_caveats(response: Response[JumpOutcome]) -> Iterator[str]:
-    """Yield what friction the answer rests on, where that is more than was given."""
+    """Yield a note where the result requires more friction than given."""
     mu, friction = response.options["mu"], response.outcome.friction_needed_at_landing
     ratio = response.body.width / 2 / response.body.centroid_height
     if mu < ratio:
-        text = N_("Rocking needs feet that are held: friction {mu:g} is below b/h, {ratio:.2f}, and would let them slide first.")
+        text = N_(
+            "The model assumes feet that do not slide; with a friction of {mu:g} < b/h = {ratio:.2f} the feet slide before they rock."
+        )
         yield gettext(text, mu=mu, ratio=ratio)
     if friction is not None and exceeds(friction, mu):
-        yield gettext("Its landings need a friction of {needed}, mu is {mu:g}.", needed=_format_friction(friction), mu=mu)
+        yield gettext("Landing without slip requires a friction of {needed}; `mu` is {mu:g}.", needed=_format_friction(friction), mu=mu)
 
 
 def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, gal: bool = True) -> Iterator[str]:
-    """Yield what happened in words, one sentence per chain that the table shows."""
+    """Yield one sentence per chain of the table, and the notes."""
     chains, name = response.outcome.chains, response.motion.name
     chain_indices = _table_chains(chains)
     for number, chain in ((i + 1, chains[i]) for i in chain_indices):
         if chain.outcome == JUMPED and chain.total_displacement_m is not None:
             yield gettext(
-                "Chain {number}: jumped {moved}, after {rocking:.3f} s of rocking; the ground stayed above the threshold for "
-                "{above:.3f} s.",
+                "Chain {number}: jumps {moved} after {rocking:.3f} s of rocking; ground acceleration above the "
+                "threshold for {above:.3f} s.",
                 number=number,
                 moved=format_displacement(chain.total_displacement_m, name, gal=gal),
                 rocking=chain.rocking_duration_s,
@@ -156,26 +156,26 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, ga
     if len(chain_indices) < len(chains):
         max_displacement = max(abs(chain.total_displacement_m or 0.0) for i, chain in enumerate(chains) if i not in chain_indices)
         yield gettext(
-            "{count} more chains moved it by no more than {least} each.",
+            "Displacement in the {count} other chains: at most {least} each.",
             count=len(chains) - len(chain_indices),
             least=format_length(max_displacement, gal=gal),
         )
     residual_velocity = max((chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED), default=0.0)
     if residual_velocity > 0.0 and response.outcome.landing == "paper":
-        text = N_(
-            "A chain ends when the tilt is back at zero: the paper's model ends here, and makes nothing of the angular velocity left, "
-            "up to {most} rad/s."
-        )
+        text = N_("The chain ends at zero tilt, as in the paper's model; the remaining angular velocity (up to {most} rad/s) is ignored.")
         yield gettext(text, most=f"{residual_velocity:.2f}" if residual_velocity >= MIN_VELOCITY else f"{residual_velocity:.1g}")
 
 
 def _tenon_text(foot: float, centroid: float, tenon: float, *, gal: bool) -> str:
-    """Return whether a tenon of a length left its hole, given how far the lowest foot and the centroid rose, all in m."""
+    """Return whether a tenon leaves its mortise; rise of the lowest foot and of the centroid, tenon length, all in m."""
     if foot > tenon:
-        text = N_("The lowest foot rose {foot} (centroid {centroid}) against a tenon of {tenon}: it left its hole.")
+        text = N_("Tenon of {tenon}: the lowest foot rises {foot} (centroid {centroid}); the tenon leaves the mortise.")
     else:
-        text = N_("The lowest foot rose {foot} (centroid {centroid}) against a tenon of {tenon}: it did not leave its hole.")
+        text = N_(
+            "Tenon of {tenon}: the lowest foot rises only {foot} (centroid {centroid}); the tenon stays in the mortise, "
+            "and the displacement computed without tenons does not apply."
+        )
     unit = length_unit([foot, centroid, tenon], gal=gal)
-    # as precise as the table, for two that are nearly alike are compared
+    # same precision as the table: nearly equal lengths are compared
     rose, middle, hole = (f"{length_cell(length, unit)} {unit.name}" for length in (foot, centroid, tenon))
     return gettext(text, foot=rose, centroid=middle, tenon=hole)

@@ -1,4 +1,4 @@
-"""How an earthquake's stations are told: the worst first, and what has no answer or no place."""
+"""Text report of an earthquake by station, the largest response first."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COLUMNS = {
     "jump": ("happened", "overturned", "max_slip_m"),
     "uplift": ("happened", "max_uplift_m"),
 }
-"""What the table tells of a body, by the solver that follows it."""
+"""Table columns by solver."""
 
 EVENT_WORDS = {
     "respond": N_("falls"),
@@ -29,27 +29,27 @@ EVENT_WORDS = {
     "jump": N_("jumps"),
     "uplift": N_("lifts"),
 }
-"""What a solver is asked about, as a heading."""
+"""Column heading of the event of each solver."""
 
 _VERDICTS = {
-    "respond": N_("{subject} falls at {some} of {stations}, worst at {station}"),
-    "rock": N_("{subject} falls at {some} of {stations}, worst at {station}"),
-    "slide": N_("{subject} slides at {some} of {stations}, worst at {station}"),
-    "jump": N_("{subject} jumps at {some} of {stations}, worst at {station}"),
-    "uplift": N_("{subject} lifts at {some} of {stations}, worst at {station}"),
+    "respond": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
+    "rock": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
+    "slide": N_("{subject}: slides at {some} of {stations}, largest response at {station}"),
+    "jump": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
+    "uplift": N_("{subject}: lifts at {some} of {stations}, largest response at {station}"),
 }
 
 MAX_ROWS = 40
-"""Stations that the table tells of; the files tell of all."""
+"""Most stations in the table; the files contain all."""
 
 
 def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iterator[Any]:
-    """Yield what is printed: the verdict over all stations, the earthquake, the table of the worst, and what is missing.
+    """Yield the verdict over all stations, the earthquake, the table of the largest responses and the counts of missing results.
 
     Parameters
     ----------
     stations : Stations
-    model : StandingBody, StandingStones or None
+    model : StationBody, StationCemetery or None
     gal : bool
         Whether accelerations are shown in gal.
     """
@@ -62,50 +62,50 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
         header, rows = station_rows(listed_answers, model, gal=gal)
         omitted = _omitted_text(len(answers) - MAX_ROWS)
         caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
-        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # names need the room
+        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # station names need the width
     missing = [answer for answer in stations.answers if answer.failure]
     if missing:
-        yield styled_line(gettext("without an answer: {count}", count=len(missing)), "yellow")
+        yield styled_line(gettext("no result: {count}", count=len(missing)), "yellow")
     unmapped = [answer for answer in answers if not answer.is_mapped]
     if unmapped:
-        yield styled_line(
-            gettext("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow"
-        )
+        yield styled_line(gettext("without coordinates, listed but not on the map: {count}", count=len(unmapped)), "yellow")
 
 
 def column_note(answers: Sequence[StationReport], model: StationModel | None) -> str:
-    """Return of what the verdict and the share beside it are told, empty where there is no share.
+    """Return a note on the verdict and share columns; empty without a share.
 
     Parameters
     ----------
-    answers : sequence of StationAnswer
-    model : StandingBody, StandingStones or None
+    answers : sequence of StationReport
+    model : StationBody, StationCemetery or None
     """
     if not isinstance(model, StationBody) or all(answer.effect.probability is None for answer in answers):
         return ""
-    return gettext("falls: as given, in the worst direction; share: of {runs} plausible versions there", runs=model.runs)
+    return gettext(
+        "falls: nominal body in its worst direction; share: overturning share of {runs} samples in that direction", runs=model.runs
+    )
 
 
 def survey_tables(surveys: Sequence[SurveyComparison]) -> Iterator[Any]:
-    """Yield what surveyed cemeteries say beside the stations around them, and the pairs that contradict each other.
+    """Yield the table of surveyed cemeteries with nearby stations, and the inconsistent pairs.
 
     Parameters
     ----------
-    surveys : sequence of SurveyAnswer
+    surveys : sequence of SurveyComparison
     """
     header, rows = survey_rows(surveys)
-    caption = gettext("stations: the nearest three, weighted by the inverse of the distance; residual: by the stones less that")
+    caption = gettext("stations: the nearest three, weighted by inverse distance; residual: by stones minus by stations")
     yield table(gettext("Surveyed cemeteries"), header, rows, caption=caption)
     for pair in contradictions(surveys):
         yield styled_line(gettext(pair), "yellow")
 
 
 def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[list[str]]]:
-    """Return the headings of a table of surveyed cemeteries, and a row for each.
+    """Return headings and rows of a table of surveyed cemeteries.
 
     Parameters
     ----------
-    surveys : sequence of SurveyAnswer
+    surveys : sequence of SurveyComparison
     """
     header = [
         gettext("surveyed place"),
@@ -134,12 +134,12 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
 
 
 def station_rows(answers: Sequence[StationReport], model: StationModel | None, *, gal: bool) -> tuple[list[str], list[list[str]]]:
-    """Return the headings of a table of stations, and a row for each.
+    """Return headings and rows of a table of stations.
 
     Parameters
     ----------
-    answers : sequence of StationAnswer
-    model : StandingBody, StandingStones or None
+    answers : sequence of StationReport
+    model : StationBody, StationCemetery or None
     gal : bool
         Whether accelerations are shown in gal.
     """
@@ -150,27 +150,27 @@ def station_rows(answers: Sequence[StationReport], model: StationModel | None, *
 
 
 def verdict(survey_map: Stations, model: StationModel | None) -> str:
-    """Return what happened over all stations, in a sentence.
+    """Return a sentence on the outcome over all stations.
 
     Parameters
     ----------
     survey_map : Stations
-    model : StandingBody, StandingStones or None
+    model : StationBody, StationCemetery or None
     """
     answers = [answer for answer in survey_map.answers if answer.pga_m_s2 is not None]
     count = len(answers)
     if not answers:
-        return gettext("no station has an answer")
+        return gettext("no station with a result")
     worst = answers[0]
     station_text = gettext("1 station") if count == 1 else gettext("{count} stations", count=count)
     if model is None:
-        return gettext("{stations}, the largest shaking at {station}", stations=station_text, station=worst.label)
+        return gettext("{stations}, largest shaking at {station}", stations=station_text, station=worst.label)
     if isinstance(model, StationBody):
         event_count = sum(bool(answer.effect.happened) for answer in answers)
         return gettext(_VERDICTS[model.solver], subject=gettext(model.name), some=event_count, stations=station_text, station=worst.label)
     rates = [answer.effect.rate or 0.0 for answer in answers]
     return gettext(
-        "{subject}: stones fall at {falls} of {stations}, most at {station}, {rate}",
+        "{subject}: stones overturn at {falls} of {stations}, largest rate at {station}: {rate}",
         subject=gettext(model.name),
         falls=sum(rate > 0.0 for rate in rates),
         stations=station_text,
@@ -180,14 +180,13 @@ def verdict(survey_map: Stations, model: StationModel | None) -> str:
 
 
 def _omitted_text(count: int) -> str:
-    """Return how many stations the table leaves out, empty where it has all."""
+    """Return a note on the stations omitted from the table; empty if none."""
     if count <= 0:
         return ""
-    return gettext("and 1 more station, in the files") if count == 1 else gettext("and {count} more stations, in the files", count=count)
+    return gettext("1 more station in the files") if count == 1 else gettext("{count} more stations in the files", count=count)
 
 
 def _measure_cells(answer: StationReport, a: Unit, v: Unit) -> list[str]:
-    """Return the cells of what was measured."""
     intensity = answer.jma_intensity
     return [
         answer.label,
@@ -199,7 +198,6 @@ def _measure_cells(answer: StationReport, a: Unit, v: Unit) -> list[str]:
 
 
 def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
-    """Return the headings of what it did."""
     if model is None:
         return []
     if not isinstance(model, StationBody):
@@ -215,7 +213,6 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
 
 
 def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:
-    """Return the cells of what it did."""
     if model is None:
         return []
     effect = answer.effect
@@ -226,7 +223,6 @@ def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) 
 
 
 def _cell(name: str, value: Any, way: Unit) -> str:
-    """Return one number, or one verdict, of what it did."""
     if value is None or isinstance(value, bool):
         return format_number(value)
     return format_share(value) if name == "probability" else length_cell(value, way)

@@ -1,4 +1,4 @@
-"""What the measures of a record look like: two tables and a sentence, and the histories as columns."""
+"""Text report of the intensity measures of a record, and time histories as columns."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from seisblock.report.units_display import acceleration_unit, length_unit, veloc
 
 
 def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal: bool) -> Iterator[Group | Text]:
-    """Yield what is printed for each record: how strong it is, which it is, its peaks, its frequencies and durations, its intensity.
+    """Yield, per record, intensity, peaks, equivalent frequencies and durations.
 
     Parameters
     ----------
@@ -48,12 +48,11 @@ def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal:
 
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
-    """Return the table of peaks and energies."""
     a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
     d = length_unit((m.pgd_m for m in answer.components), gal=gal)
     corner = answer.conventions.velocity_highpass_hz
     return table(
-        gettext("Peaks and energy"),
+        gettext("Peak values and energy"),
         ("", f"PGA ({a.name})", gettext("at (s)"), f"PGV ({v.name})", f"PGD ({d.name})", gettext("Arias (m/s)"), "5-95 % (s)"),
         [
             (
@@ -74,12 +73,11 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
 
 
 def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
-    """Return the table of equivalent frequencies and of durations above the threshold."""
     side = {"both": "|a|", "positive": "a", "negative": "-a"}[answer.conventions.threshold_side]
     level = format_acceleration(answer.components[0].duration.threshold_m_s2 if answer.components else None, gal=gal)
     return table(
-        gettext("Equivalent frequency (Hz), and time with {side} above {level}", side=side, level=level),
-        ("", "PGA/2πPGV", "Fourier", gettext("pulse"), gettext("total (s)"), gettext("longest (s)"), gettext("times")),
+        gettext("Equivalent frequency (Hz); duration of {side} above {level}", side=side, level=level),
+        ("", "PGA/2πPGV", "Fourier", gettext("pulse"), gettext("total (s)"), gettext("longest (s)"), gettext("count")),
         [
             (
                 m.component,
@@ -92,21 +90,24 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
             )
             for m in answer.components
         ],
-        caption=gettext("Fourier: Parzen window {width:g} Hz; pulse: the one with the PGA", width=answer.conventions.fourier_smoothing_hz),
+        caption=gettext(
+            "Fourier: Parzen window {width:g} Hz; pulse: the pulse with the PGA", width=answer.conventions.fourier_smoothing_hz
+        ),
     )
 
 
 def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
-    """Yield the intensity and the worst direction in words."""
+    """Yield sentences on JMA intensity, long-period class and peak horizontal vector."""
     if answer.jma_intensity is None:
-        yield gettext("JMA intensity: none (it needs two horizontals and the vertical)")
+        yield gettext("JMA intensity: not available (requires two horizontal components and the vertical)")
     else:
         yield gettext("JMA intensity {value:.2f}, class {name}", value=answer.jma_intensity, name=gettext(answer.jma_class or ""))
     slow = answer.long_period
     if slow is not None:
         v = velocity_unit(gal=gal)
         yield gettext(
-            "JMA class of long-period motion {name}: floors of tall buildings at up to {velocity} {unit} (period {period:g} s)",
+            "JMA class of long-period ground motion {name} (floor velocity of tall buildings up to {velocity} {unit} "
+            "at a period of {period:g} s)",
             name=slow.long_period_class,
             velocity=format_number(slow.floor_velocity_m_s / v.size),
             unit=v.name,
@@ -115,26 +116,26 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
     worst = answer.horizontal
     if worst is not None:
         size = format_acceleration(worst.pga_m_s2, gal=gal)
-        sentence = gettext("Largest horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
+        sentence = gettext("Peak horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
         if worst.azimuth_deg is not None:
             sentence += gettext(" towards {azimuth:.0f}° (clockwise from north)", azimuth=worst.azimuth_deg)
         yield sentence
 
 
 def _sensitivity_lines(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
-    """Yield how far the numbers move with what one might have chosen otherwise."""
+    """Yield the range of PGV and f for the usual high-pass filters, per component."""
     for m in answer.components:
         if m.usual_highpass is not None:
             yield gettext("{name}: {what}", name=m.component, what=filter_range_text(m.usual_highpass, gal=gal))
 
 
 def filter_range_text(filter_range: FilterRange, *, gal: bool) -> str:
-    """Return how far PGV and f move with the usual filters, in words."""
+    """Return the range of PGV and f for the usual high-pass filters."""
     speed, unit = velocity_unit(gal=gal)
     low, high = (format_number(v / speed, 3) for v in filter_range.pgv_m_s)
     slow, fast = (format_number(f, 3) for f in filter_range.pga_pgv_hz)
     return gettext(
-        "PGV {low} to {high} {unit} and f {slow} to {fast} Hz with the usual high-passes ({corners} Hz, with or without delay)",
+        "PGV {low}-{high} {unit}, f {slow}-{fast} Hz for the usual high-pass filters ({corners} Hz, zero-phase or causal)",
         low=low,
         high=high,
         unit=unit,
@@ -145,7 +146,7 @@ def filter_range_text(filter_range: FilterRange, *, gal: bool) -> str:
 
 
 def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> tuple[list[str], Iterator[list[Any]]]:
-    """Return the heading and the rows of a CSV file: time, then acceleration, velocity and displacement of each component.
+    """Return heading and rows of a CSV file: time, then acceleration, velocity and displacement of each component.
 
     Acceleration is as measured; velocity and displacement stand on the baseline of PGV and PGD. Several records stand one
     below the other with their index in the first column.
@@ -157,7 +158,7 @@ def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) 
 
 
 def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) -> Iterator[Sequence[Any]]:
-    """Yield the rows of one record; a component that it lacks stays empty."""
+    """Yield the rows of one record; missing components are empty."""
     present = {m.component for m in answer.components}
     check_curve_memory(record.samples, 1 + 2 * len(present))
     columns: list[FloatArray | None] = [record.time]

@@ -1,4 +1,4 @@
-"""How an overturning rate is told: a table per record, a sentence on dowels, and the curve as columns of frequencies; and as CSV."""
+"""Text report of overturning rates: table per record, effect of dowels, fragility curve columns and CSV."""
 
 from __future__ import annotations
 
@@ -17,15 +17,13 @@ from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.survey.assessment import CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
 
-CAPTION = N_(
-    "least H/B: of a stone that falls; %: what so few stones leave open of the rate (Clopper-Pearson), not what shaking and criterion do"
-)
+CAPTION = N_("Min. H/B predicted to fall. %: sampling interval (Clopper-Pearson) only")
 
 MAX_VERDICTS = 4
-"""Shakings each of which has a sentence of its own."""
+"""Most shakings with a sentence each."""
 
 REFERENCE_HZ = 1.0
-"""Frequency of the shaking that a curve is told at, about that of strong motion."""
+"""Frequency of the median PGA sentence, Hz; typical of strong motion."""
 
 RATE_COLUMNS = (
     "component",
@@ -38,10 +36,10 @@ RATE_COLUMNS = (
     "stones",
     "rate",
 )
-"""What ``--csv`` says of one shaking, before the limits of the interval."""
+"""Columns of ``--csv`` before the interval limits."""
 
 PGA_STEP = 1.0
-"""Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
+"""PGA step of the table rows, m/s^2; --json and --csv contain the whole curve."""
 
 
 def tables(
@@ -52,7 +50,7 @@ def tables(
     gal: bool,
     confidence: float,
 ) -> Iterator[Any]:
-    """Yield what is printed: the results of each record or of bare numbers, else the curve.
+    """Yield the rates of each record or PGA value, or the curve if there are none.
 
     Parameters
     ----------
@@ -81,35 +79,34 @@ def tables(
 
 
 def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
-    """Yield how many stones fall, a sentence per shaking, or one for many."""
+    """Yield a sentence on the number of overturned stones per shaking, or one for many shakings."""
     main_results = [result for result in results if not result.of]
     if len(main_results) > MAX_VERDICTS:
         low, high = (f(result.fallen for result in main_results) for f in (min, max))
-        text = N_("{cemetery}: {low} to {high} of {stones} stones fall, by the shaking.")
+        text = N_("{cemetery}: {low} to {high} of {stones} stones overturn, depending on the motion.")
         yield gettext(text, cemetery=cemetery, low=low, high=high, stones=main_results[0].stones)
         return
     for result in main_results:
         shaking = f"{format_acceleration(result.pga_m_s2, gal=gal)}, {format_number(result.equivalent_frequency_hz, 3)} Hz"
-        text = N_("{name}: {fallen} of {stones} stones fall ({share:.0%}).")
+        text = N_("{name}: {fallen} of {stones} stones overturn ({share:.0%}).")
         yield gettext(text, name=result.component or shaking, fallen=result.fallen, stones=result.stones, share=result.rate)
 
 
 def median_pga_text(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
-    """Return at which PGA half of the stones fall, at the frequency nearest to 1 Hz."""
+    """Return the PGA at which half of the stones overturn, at the frequency nearest to 1 Hz."""
     frequency = min((point.frequency_hz for point in curve), key=lambda f: abs(math.log(f / REFERENCE_HZ)))
     points = sorted((point for point in curve if point.frequency_hz == frequency), key=lambda point: point.pga_m_s2)
     median_pga = next((point.pga_m_s2 for point in points if point.rate >= 0.5), None)
     pga = format_acceleration(points[-1].pga_m_s2 if median_pga is None else median_pga, gal=gal)
     values = {"cemetery": cemetery, "pga": pga, "f": frequency}
     if median_pga is None:
-        return gettext("{cemetery}: less than half of the stones fall up to {pga} of {f:g} Hz.", **values)
-    return gettext("{cemetery}: half of the stones fall at {pga} of {f:g} Hz.", **values)
+        return gettext("{cemetery}: less than half of the stones overturn up to {pga} ({f:g} Hz).", **values)
+    return gettext("{cemetery}: half of the stones overturn at {pga} ({f:g} Hz).", **values)
 
 
 def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
-    """Return the table of rates, one row per shaking."""
     unit = acceleration_unit(gal=gal).name
-    header = ("", f"PGA ({unit})", "f (Hz)", gettext("least H/B"), gettext("fallen"), gettext("rate"), format_percent(confidence, "g"))
+    header = ("", f"PGA ({unit})", "f (Hz)", gettext("min. H/B"), gettext("fallen"), gettext("rate"), format_percent(confidence, "g"))
     rows = [
         (
             _row_label(result),
@@ -126,18 +123,17 @@ def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confi
 
 
 def _row_label(result: CemeteryRate) -> str:
-    """Return what a row is called."""
     return f"{gettext(result.component or '')} ({result.of})" if result.of else result.component or ""
 
 
 def _format_ratio(result: CemeteryRate) -> str:
-    """Return the least H/B that falls: that of the criterion, else that of the stoutest stone that fell."""
+    """Return the smallest overturning H/B: the threshold of the criterion, or that of the least slender overturned stone."""
     value = result.least_overturned_ratio if result.threshold_ratio is None else result.threshold_ratio
     return DASH if value is None else f"{value:.2f}"
 
 
 def _filter_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
-    """Yield how far frequency and rate move with the usual filters, a sentence per component."""
+    """Yield the range of frequency and rate for the usual high-pass filters, per component."""
     for result in results:
         if result.usual_highpass is not None and result.rate_range is not None and not result.of:
             low, high = result.rate_range
@@ -148,14 +144,14 @@ def _filter_lines(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str
 
 
 def _model_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
-    """Yield how far the models of the stones are apart, a sentence per shaking."""
+    """Yield the rates by model, per shaking."""
     for result in results:
         if not result.of and (text := rates_line(result.component or "", result.models)):
             yield text
 
 
 def _dowel_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
-    """Yield what dowels would save, a sentence per shaking."""
+    """Yield the effect of dowels, per shaking."""
     for result in results:
         dowelled = result.reinforced
         if dowelled is None or result.of:
@@ -163,7 +159,8 @@ def _dowel_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
         label = result.component or f"{format_number(result.equivalent_frequency_hz, 3)} Hz"
         low, high = dowelled.rate_interval
         yield gettext(
-            "{where}: with {reinforced} stones reinforced {fallen} of {stones} fall, {saved} fewer; rate {rate:.2f} ({low:.2f}-{high:.2f})",
+            "{where}: with {reinforced} stones reinforced, {fallen} of {stones} overturn ({saved} fewer); rate "
+            "{rate:.2f} ({low:.2f}-{high:.2f})",
             where=label,
             reinforced=dowelled.reinforced_stones,
             fallen=dowelled.fallen,
@@ -176,7 +173,7 @@ def _dowel_lines(results: Sequence[CemeteryRate]) -> Iterator[str]:
 
 
 def _curve_table(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
-    """Return the rate against PGA, a column per frequency."""
+    """Return the table of rate against PGA, a column per frequency."""
     frequencies = list(dict.fromkeys(point.frequency_hz for point in curve))
     rate = {(point.pga_m_s2, point.frequency_hz): point.rate for point in curve}
     levels = [pga for pga in dict.fromkeys(point.pga_m_s2 for point in curve) if abs(pga / PGA_STEP - round(pga / PGA_STEP)) < 1e-9]
@@ -187,7 +184,7 @@ def _curve_table(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
 
 
 def curve_csv(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | None) -> tuple[list[str], list[list[float]]]:
-    """Return the header and the rows of ``--csv`` without shaking: PGA (m/s^2), frequency (Hz), rates without and with more dowels."""
+    """Return header and rows of ``--csv`` of the curve: PGA (m/s^2), frequency (Hz), rates without and with dowels."""
     header = ["pga_m_s2", "frequency_hz", "rate"] + (["rate_reinforced"] if reinforced else [])
     rows = [[p.pga_m_s2, p.frequency_hz, p.rate] for p in curve]
     if reinforced:
@@ -196,7 +193,7 @@ def curve_csv(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | No
 
 
 def rate_csv(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> tuple[list[str], Iterator[list[Any]]]:
-    """Return the header and the rows of ``--csv`` where shakings were named: one each, SI, with what more dowels change."""
+    """Return header and rows of ``--csv`` of given shakings: one row each, SI, with the effect of dowels."""
     header = [*RATE_COLUMNS, "rate_low", "rate_high"]
     has_reinforced = any(result.reinforced is not None for _, results in groups for result in results)
     header += [f"{name}_reinforced" for name in ("fallen", "rate", "rate_low", "rate_high")] if has_reinforced else []
@@ -204,7 +201,6 @@ def rate_csv(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> 
 
 
 def _csv_row(result: CemeteryRate) -> list[Any]:
-    """Return the row of one shaking."""
     dowelled = result.reinforced
     row = [getattr(result, name) for name in RATE_COLUMNS] + [*result.rate_interval]
     return row if dowelled is None else [*row, dowelled.fallen, dowelled.rate, *dowelled.rate_interval]

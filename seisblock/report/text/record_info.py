@@ -1,4 +1,4 @@
-"""Where a record was made, and of what earthquake, in a line each."""
+"""Station and earthquake of a record, one line each."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from seisblock.records.site import Earthquake, epicentral_distance_km, format_lo
 
 
 def record_info(record: Record) -> list[str]:
-    """Return what is known of station and earthquake, a line each: where it stands; magnitude, name, depth, epicentre, distance, time."""
+    """Return one line on the station and one on the earthquake, as far as the file contains them."""
     return [text for text in (_station(record), _earthquake(record)) if text]
 
 
 def format_position(latitude_deg: float, longitude_deg: float) -> str:
-    """Return a place in degrees, with the letters of its hemispheres.
+    """Return a position in degrees with hemisphere letters.
 
     Examples
     --------
@@ -29,7 +29,7 @@ def format_position(latitude_deg: float, longitude_deg: float) -> str:
 
 
 def _station(record: Record) -> str:
-    """Return where the station is; empty where the file does not say."""
+    """Return the station position; empty if unknown."""
     site = get_site(record)
     if site.latitude_deg is None or site.longitude_deg is None:
         return ""
@@ -37,7 +37,7 @@ def _station(record: Record) -> str:
 
 
 def _earthquake(record: Record) -> str:
-    """Return what shook, as far as it is known."""
+    """Return the earthquake line; empty if unknown."""
     earthquake = get_earthquake(record)
     return (
         ""
@@ -47,30 +47,30 @@ def _earthquake(record: Record) -> str:
 
 
 def describe_earthquake(earthquake: Earthquake, origin: str, distance_km: float | None = None) -> str:
-    """Return an earthquake in a line.
+    """Return magnitude, name, depth, epicentre, distance and time of an earthquake in one line.
 
     Parameters
     ----------
     earthquake : Earthquake
     origin : str
-        Its time as a clock tells it, empty where it is unknown.
+        Local origin time; empty if unknown.
     distance_km : float or None
         From its epicentre to a station.
 
     Examples
     --------
     >>> describe_earthquake(Earthquake(None, 36.25, -120.28, 9.0, 6.5), "", 36.0)
-    'earthquake of magnitude 6.5, 9 km deep, 36.25 N 120.28 W, 36 km away'
+    'earthquake of magnitude 6.5, depth 9 km, 36.25 N 120.28 W, epicentral distance 36 km'
     """
     parts = []
     if earthquake.magnitude is not None:
         parts.append(gettext("earthquake of magnitude {magnitude:g}", magnitude=earthquake.magnitude))
     parts += [earthquake.name] if earthquake.name else []
     if earthquake.depth_km is not None:
-        parts.append(gettext("{depth:g} km deep", depth=earthquake.depth_km))
+        parts.append(gettext("depth {depth:g} km", depth=earthquake.depth_km))
     if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
         parts.append(format_position(earthquake.latitude_deg, earthquake.longitude_deg))
     if distance_km is not None:
-        parts.append(gettext("{distance:.3g} km away", distance=distance_km))
+        parts.append(gettext("epicentral distance {distance:.3g} km", distance=distance_km))
     parts += [origin] if origin else []
     return join_list(parts)

@@ -1,4 +1,4 @@
-"""How the fate of a free-standing object is told: what happened, how sure that is, then the numbers."""
+"""Text report of the full response: verdict, probability, and a table of the outcome."""
 
 from __future__ import annotations
 
@@ -10,13 +10,24 @@ from rich.text import Text
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.uncertainty import ParameterRanges
-from seisblock.core.i18n import N_, format_share, gettext, join_list, join_sentences, lazy_gettext
+from seisblock.core.i18n import N_, format_share, gettext, join_list, lazy_gettext
 from seisblock.core.results import Response
 from seisblock.models.respond.describe import ENDLESS_HOPS
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.report.describe_wear import sampled_edges
 from seisblock.report.directions import direction_label, with_direction
-from seisblock.report.text.tables import DASH, format_number, format_seconds, group_answers, side_by_side, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    format_number,
+    format_seconds,
+    format_share_interval,
+    group_answers,
+    side_by_side,
+    styled_line,
+    table,
+    tilt_ratio_cell,
+    with_notes,
+)
 from seisblock.report.text.threshold import ROCKS, SLIDES, effective_friction, threshold_text
 from seisblock.report.units_display import Unit, acceleration_unit, format_length, length_cell, length_unit
 from seisblock.studies.parallel import left_out_versions
@@ -26,14 +37,14 @@ from seisblock.studies.respond.probability import Probability
 Responses = Sequence[Response[RespondOutcome]]
 
 MIN_SLIP_M = 5e-4
-"""A body that ends and passes nearer than this to where it stood has not moved, in words."""
+"""Displacements below this are reported as zero, m."""
 
 MIN_SURVIVORS = 20
-"""Quantiles of fewer versions are not told."""
+"""Fewest surviving samples for which quantiles are reported."""
 
 
 def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
-    """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
+    """Yield, per record, verdict and probability, a table with a column per component, and the notes."""
     pairs = zip(responses, extras, strict=True)
     for heading, part in group_answers(pairs, lambda pair: pair[0].motion.record, lambda pair: _summary(*pair, gal=gal)):
         yield from heading
@@ -49,7 +60,6 @@ def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bo
 
 
 def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
-    """Yield what happened, and how sure that is."""
     yield styled_line(verdict(response, gal=gal), "bold")
     if "probability" in extra:
         yield styled_line("  " + probability_sentence(extra["probability"], gal=gal))
@@ -58,17 +68,19 @@ def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, ga
 
 
 def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
-    """Return what happened, in words."""
+    """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if outcome.overturned:
         at = outcome.overturning_time_s
         assert at is not None
         slid = (
-            gettext(", having slid {path}", path=format_length(outcome.slip_path_m, gal=gal)) if outcome.slip_path_m >= MIN_SLIP_M else ""
+            gettext(", after sliding {path}", path=format_length(outcome.slip_path_m, gal=gal)) if outcome.slip_path_m >= MIN_SLIP_M else ""
         )
         towards = direction_label(name, outcome.overturned_towards)
         if at > response.motion.time[-1]:
-            words = gettext("overturns to {towards} at {time:.2f} s, after the record{slid}", towards=towards, time=at, slid=slid)
+            words = gettext(
+                "overturns to {towards} at {time:.2f} s, after the end of the record{slid}", towards=towards, time=at, slid=slid
+            )
         else:
             words = gettext("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=at, slid=slid)
     elif outcome.outcome == "rests":
@@ -77,94 +89,101 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         shares = tuple(min(mu, arm / response.body.centre) for arm in response.body.arms)
         gravity, vertical = response.options["gravity_m_s2"], response.options["vertical"]
         onset_text = threshold_text(template, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
-        words = gettext("{verdict}; {onset}", verdict=gettext("stands still"), onset=onset_text)
+        words = gettext("{verdict}; {onset}", verdict=gettext("remains at rest"), onset=onset_text)
     elif outcome.outcome == ENDLESS_HOPS:
-        words = gettext("no answer: given up at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
+        words = gettext("no result: run stopped at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
     else:
-        words = join_list(_motion_parts(response, gal=gal))
-    flag = gettext("; a change of the input by a millionth changes this") if outcome.sensitive else ""
+        words = gettext("{motion}; {end}", motion=join_list(_motion_parts(response, gal=gal)), end=_final_text(response, gal=gal))
+    flag = gettext("; sensitive: an input change of 1e-6 alters the result") if outcome.sensitive else ""
     return gettext("{name}: {words}{flag}.", name=name or "x", words=words, flag=flag)
 
 
 def _motion_parts(response: Response[RespondOutcome], *, gal: bool) -> Iterator[str]:
-    """Yield what a body did that has moved and not fallen."""
-    outcome, name = response.outcome, response.motion.name
+    """Yield the kinds of motion of a body that did not overturn, with their size."""
+    outcome = response.outcome
     time = outcome.time_in_mode_s
     rocks = bool(time["rock"] or time["slide_rock"])
-    unit = length_unit([outcome.slip_path_m, outcome.final_displacement_m], gal=gal)
     if rocks:
-        yield gettext("rocks to {share} of the way to alpha", share=format_share(outcome.max_rotation_ratio))
+        yield rocking_text(outcome.max_rotation_ratio)
     if outcome.slip_path_m >= MIN_SLIP_M:
-        yield gettext("slides {path} in all", path=format_length(outcome.slip_path_m, unit))
+        yield gettext("slides {path} in total", path=format_length(outcome.slip_path_m, _length_unit(outcome, gal=gal)))
     elif outcome.slip_path_m > 0.0 and not rocks:
-        yield gettext("slides less than half a millimetre")
+        yield gettext("slides less than 0.5 mm")
     if outcome.flights and time["flight"] >= 1e-3:
-        yield gettext("leaves the ground for {time:.2f} s", time=time["flight"])
+        yield gettext("in flight for {time:.2f} s", time=time["flight"])
     if not rocks:
-        yield gettext("never rocks")
-    end = outcome.final_displacement_m
+        yield gettext("no rocking")
+
+
+def rocking_text(ratio: float) -> str:
+    """Return the extent of rocking without overturning; `ratio` is the peak tilt over the overturning angle."""
+    if ratio < 0.01:
+        return gettext("rocks slightly (peak tilt below 1 % of the overturning angle)")
+    return gettext("rocks (peak tilt {share} of the overturning angle)", share=format_share(ratio))
+
+
+def _final_text(response: Response[RespondOutcome], *, gal: bool) -> str:
+    """Return the residual displacement of a body that did not overturn."""
+    outcome, name = response.outcome, response.motion.name
+    displacement = outcome.final_displacement_m
     if not outcome.settled:
-        yield gettext("moves on")
-    elif abs(end) >= MIN_SLIP_M:
-        yield gettext("comes to rest {moved}", moved=with_direction(format_length(abs(end), unit), name, end))
-    else:
-        yield gettext("comes to rest where it stood")
+        return gettext("still moving at the end of the run")
+    if abs(displacement) < MIN_SLIP_M:
+        return gettext("no residual displacement")
+    length = format_length(abs(displacement), _length_unit(outcome, gal=gal))
+    return gettext("residual displacement {moved}", moved=with_direction(length, name, displacement))
+
+
+def _length_unit(outcome: RespondOutcome, *, gal: bool) -> Unit:
+    """Return the common unit of slip path and residual displacement."""
+    return length_unit([outcome.slip_path_m, outcome.final_displacement_m], gal=gal)
 
 
 def probability_sentence(probability: Probability, *, gal: bool = True) -> str:
-    """Return how many versions fall and move, as a sentence; never as if it were the object's own probability."""
-    fall_count = round(probability.overturned * probability.runs)
-    low, high = probability.interval
-    if fall_count == 0:
-        falls = gettext("none of {runs} plausible versions falls", runs=probability.runs)
-    elif fall_count == probability.runs:
-        falls = gettext("all {runs} plausible versions fall", runs=probability.runs)
-    else:
-        singular = N_("1 of {runs} plausible versions falls, {share} ({low} to {high})")
-        plural = N_("{fallen} of {runs} plausible versions fall, {share} ({low} to {high})")
-        falls = gettext(
-            singular if fall_count == 1 else plural,
-            fallen=fall_count,
-            runs=probability.runs,
-            share=format_share(probability.overturned),
-            low=format_share(low),
-            high=format_share(high),
-        )
-    length = format_length(probability.moved_m, gal=gal)
-    if probability.moved in (0.0, 1.0):
-        moves = gettext("all move more than {far}", far=length) if probability.moved else gettext("none moves more than {far}", far=length)
-    else:
-        moves = gettext("{share} move more than {far}", share=format_share(probability.moved), far=length)
+    """Return overturning probability with its confidence interval, share of displaced samples, and displacement of the survivors."""
+    falls = gettext(
+        "Overturning probability {share} (95 % CI {interval}, {runs} samples)",
+        share=format_share(probability.overturned),
+        interval=format_share_interval(probability.interval),
+        runs=probability.runs,
+    )
+    moves = gettext(
+        "overturning or residual displacement above {far}: {share}",
+        far=format_length(probability.moved_m, gal=gal),
+        share=format_share(probability.moved),
+    )
     middle = ""
-    if probability.moved > 0.0 and probability.runs - fall_count >= MIN_SURVIVORS:
+    survivors = probability.runs - round(probability.overturned * probability.runs)
+    if probability.moved > 0.0 and survivors >= MIN_SURVIVORS:
         ends = [probability.final_displacement_m[name] for name in ("q05", "q95")]
         lower, upper = (format_signed(end, length_unit(ends, gal=gal)) for end in ends)
         if lower == upper == "0":
-            middle = gettext("; nine in ten of those that stand end where they stood")
+            middle = gettext("; 90 % of the survivors have no residual displacement")
         else:
-            middle = gettext("; nine in ten of those that stand end between {low} and {high}", low=lower, high=upper)
-    whole = gettext("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
+            middle = gettext("; residual displacement of 90 % of the survivors {low} to {high}", low=lower, high=upper)
+    sentence = gettext("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
     left_out = left_out_versions(probability.no_answer, probability.runs)
-    return whole if left_out is None else join_sentences([whole, f"{gettext(left_out)}."])
+    return with_notes(sentence, [] if left_out is None else [gettext("{note}.", note=left_out)])
 
 
 def format_signed(value_m: float, unit: Unit) -> str:
-    """Return a length with its sign; what has not moved has none."""
+    """Return a signed length; 0 below :data:`MIN_SLIP_M`."""
     if abs(value_m) < MIN_SLIP_M:
         return "0"
     return f"{'+' * (value_m > 0.0)}{format_length(value_m, unit)}"
 
 
 def direction_sentence(results: Sequence[Any]) -> str:
-    """Return in how many directions it falls."""
+    """Return the number of directions in which a body overturns, and those without a result."""
     fall_count = sum(result.overturned for result in results)
-    answered = sum(not result.gave_up for result in results)
-    worst = gettext("falls in {fallen} of {all} directions; this is the worst.", fallen=fall_count, all=answered)
-    return join_sentences([worst, *(f"{gettext(text)}." for text in left_out_directions(results))])
+    solved_count = sum(not result.gave_up for result in results)
+    text = N_("overturns in {fallen} of {all} directions; results for the worst direction.")
+    notes = [gettext("{note}.", note=left_out) for left_out in left_out_directions(results)]
+    return with_notes(gettext(text, fallen=fall_count, all=solved_count), notes)
 
 
 def _direction_table(results: Sequence[RespondAzimuth], *, gal: bool) -> Any:
-    """Return the table of all directions, in their order."""
+    """Return the table of all azimuths, ascending."""
     rows = []
     unit = length_unit((result.max_displacement_m for result in results), gal=gal)
     for result in sorted(results, key=lambda result: result.azimuth_deg):
@@ -174,14 +193,14 @@ def _direction_table(results: Sequence[RespondAzimuth], *, gal: bool) -> Any:
             [f"{result.azimuth_deg:g}", f"{math.degrees(result.max_rotation_rad):.3f}", *lengths, fall_cell, format_seconds(result.end_s)]
         )
     headings = (
-        N_("azimuth (deg)"), N_("lean (deg)"), N_("furthest ({unit})"), N_("ends at ({unit})"), N_("falls to (deg)"),
+        N_("azimuth (deg)"), N_("tilt (deg)"), N_("max. ({unit})"), N_("residual ({unit})"), N_("falls to (deg)"),
         N_("end (s)"),
     )  # fmt: skip
     return table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows)
 
 
 def fall_azimuth(azimuth: float, towards: str | None) -> str:
-    """Return the azimuth to which a body falls whose +x points to one, nothing where it stands.
+    """Return the azimuth of fall of a body whose +x points to `azimuth`; a dash without overturning.
 
     Examples
     --------
@@ -192,12 +211,12 @@ def fall_azimuth(azimuth: float, towards: str | None) -> str:
 
 
 def variation_text(probability: Probability, block: Block) -> str:
-    """Return what was varied, and what the share is worth."""
+    """Return the varied parameters and the validation of the probability."""
     versions, ranges = probability.versions, probability.ranges or ParameterRanges()
     return gettext(
-        "of this model's scatter alone: {sizes}, {edges}, {friction}, restitution ±{restitution:g}, amplitude ±{amplitude}, "
-        "direction ±{azimuth:g} degrees; in runs of two granite rocks on shaking tables 3 % fell where none of 20 versions did, and 2 % "
-        "stood where all fell",
+        "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution "
+        "±{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees. In 490 shaking-table runs of two "
+        "granite rocks, 3 % of those predicted 0/20 did overturn and 2 % of those predicted 20/20 did not",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
         friction=(ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)),
@@ -208,7 +227,6 @@ def variation_text(probability: Probability, block: Block) -> str:
 
 
 def _outcome_table(responses: Responses, *, gal: bool) -> Any:
-    """Return the numbers, a column per component."""
     block, options, outcomes = responses[0].body, responses[0].options, [response.outcome for response in responses]
     varies = any(response.body != block for response in responses)
     ratio = min(block.arms) / block.centre
@@ -220,8 +238,8 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
     title = N_("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
     if options["tenon_m"]:
         values["tenon"] = format_length(options["tenon_m"], gal=gal)
-        frictions = N_("{name}: tenons {tenon}; once left, mu {mu:g}, kinetic {kinetic:g}")
-        title = N_("{name}: b/h {ratio:.3f}, tenons {tenon}; once left, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
+        frictions = N_("{name}: tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}")
+        title = N_("{name}: b/h {ratio:.3f}, tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
     if not varies:
         first = gettext("slides") if friction <= ratio else gettext("rocks")
         values |= {"ratio": ratio, "first": first, "onset": f"{onset:.{0 if gal else 2}f} {level.name}"}
@@ -229,16 +247,16 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
     rows: list[tuple[str, list[Any]]] = [
         *([(gettext("b/h"), [f"{min(r.body.arms) / r.body.centre:.3f}" for r in responses])] if varies else []),
         (gettext("outcome"), [gettext(o.outcome) for o in outcomes]),
-        (gettext("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
-        (gettext("  over alpha"), [format_number(o.max_rotation_ratio) for o in outcomes]),
-        (gettext("ends at ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),
-        (gettext("furthest from start ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
+        (gettext("peak tilt (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
+        (gettext("  over alpha"), [tilt_ratio_cell(o.max_rotation_ratio, overturned=o.overturned) for o in outcomes]),
+        (gettext("residual ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),
+        (gettext("max. displacement ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
         (gettext("slip path ({unit})", unit=unit.name), [length_cell(o.slip_path_m, unit) for o in outcomes]),
         (gettext("flights, impacts"), [f"{o.flights}, {o.impacts}" for o in outcomes]),
-        (gettext("  slides, rocks (s)"), [f"{format_seconds(s['slide'])}, {format_seconds(s['rock'])}" for s in mode_times]),
-        (gettext("  both, in flight (s)"), [f"{format_seconds(s['slide_rock'])}, {format_seconds(s['flight'])}" for s in mode_times]),
+        (gettext("  slide, rock (s)"), [f"{format_seconds(s['slide'])}, {format_seconds(s['rock'])}" for s in mode_times]),
+        (gettext("  both, flight (s)"), [f"{format_seconds(s['slide_rock'])}, {format_seconds(s['flight'])}" for s in mode_times]),
         (
-            gettext("lost to friction, impacts (J)"),
+            gettext("friction, impact losses (J)"),
             [f"{format_number(o.energy_friction_j)}, {format_number(o.energy_impacts_j)}" for o in outcomes],
         ),
     ]

@@ -1,4 +1,4 @@
-"""How the risk at a site is told: how often, how probably in some years, and which shaking and which branch it comes from."""
+"""Text report of the risk at a site: return period, probability, disaggregation and branches."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from seisblock.studies.hazard.risk import Risk, RiskShare
 Risks = Sequence[tuple[FragilityCurve, Risk]]
 
 MIN_SHARE = 0.005
-"""Shares below are left out of the table, %% that would read 0."""
+"""Smallest share in the disaggregation table; smaller ones would read 0 %."""
 
 
 def tables(risks: Risks, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
-    """Yield what is printed: how often, the table of all, the levels it comes from, and what its standing says.
+    """Yield the return periods, the table of rates, the disaggregation and the hazard branches.
 
     Parameters
     ----------
-    risks : sequence of (GivenFragility, Risk)
+    risks : sequence of (FragilityCurve, Risk)
     hazard : Hazard
     gal : bool
-        Whether intensities are told in gal, kine and cm, else in SI.
+        Intensities in gal, kine and cm; otherwise SI.
     """
     for fragility, risk in risks:
         yield styled_line(verdict(fragility, risk, gal=gal), "bold")
@@ -40,31 +40,30 @@ def tables(risks: Risks, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
 
 
 def risk_label(fragility: FragilityCurve, *, gal: bool = True) -> str:
-    """Return what happens, and to what; empty where nobody said."""
+    """Return body and limit state; empty if unnamed."""
     return join_list(part for part in (gettext(fragility.body), limit_label(fragility.limit, gal=gal) if fragility.limit else "") if part)
 
 
 def verdict(fragility: FragilityCurve, risk: Risk, *, gal: bool = True) -> str:
-    """Return how often it happens, in a sentence."""
+    """Return a sentence on return period and probability."""
     name = risk_label(fragility, gal=gal)
     prefix = f"{name}: " if name else ""
     probability, years = format_share(risk.probability.value), risk.probability.years
     if risk.return_period_years is None:
-        return prefix + gettext("it never happens as far as the hazard tells.")
-    text = N_("once in {period} years on average; {chance} in {years:g} years.")
+        return prefix + gettext("rate zero within the range of the hazard.")
+    text = N_("return period {period} years; probability in {years:g} years {chance}.")
     return prefix + gettext(text, period=format_number(risk.return_period_years, 3), chance=probability, years=years)
 
 
 def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
-    """Return the table of all."""
     measure = intensity_measure(hazard.im)
     size, _ = measure.display_unit(gal=gal)
     header = [
-        gettext("what"),
+        gettext("limit state"),
         _measure_heading(measure, gettext("median"), gal=gal),
         "beta",
         gettext("rate (1/year)"),
-        gettext("once in (years)"),
+        gettext("period (years)"),
     ]
     rows = [
         [
@@ -80,23 +79,22 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
 
 
 def _measure_heading(measure: IntensityMeasure, name: str, *, gal: bool) -> str:
-    """Return a heading with the measure and its unit."""
     unit = measure.display_unit(gal=gal)[1]
     return f"{name} {measure.label} ({unit})" if unit else f"{name} {measure.label}"
 
 
 def _disaggregation_table(name: str, risk: Risk, hazard: Hazard, *, gal: bool) -> Any:
-    """Return which shaking it comes from."""
+    """Return the table of contributions by intensity."""
     measure = intensity_measure(hazard.im)
     size, unit = measure.display_unit(gal=gal)
     label = f"{measure.label} ({unit})" if unit else measure.label
     shares = [item for item in risk.disaggregation if item.share >= MIN_SHARE]
     rows = [[interval_text(item, size), f"{item.annual_rate:.3g}", f"{100.0 * item.share:.0f}"] for item in shares]
-    return table(name, [label, gettext("rate (1/year)"), "%"], rows, caption=gettext("which shaking it comes from"))
+    return table(name, [label, gettext("rate (1/year)"), "%"], rows, caption=gettext("disaggregation by intensity"))
 
 
 def interval_text(share: RiskShare, size: float) -> str:
-    """Return two levels in the unit shown."""
+    """Return an intensity interval in the displayed unit."""
     low, high = (None if end is None else format_number(end / size, 3) for end in (share.im_from, share.im_to))
     if low is None:
         return gettext("below {level}", level=high)
@@ -104,21 +102,21 @@ def interval_text(share: RiskShare, size: float) -> str:
 
 
 def _branch_table(name: str, risk: Risk) -> Any:
-    """Return what each branch says, and how likely it made what stood."""
+    """Return the table of hazard branches with their weights before and after the observation."""
     header = [gettext("branch"), gettext("weight"), gettext("rate (1/year)")]
     rows = [[branch.branch or DASH, f"{branch.weight:.3g}", f"{branch.annual_rate:.3g}"] for branch in risk.branches]
     caption = ""
     if risk.stood_years is not None:
-        header += [gettext("P(stands)"), gettext("weight after")]
+        header += [gettext("P(stable)"), gettext("posterior")]
         for row, branch in zip(rows, risk.branches, strict=True):
             row += [f"{branch.standing:.3g}", f"{branch.weight_after:.3g}"]
-        text = N_("P(stands): that it did not happen in {years:g} years; with the weights after, {rate:.3g} a year")
+        text = N_("P(stable): probability of no occurrence in {years:g} years; with the posterior weights {rate:.3g} per year")
         caption = gettext(text, years=risk.stood_years, rate=risk.annual_rate_after)
     return table(name, header, rows, caption=caption)
 
 
 def csv_columns(risks: Risks, hazard: Hazard) -> tuple[list[str], list[Sequence[Any]]]:
-    """Return the header and the rows of ``--csv``: what each stretch of intensities contributes."""
+    """Return header and rows of ``--csv``: contribution of each intensity interval."""
     header = ["body", "limit", "im", "unit", "im_from", "im_to", "annual_rate", "share"]
     rows: list[Sequence[Any]] = [
         [fragility.body, fragility.limit, hazard.im, hazard.unit, share.im_from, share.im_to, share.annual_rate, share.share]

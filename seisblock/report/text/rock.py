@@ -1,4 +1,4 @@
-"""How rocking is told: a table with one column per component, and a sentence each."""
+"""Text report of rocking: a sentence and a table column per component."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.core.i18n import N_, format_share, gettext, join_sentences
+from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.core.results import Response
 from seisblock.models.rock.outcome import RockOutcome, friction_suffices
 from seisblock.report.describe_wear import describe_edges
@@ -24,6 +24,8 @@ from seisblock.report.text.tables import (
     side_by_side,
     styled_line,
     table,
+    tilt_ratio_cell,
+    with_notes,
 )
 from seisblock.report.text.threshold import ROCKS, threshold_text
 from seisblock.report.units_display import acceleration_unit
@@ -34,16 +36,16 @@ RockResponses = Sequence[Response[RockOutcome]]
 
 
 def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal: bool, mu: float | None = None) -> Iterator[Any]:
-    """Yield, per record, its line, what becomes of the block in words, a table with a column per component, and how sure that is.
+    """Yield, per record, the verdicts, a table with a column per component, and margins and probabilities.
 
     Parameters
     ----------
     responses : sequence of Response
     extras : sequence of mapping
-        What was found beside each: ``agreement``, ``margin``, ``perturbation``.
+        Further results of each: ``agreement``, ``margin``, ``perturbation``, ``directions``.
     gal : bool
     mu : float or None
-        The friction there is, where it was said.
+        Available friction coefficient; None if not given.
     """
     pairs = zip(responses, extras, strict=True)
     for heading, part in group_answers(
@@ -61,14 +63,13 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
 
 
 def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
-    """Return the table of the outcomes."""
     outcomes = [response.outcome for response in responses]
     first, body = outcomes[0], responses[0].body
     varies = any(response.body != body for response in responses)
     title = gettext(body.name)
     if not varies:
         title = gettext(
-            "{body}: alpha {alpha:.4f} rad, p {p:.3f} rad/s\nrestitution {restitution:.4f}, rocks above {threshold}",
+            "{body}: alpha {alpha:.4f} rad, p {p:.3f} rad/s\nrestitution {restitution:.4f}, rocking threshold {threshold}",
             body=gettext(body.name),
             alpha=first.slenderness_rad,
             p=first.frequency_parameter_rad_s,
@@ -81,9 +82,9 @@ def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
             f"PGA ({acceleration_unit(gal=gal).name})",
             [acceleration_cell(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses],
         ),
-        (gettext("rocking starts (s)"), [format_seconds(o.rocking_start_s) for o in outcomes]),
-        (gettext("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
-        (gettext("  over alpha"), [format_number(o.max_rotation_ratio) for o in outcomes]),
+        (gettext("rocking start (s)"), [format_seconds(o.rocking_start_s) for o in outcomes]),
+        (gettext("peak tilt (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
+        (gettext("  over alpha"), [tilt_ratio_cell(o.max_rotation_ratio, overturned=o.overturned) for o in outcomes]),
         (gettext("  at (s)"), [format_seconds(o.max_rotation_s) for o in outcomes]),
         (gettext("impacts"), [o.impacts for o in outcomes]),
         (gettext("overturned"), [_overturned_cell(response) for response in responses]),
@@ -97,24 +98,24 @@ def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
 
 
 def _block_rows(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:
-    """Return the rows of a body that is another block in each direction."""
+    """Return the rows of block properties for bodies that differ between directions."""
     unit = acceleration_unit(gal=gal).name
     return [
         (gettext("alpha (rad)"), [f"{o.slenderness_rad:.4f}" for o in outcomes]),
         (gettext("p (rad/s)"), [f"{o.frequency_parameter_rad_s:.3f}" for o in outcomes]),
         (gettext("restitution"), [f"{o.restitution:.4f}" for o in outcomes]),
-        (gettext("rocks above ({unit})", unit=unit), [acceleration_cell(o.threshold_m_s2, gal=gal) for o in outcomes]),
+        (gettext("threshold ({unit})", unit=unit), [acceleration_cell(o.threshold_m_s2, gal=gal) for o in outcomes]),
     ]
 
 
 def _direction_table(results: Sequence[RockAzimuth]) -> Any:
-    """Return the table of all directions, in their order; the slenderness where it is not the same in all."""
+    """Return the table of all azimuths, ascending; with the slenderness if it varies."""
     slenderness_varies = len({result.slenderness_rad for result in results}) > 1
     rows = [
         [
             f"{result.azimuth_deg:g}",
             *([f"{math.degrees(result.slenderness_rad):.2f}"] if slenderness_varies else []),
-            format_number(result.max_rotation_ratio),
+            tilt_ratio_cell(result.max_rotation_ratio, overturned=result.overturned_towards is not None),
             *_fall_cells(result),
         ]
         for result in sorted(results, key=lambda result: result.azimuth_deg)
@@ -122,7 +123,7 @@ def _direction_table(results: Sequence[RockAzimuth]) -> Any:
     headings = (
         N_("azimuth (deg)"),
         *((N_("alpha (deg)"),) if slenderness_varies else ()),
-        N_("lean over alpha"),
+        N_("tilt/alpha"),
         N_("falls to (deg)"),
         N_("lies down (s)"),
     )
@@ -130,12 +131,11 @@ def _direction_table(results: Sequence[RockAzimuth]) -> Any:
 
 
 def _fall_cells(result: RockAzimuth) -> tuple[str, str]:
-    """Return where to it falls in one direction, and when."""
     return fall_azimuth(result.azimuth_deg, result.overturned_towards), format_seconds(result.overturning_time_s)
 
 
 def _onset_text(response: Response[RockOutcome], *, gal: bool) -> str:
-    """Return from where on a block that stands still rocks."""
+    """Return the rocking threshold of a block at rest."""
     options, arms = response.options, response.body.arms
     weakest = response.outcome.threshold_m_s2 / options["gravity_m_s2"] / min(arms)
     towards = (arms[0] * weakest, arms[1] * weakest)
@@ -143,7 +143,7 @@ def _onset_text(response: Response[RockOutcome], *, gal: bool) -> str:
 
 
 def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
-    """Return the verdict, from where on what stands still rocks, and that it takes more friction than there is where that is so."""
+    """Return the verdict, the rocking threshold of a block at rest, and a note if the friction does not suffice."""
     outcome, name = response.outcome, response.motion.name or "x"
     verdict_text = verdict(outcome, response.motion.name)
     if not outcome.rocks:
@@ -153,16 +153,16 @@ def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal:
         return sentence
     ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
     if mu < ratio:
-        text = N_("With a friction of {mu:g}, less than b/h, {ratio:.3f}, it would slide and not rock: this is not what happens.")
-        return join_sentences([sentence, gettext(text, mu=mu, ratio=ratio)])
+        text = N_("With a friction of {mu:g} < b/h = {ratio:.3f} the block slides instead of rocking; this result does not apply.")
+        return with_notes(sentence, [gettext(text, mu=mu, ratio=ratio)])
     if outcome.max_friction_demand is None:
-        return join_sentences([sentence, gettext("It leaves the ground, so that no friction suffices: this is not what happens.")])
-    text = N_("That needs a friction of {needed:.2f} at {time:.3f} s, and there is {mu:g}: it would slip while it rocks.")
-    return join_sentences([sentence, gettext(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
+        return with_notes(sentence, [gettext("The block leaves the ground, so no friction suffices; this result does not apply.")])
+    text = N_("Rocking requires a friction of {needed:.2f} at {time:.3f} s; with {mu:g} the block slides while it rocks (see `respond`).")
+    return with_notes(sentence, [gettext(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
 
 
 def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
-    """Yield how far the models disagree, the margins and the share of perturbed runs."""
+    """Yield model comparison, margins and overturning probability."""
     name = response.motion.name or "x"
     if "agreement" in extra:
         yield agreement_line(name, extra["agreement"])
@@ -175,7 +175,6 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
 
 
 def _overturned_cell(response: Response[RockOutcome]) -> str:
-    """Return whether a block overturned, and where to."""
     outcome = response.outcome
     return (
         gettext("to {side}", side=direction_label(response.motion.name, outcome.overturned_towards))
@@ -185,43 +184,45 @@ def _overturned_cell(response: Response[RockOutcome]) -> str:
 
 
 def verdict(outcome: RockOutcome, direction: str) -> str:
-    """Return what became of a block under a motion in a direction, and whether a small change would change it."""
+    """Return the outcome of a block, and a note if a small change of the record alters the outcome."""
     direction_text = direction_label(direction, outcome.overturned_towards)
     if not outcome.rocks:
-        text = gettext("stands still")
+        text = gettext("remains at rest")
     elif not outcome.overturned:
-        text = gettext("rocks and stands: {way}", way=lean_text(outcome.max_rotation_ratio))
+        text = gettext("rocks, does not overturn ({way})", way=lean_text(outcome.max_rotation_ratio))
     elif outcome.overturning_time_s is None:
         text = gettext("overturns to {side}", side=direction_text)
     else:
         late = outcome.decided_after_record
-        template = N_("overturns to {side} at {time:.2f} s, after the record") if late else N_("overturns to {side} at {time:.2f} s")
+        template = (
+            N_("overturns to {side} at {time:.2f} s, after the end of the record") if late else N_("overturns to {side} at {time:.2f} s")
+        )
         text = gettext(template, side=direction_text, time=outcome.overturning_time_s)
     return text + flip_text(outcome)
 
 
 def flip_text(outcome: RockOutcome) -> str:
-    """Return at which factor near 1 the verdict is the other, empty where none was found or nobody looked."""
+    """Return the scale factor near 1 with the opposite outcome; empty without one."""
     if outcome.flips_at_factor is None:
         return ""
-    would = N_("; it would stand at {factor:.3f} times this record"), N_("; it would fall at {factor:.3f} times this record")
+    would = N_("; does not overturn at a scale factor of {factor:.3f}"), N_("; overturns at a scale factor of {factor:.3f}")
     text = would[0] if outcome.overturned else would[1]
     return gettext(text, factor=outcome.flips_at_factor)
 
 
 def lean_text(ratio: float) -> str:
-    """Return how far a block leaned, in words."""
-    return gettext("{share} of the way to alpha", share=format_share(ratio))
+    """Return the peak tilt as a share of the overturning angle."""
+    return gettext("peak tilt {share} of the overturning angle", share=format_share(ratio))
 
 
 def _margin_lines(margin: Margin) -> Iterator[str]:
-    """Yield the first fall found, how often it falls above, and the windows in which it does."""
+    """Yield the first factor with overturning, the share above, and the intervals of overturning."""
     if margin.first_fall is None or margin.falls_above_first is None:
-        yield gettext("stands at every factor looked at, up to {limit:g} (every {step:g}).", limit=margin.limit, step=margin.step)
+        yield gettext("no overturning at scale factors up to {limit:g} (steps of {step:g}).", limit=margin.limit, step=margin.step)
         return
     yield gettext(
-        "falls from {first:.3g} times this record on (first found, looked at every {step:g} up to {limit:g}); above that at {share:.0%} of "
-        "the factors.",
+        "scale factor to overturning {first:.3g} (first found in steps of {step:g} up to {limit:g}); above, "
+        "{share:.0%} of the factors overturn.",
         first=margin.first_fall,
         step=margin.step,
         limit=margin.limit,
@@ -229,6 +230,6 @@ def _margin_lines(margin: Margin) -> Iterator[str]:
     )
     unsafe = [window for window in margin.windows if window.overturned]
     intervals = [gettext("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:8]] + ["..."] * (len(unsafe) > 8)
-    yield gettext("falls were found at factors {factors}.", factors=intervals)
+    yield gettext("overturning at scale factors {factors}.", factors=intervals)
     if margin.nearest_flip is not None:
-        yield gettext("the verdict changes next at a factor of {factor:.4f}, of those found.", factor=margin.nearest_flip)
+        yield gettext("the verdict changes at a scale factor of {factor:.4f} (nearest found).", factor=margin.nearest_flip)

@@ -1,4 +1,4 @@
-"""The bundled files: what each is, on what terms, and copies of them."""
+"""List of the bundled files with their terms of use, and copies of them."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from seisblock.report.text.tables import styled_line
 from seisblock.samples import Sample, list_samples, sample_directory
 
 NOTICE, COPIED_NOTICE = "NOTICE", "seisblock-samples-NOTICE.txt"
-"""The file that holds the terms of what was written by others, and its name beside copies, with which it travels."""
+"""File with the terms of third-party files, and its name beside copies."""
 
 
 def select_samples(names: Sequence[str]) -> list[Sample]:
-    """Return the samples of these file names, or names up to the first dot; all without a name.
+    """Return the samples with these file names or stems; all without a name.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def select_samples(names: Sequence[str]) -> list[Sample]:
 
 
 def sample_lines(samples: Sequence[Sample]) -> Iterator[Any]:
-    """Yield what is printed: name, kind and peaks; below it the description, the terms and the origin, the same origin once."""
+    """Yield name, kind and peaks, with description, terms and origin; a repeated origin once."""
     last_origin = ""
     for sample in samples:
         peaks = ", ".join(f"{code} {value:.0f}" for code, value in sample.pga_gal.items())
@@ -52,7 +52,7 @@ def sample_lines(samples: Sequence[Sample]) -> Iterator[Any]:
 
 
 def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool = False) -> list[Path]:
-    """Copy samples, and the notice of their terms, to a directory; return the files written.
+    """Copy samples and their notice of terms to a folder; return the files written.
 
     A file that is there already with the same content stays; another content is refused before anything is written.
 
@@ -62,14 +62,14 @@ def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool 
         If the directory is a file, or a file of another content is in the way and `overwrite` is not set.
     """
     if directory.exists() and not directory.is_dir():
-        raise OutputError("cannot copy to {directory}: it is a file; give a directory", directory=directory)
+        raise OutputError("cannot copy to {directory}: it is a file; give a folder", directory=directory)
     names = [*((sample.name, sample.name) for sample in samples), (NOTICE, COPIED_NOTICE)]
     pairs = [(sample_directory() / name, directory / target_name) for name, target_name in names]
     copies = [(source, target) for source, target in pairs if not _has_same_content(source, target)]
     blocked = [target.name for _, target in copies if target.exists()]
     if blocked and not overwrite:
         raise OutputError(
-            "{directory} already holds another {blocked}: choose another directory, or say --overwrite",
+            "{directory} already contains a different {blocked}; choose another folder or give --overwrite",
             directory=directory,
             blocked=blocked,
         )
@@ -84,5 +84,4 @@ def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool 
 
 
 def _has_same_content(source: Path, target: Path) -> bool:
-    """Whether a file is there with this content."""
     return target.is_file() and hashlib.sha256(target.read_bytes()).digest() == hashlib.sha256(source.read_bytes()).digest()

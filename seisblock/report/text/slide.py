@@ -1,4 +1,4 @@
-"""How a slide is told: a table per record, and a sentence per component."""
+"""Text report of sliding: a sentence and a table row per component."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ SlideResponses = Sequence[Response[SlideOutcome]]
 
 COLUMN_HEADINGS = tuple(map(N_, ("slips", "from (s)", "to (s)", "max ({unit})", "residual ({unit})", "final ({unit})")))
 
-RESIDUAL = N_("residual: at the record's last sample, final: once at rest on still ground")
-"""What two of the columns are."""
+RESIDUAL = N_("residual: at the last sample of the record; final: at rest after the record")
+"""Definition of the residual and final columns."""
 
 
 def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: bool = True) -> Iterator[Any]:
-    """Yield, for each record, its line and one row per direction; then the sweep of directions when there was one."""
+    """Yield, per record, a row per direction, then the table of all azimuths if there is one."""
     for preamble, group in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
         yield from preamble
         unit = length_unit((length for response in group for length in _lengths(response)), gal=gal)
@@ -44,7 +44,7 @@ def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: 
 
 
 def describe_base(response: Response[SlideOutcome]) -> str:
-    """Say which base an object slid on."""
+    """Return the properties of the base."""
     base, options = response.body, response.options
     parts = [gettext("mu {mu:g}, kinetic {kinetic:g}", mu=base.mu, kinetic=base.kinetic)]
     if base.slope_deg and base.slope_length:
@@ -59,55 +59,54 @@ def describe_base(response: Response[SlideOutcome]) -> str:
 
 
 def _lengths(response: Response[SlideOutcome]) -> tuple[float | None, ...]:
-    """Return the displacements of one direction that the table shows, m."""
+    """Return the displacements of one table row, m."""
     outcome = response.outcome
     return outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m
 
 
 def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
-    """Say what happened."""
+    """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
         base, options = response.body, response.options
         if base.slope_deg:
-            return gettext("{name}: stays where it is, static friction holds throughout.", name=name)
+            return gettext("{name}: remains at rest; static friction is not exceeded.", name=name)
         gravity, vertical = options["gravity_m_s2"], options["vertical"]
         onset_text = threshold_text(
             SLIDES, (base.mu, math.inf if base.one_way else base.mu), response.motion, gravity=gravity, vertical=vertical, gal=gal
         )
-        return gettext("{name}: stays where it is; {onset}.", name=name, onset=onset_text)
+        return gettext("{name}: remains at rest; {onset}.", name=name, onset=onset_text)
     unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
     words = {"name": name, "most": format_size(outcome.max_slip_m, unit), "path": format_size(outcome.path_m, unit)}
     if format_size(outcome.path_m, gal=gal) != format_length(outcome.path_m, gal=gal):
-        text = gettext("{name}: slides {path} in all", name=name, path=format_size(outcome.path_m, gal=gal))
+        text = gettext("{name}: slides {path} in total", name=name, path=format_size(outcome.path_m, gal=gal))
     elif outcome.final_slip_m is None:
-        text = gettext("{name}: slides up to {most}, over a path of {path}, and does not come to rest", **words)
+        text = gettext("{name}: slides, maximum displacement {most}, path {path}; not at rest at the end", **words)
     elif outcome.final_slip_m != outcome.residual_slip_m:
         final = with_direction(format_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
         text = gettext(
-            "{name}: slides up to {most}, over a path of {path}, while the record lasts, and comes to rest {final} from where it stood",
+            "{name}: slides, maximum displacement {most} and path {path} during the record, residual displacement {final} at rest",
             final=final,
             **words,
         )
     else:
         final = with_direction(format_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
-        text = gettext("{name}: slides up to {most}, and ends {final} from where it stood, after a path of {path}", final=final, **words)
+        text = gettext("{name}: slides, maximum displacement {most}, residual displacement {final}, path {path}", final=final, **words)
     if outcome.fell_off_slope:
         text += gettext(", past the foot of the slope")
     if outcome.lifted_off:
-        text += gettext("; it loses contact with the base on the way")
+        text += gettext("; loses contact with the base")
     return gettext("{sentence}.", sentence=text)
 
 
 def _sign_text(response: Response[SlideOutcome]) -> str:
-    """Return what the sign of a displacement means."""
+    """Return the sign convention of displacements."""
     if response.body.slope_deg > 0.0:
         return gettext("relative to the base, + in the component's positive direction, downhill")
     return gettext("relative to the base, + in the component's positive direction")
 
 
 def _row(response: Response[SlideOutcome], unit: Unit) -> list[Any]:
-    """Return the row of one direction."""
     outcome = response.outcome
     return [
         response.motion.name,

@@ -1,4 +1,4 @@
-"""How a parameter study of sliding is told: pivot tables."""
+"""Text report of a sliding parameter study: pivot tables."""
 
 from __future__ import annotations
 
@@ -27,37 +27,37 @@ SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": N_("μ kinetic"), "slope_deg
 
 MAX_ROWS, MAX_COLUMNS = 60, 8
 MIN_PLANE_SIZE = 8
-"""A study of slope and friction with at least so many values of each is drawn as fig. 16."""
+"""Fewest values of slope and of friction for a contour plot as in fig. 16."""
 
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Which parameter runs along x, which makes the curves, and which are left for titles."""
+    """Assignment of the study parameters to the x axis and to curves."""
 
     x: str
     curves: tuple[str, ...]
 
     @classmethod
     def of(cls, points: Points) -> Arrangement:
-        """Put the parameter with most values on x; of equals, the one that the paper's figures have there."""
+        """Put the parameter with most values on x; among equals the one on x in the figures of the paper."""
         kinetic = "kappa" if len({p.kappa for p in points}) <= len({p.mu_kinetic for p in points}) else "mu_kinetic"
         counts = {name: len({getattr(p, name) for p in points}) for name in ("mu", "slope_deg", "vertical", kinetic)}
         x = max(counts, key=lambda name: counts[name])
         return cls(x, tuple(name for name, count in counts.items() if name != x and count > 1))
 
     def name(self, point: SlidePoint) -> str:
-        """Return the name of the curve on which a point lies."""
+        """Return the name of the curve of a point."""
         return ", ".join(f"{gettext(SYMBOLS[key]).split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
 
 
 def study_csv(records: Sequence[Record], studies: Sequence[Points]) -> tuple[list[str], Iterator[list[Any]]]:
-    """Return the heading and the rows of a CSV file: a row per point, and in it every key."""
+    """Return heading and rows of a CSV file: one row per point with every key."""
     header = [key for key in SLIDE_POINT.__struct_fields__ if key != "record_index"]
     return concat_tables(header, [[[getattr(entry, key) for key in header] for entry in map(point_entry, points)] for points in studies])
 
 
 def tables(records: Sequence[Record], studies: Sequence[Points], *, gal: bool = True) -> Iterator[Any]:
-    """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
+    """Yield, per record and direction, maximum displacement and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
     arranged = [
         (record, arrangement, group_by_direction(points, arrangement))
         for record, points, arrangement in zip(records, studies, map(Arrangement.of, studies), strict=True)
@@ -68,11 +68,11 @@ def tables(records: Sequence[Record], studies: Sequence[Points], *, gal: bool = 
         yield from preamble
         for title, part in panels:
             unit = length_unit((point.max_slip_m for point in part), gal=gal)
-            heading = gettext("{name}: largest slip ({unit})", name=title, unit=unit.name)
+            heading = gettext("{name}: maximum displacement ({unit})", name=title, unit=unit.name)
             yield _pivot_table(heading, part, arrangement, partial(_format_slip, unit=unit))
             if any(point.beta is not None for point in part):
                 yield _pivot_table(
-                    gettext("{name}: beta, largest slip with vertical motion over that without", name=title),
+                    gettext("{name}: beta, maximum displacement with over without vertical motion", name=title),
                     part,
                     arrangement,
                     lambda point: DASH if point.beta is None else f"{point.beta:.3f}",
@@ -80,35 +80,33 @@ def tables(records: Sequence[Record], studies: Sequence[Points], *, gal: bool = 
 
 
 def _format_slip(point: SlidePoint, unit: Unit) -> str:
-    """Return the largest slip of a point."""
     return length_cell(point.max_slip_m, unit)
 
 
 def _verdicts(panels: Panels, *, gal: bool) -> Iterator[Text]:
-    """Yield how far the object slides, by direction."""
     for title, part in panels:
         yield styled_line(verdict(title, part, gal=gal))
 
 
 def verdict(name: str, points: Points, *, gal: bool = True) -> str:
-    """Return how far the object slides at most, with which parameters, and how often it holds."""
+    """Return the maximum displacement with its parameters, and the number of combinations at rest."""
     solved = [point for point in points if point.max_slip_m is not None]
     rest_count = sum(point.max_slip_m == 0.0 for point in solved)
     if rest_count == len(solved):
-        return gettext("{name}: stays where it is in all of {count} combinations.", name=name, count=rest_count)
+        return gettext("{name}: remains at rest in all {count} combinations.", name=name, count=rest_count)
     largest = max(solved, key=lambda point: point.max_slip_m or 0.0)
     parameters = [key for key in SYMBOLS if len({getattr(point, key) for point in points}) > 1]
-    # a ratio of frictions says the same as the second of them
+    # kappa and the kinetic coefficient are redundant
     parameters = [key for key in parameters if key != "mu_kinetic" or "kappa" not in parameters]
     setting = [f"{gettext(SYMBOLS[key]).split(' (')[0]} {getattr(largest, key):g}" for key in parameters]
-    text = N_("{name}: slides up to {most}, at {where}; {held} of {count} combinations stay where they are.")
+    text = N_("{name}: slides up to {most} at {where}; {held} of {count} combinations remain at rest.")
     return gettext(
         text, name=name, most=format_length(largest.max_slip_m or 0.0, gal=gal), where=setting, held=rest_count, count=len(solved)
     )
 
 
 def group_by_direction(points: Points, arrangement: Arrangement) -> Panels:
-    """Return the points of each direction; the worst directions of a sweep are one part."""
+    """Return the points by direction; the worst directions of a sweep form one group."""
     names = list(dict.fromkeys(point.component for point in points))
     per_direction = len({tuple(getattr(p, key) for key in (arrangement.x, *arrangement.curves)) for p in points})
     if len(points) == per_direction and len(names) > 1:
@@ -117,7 +115,7 @@ def group_by_direction(points: Points, arrangement: Arrangement) -> Panels:
 
 
 def _pivot_table(title: str, points: Points, arrangement: Arrangement, cell: Callable[[SlidePoint], str]) -> Any:
-    """Return one table: x runs down, the curves stand side by side; long ones are thinned."""
+    """Return one table: rows are x values, columns are curves; large tables are thinned."""
     xs = list(dict.fromkeys(getattr(point, arrangement.x) for point in points))
     names = list(dict.fromkeys(arrangement.name(point) for point in points))
     values = {(getattr(point, arrangement.x), arrangement.name(point)): cell(point) for point in points}
@@ -128,7 +126,7 @@ def _pivot_table(title: str, points: Points, arrangement: Arrangement, cell: Cal
         (gettext(SYMBOLS[arrangement.x]), *(name or gettext("slip") for name in columns)),
         [[f"{x:g}", *(values.get((x, name), DASH) for name in columns)] for x in rows],
         caption=gettext(
-            "{rows} of {all_rows} rows, {columns} of {all_columns} columns; --csv and --json hold all",
+            "{rows} of {all_rows} rows, {columns} of {all_columns} columns; all in --csv and --json",
             rows=len(rows),
             all_rows=len(xs),
             columns=len(columns),
@@ -140,13 +138,13 @@ def _pivot_table(title: str, points: Points, arrangement: Arrangement, cell: Cal
 
 
 def _thin_values(values: Sequence[Any], max_count: int) -> list[Any]:
-    """Return at most so many values, evenly chosen, with the first and the last."""
+    """Return at most `max_count` evenly spaced values including the ends."""
     if len(values) <= max_count:
         return list(values)
     return [values[index] for index in np.unique(np.linspace(0, len(values) - 1, max_count).round().astype(int))]
 
 
 def plotted_value(point: SlidePoint, ratio: bool) -> float:
-    """Return what is drawn of a point."""
+    """Return the plotted quantity of a point."""
     value = point.beta if ratio else point.max_slip_m
     return np.nan if value is None else value

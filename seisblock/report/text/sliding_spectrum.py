@@ -1,4 +1,4 @@
-"""How a sliding spectrum is told: largest slip against friction, as a table and CSV."""
+"""Text report of a sliding spectrum: maximum displacement against friction, and CSV."""
 
 from __future__ import annotations
 
@@ -31,31 +31,34 @@ def tables(curves: Curves) -> Iterator[Any]:
 
 
 def _slip_table(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
-    """Yield the table of one component."""
     indices = np.unique(np.linspace(0, len(points) - 1, min(len(points), MAX_ROWS)).round().astype(int))
     unit = length_unit((point.max_slip_m for point in points), gal=True)
     rows = [[f"{points[i].mu:.4g}", length_cell(points[i].max_slip_m, unit), length_cell(points[i].residual_slip_m, unit)] for i in indices]
     title = gettext("{name}: sliding against friction", name=motion.name)
-    yield table(title, ["μ", gettext("largest slip ({unit})", unit=unit.name), gettext("residual slip ({unit})", unit=unit.name)], rows)
+    yield table(
+        title, ["μ", gettext("max. displacement ({unit})", unit=unit.name), gettext("residual slip ({unit})", unit=unit.name)], rows
+    )
     yield styled_line()
 
 
 def verdict(name: str, points: Sequence[SlidePoint]) -> str:
-    """Return from which friction on the object holds, and how far it slides below."""
+    """Return the friction without sliding, and the largest displacement below it."""
     by_friction = sorted(points, key=lambda point: point.mu)
     largest = max(by_friction, key=lambda point: point.max_slip_m or 0.0)
     slides = [point.mu for point in by_friction if point.slips]
     if not slides:
-        return gettext("{name}: holds at every friction from {mu:.4g} on.", name=name, mu=by_friction[0].mu)
+        return gettext("{name}: remains at rest for friction of {mu:.4g} and above.", name=name, mu=by_friction[0].mu)
     holds = next((point.mu for point in by_friction if point.mu > slides[-1]), None)
     values = {"name": name, "most": format_length(largest.max_slip_m or 0.0), "at": largest.mu}
     if holds is None:
-        return gettext("{name}: slides at every friction up to {mu:.4g}, at most {most} (at {at:.4g}).", mu=slides[-1], **values)
-    return gettext(N_("{name}: holds from a friction of {mu:.4g} on; below it slides, at most {most} (at {at:.4g})."), mu=holds, **values)
+        return gettext("{name}: slides for friction up to {mu:.4g}, at most {most} (at {at:.4g}).", mu=slides[-1], **values)
+    return gettext(
+        N_("{name}: remains at rest for friction of {mu:.4g} and above; slides below, at most {most} (at {at:.4g})."), mu=holds, **values
+    )
 
 
 def write_csv(path: Path, curves: Curves) -> None:
-    """Write every point as a row of CSV, SI; of several records with their index."""
+    """Write every point as a row of CSV, SI; with the record index for several records."""
     header = ["component", "mu", "max_slip_m", "residual_slip_m"]
     write_by_record(
         path,

@@ -1,4 +1,4 @@
-"""How a rocking spectrum is told: a thinned table, and all points as CSV."""
+"""Text report of a rocking spectrum: thinned table, and CSV of all points."""
 
 from __future__ import annotations
 
@@ -24,40 +24,40 @@ FALLS = N_("falls")
 
 
 def tables(spectra: Spectra, kind: str, wear_text: str = "") -> Iterator[Any]:
-    """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls; `wear_text` tells of the edges."""
+    """Yield, per component, a table of at most 12 sizes and 9 slendernesses; `wear_text` describes the edge wear."""
     for heading, part in group_answers(spectra, lambda pair: pair[0].record, lambda pair: [styled_line(verdict(*pair))]):
         yield from heading
         yield from (block for pair in part for block in _spectrum_table(*pair, kind, wear_text))
 
 
 def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
-    """Return how many of the blocks overturn."""
+    """Return the number of overturned blocks."""
     falls, block_count = int(spectrum.overturned.sum()), spectrum.overturned.size
     if spectrum.azimuths_deg is not None and spectrum.overturning_rate is not None:
         always_count = int((spectrum.overturning_rate == 1.0).sum())
-        text = N_("{falls} of {all} blocks overturn in one of {count} directions at least, {always} in all of them.")
+        text = N_("{falls} of {all} blocks overturn in at least one of {count} directions, {always} in all of them.")
         return gettext(text, falls=falls, all=block_count, count=spectrum.azimuths_deg.size, always=always_count)
     return gettext("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=block_count)
 
 
 def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_text: str) -> Iterator[Any]:
-    """Yield the table of one component."""
     rows, columns = thin_indices(spectrum.size_m.size, MAX_ROWS), thin_indices(spectrum.slenderness_rad.size, MAX_COLUMNS)
-    quantity = gettext("overturning") if kind == "overturning" else gettext("largest lean over alpha")
+    quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha")
     if spectrum.overturning_rate is not None:
-        quantity = gettext("directions in which it falls") if kind == "overturning" else gettext("largest lean over alpha, worst direction")
+        quantity = (
+            gettext("share of directions with overturning") if kind == "overturning" else gettext("peak tilt over alpha, worst direction")
+        )
     header = [f"{1 / math.tan(spectrum.slenderness_rad[j]):.2f}" for j in columns]
     cells = [[f"{spectrum.size_m[i]:.3g}", *(_cell(spectrum, i, j, kind) for j in columns)] for i in rows]
-    title = gettext("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=quantity) + gettext(wear_text)
+    title = gettext("{name}: {what}; 2R (m, rows) against H/B (columns)", name=motion.name, what=quantity) + gettext(wear_text)
     yield table(title, ["2R \\ H/B", *header], cells)
     if rows.size < spectrum.size_m.size or columns.size < spectrum.slenderness_rad.size:
         counts = {"rows": rows.size, "sizes": spectrum.size_m.size, "columns": columns.size, "shapes": spectrum.slenderness_rad.size}
-        yield styled_line(gettext("shown: {rows} of {sizes} 2R, {columns} of {shapes} H/B; --csv and --json have all", **counts), "dim")
+        yield styled_line(gettext("shown: {rows} of {sizes} 2R, {columns} of {shapes} H/B; all in --csv and --json", **counts), "dim")
     yield styled_line()
 
 
 def _cell(spectrum: RockingSpectrum, i: int, j: int, kind: str) -> str:
-    """Return one cell of the table."""
     if (
         spectrum.overturned[i, j]
         and kind == "overturning"
@@ -72,12 +72,12 @@ def _cell(spectrum: RockingSpectrum, i: int, j: int, kind: str) -> str:
 
 
 def thin_indices(count: int, max_count: int) -> IntArray:
-    """Return at most so many indices, evenly, with both ends."""
+    """Return at most `max_count` evenly spaced indices including the ends."""
     return np.unique(np.linspace(0, count - 1, min(count, max_count)).round().astype(np.int64))
 
 
 def write_csv(path: Path, spectra: Spectra) -> None:
-    """Write every block as a row of CSV, SI: of all directions with share and worst direction, of several records with their index."""
+    """Write every block as a row of CSV, SI; with share and worst azimuth for azimuth sweeps, with the index for several records."""
     has_azimuths = any(spectrum.azimuths_deg is not None for _, spectrum in spectra)
     header = [
         "component",
@@ -93,7 +93,6 @@ def write_csv(path: Path, spectra: Spectra) -> None:
 
 
 def _rows(motion: Motion, spectrum: RockingSpectrum) -> Iterator[list[Any]]:
-    """Yield the row of each block."""
     for i, size in enumerate(spectrum.size_m):
         for j, alpha in enumerate(spectrum.slenderness_rad):
             yield [

@@ -1,4 +1,4 @@
-"""How a pile is told: what became of each stone."""
+"""Text report of a pile: outcome of each stone."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
 from seisblock.report.text.agreement import agreement_line
 from seisblock.report.text.stone_falls import describe_falls
-from seisblock.report.text.tables import DASH, format_fixed, format_seconds, group_answers, styled_line, table
+from seisblock.report.text.tables import DASH, format_fixed, format_seconds, format_share_interval, group_answers, styled_line, table
 from seisblock.report.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.respond.pile_probability import PileProbability, StoneProbability
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
-"""What shows in a figure, rad and m."""
+"""Smallest tilt and slip visible in a figure, rad and m."""
 
 MIN_CONCENTRATION = 0.3
-"""Below this :attr:`~seisblock.studies.respond.pile_probability.StoneProbability.fell_alike_ratio` a mean direction tells nothing."""
+"""Smallest resultant length (``StoneProbability.fell_alike_ratio``) for which a mean direction is printed."""
 
 StackResponses = Sequence[Response[StackOutcome]]
 
 
 def tables(responses: StackResponses, extras: Sequence[Mapping[str, Any]], *, gal: bool = True) -> Iterator[Any]:
-    """Yield what falls and how sure that is, the record, a row per stone, and how far the models of the top stone are apart."""
+    """Yield falls and their probability, a row per stone, and the model comparison of the top stone."""
     pairs, has_components = zip(responses, extras, strict=True), len(responses) > 1
     for heading, part in group_answers(
         pairs, lambda pair: pair[0].motion.record, lambda pair: _summary(*pair, with_name=has_components, gal=gal)
@@ -44,7 +44,6 @@ def tables(responses: StackResponses, extras: Sequence[Mapping[str, Any]], *, ga
 
 
 def _summary(response: Response[StackOutcome], extra: Mapping[str, Any], *, with_name: bool, gal: bool) -> Iterator[Text]:
-    """Yield what happened, under the name of its component where there are others, and in what share of the versions."""
     text = verdict(response)
     yield styled_line(gettext("{name}: {text}", name=response.motion.name or "x", text=text) if with_name else text)
     if "probability" in extra:
@@ -52,13 +51,13 @@ def _summary(response: Response[StackOutcome], extra: Mapping[str, Any], *, with
 
 
 def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Any]:
-    """Yield the table of one run, on what the stones stand, what was varied, and how far the models of the top stone are apart."""
+    """Yield the table of one run, the contact model, the varied parameters and the model comparison of the top stone."""
     agreement: ModelComparison | None = extra["agreement"]
     unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones if stone.state != "fallen"), gal=gal)
     slip = gettext("slip ({unit})", unit=unit.name)
     side = gettext("to") if response.motion.azimuth_deg is None else gettext("to (deg)")
-    columns = [gettext("stone"), gettext("state"), gettext("at (s)"), side, gettext("tilt (deg)"), slip, gettext("turn (deg)")]
-    title = gettext("{name}: {what}; tilt: the largest", name=f"+x = {response.motion.name}", what=gettext(response.body.name))
+    columns = [gettext("stone"), gettext("state"), gettext("at (s)"), side, gettext("tilt (deg)"), slip, gettext("twist (deg)")]
+    title = gettext("{name}: {what}; tilt: peak value", name=f"+x = {response.motion.name}", what=gettext(response.body.name))
     yield table(title, columns, (_row(stone, unit, response.motion) for stone in reversed(response.outcome.stones)))
     yield styled_line(base_text(response))
     if "probability" in extra:
@@ -70,7 +69,7 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
 
 
 def _row(stone: StoneOutcome, unit: Unit, motion: Motion) -> list[str]:
-    """Return what became of one stone; where a fallen one lies is no slip, and which way it faces no turn."""
+    """Return the row of one stone; a fallen stone has neither slip nor twist."""
     has_fallen = stone.state == "fallen"
     return [
         gettext(stone.name),
@@ -84,7 +83,7 @@ def _row(stone: StoneOutcome, unit: Unit, motion: Motion) -> list[str]:
 
 
 def _fall_direction(stone: StoneOutcome, motion: Motion) -> str:
-    """Return to which azimuth a stone fell, or to which side of the record's axes where north is not known."""
+    """Return the azimuth of fall, or the direction along the axes of the record if north is unknown."""
     if stone.fell_towards_deg is None:
         return DASH
     return (
@@ -93,22 +92,22 @@ def _fall_direction(stone: StoneOutcome, motion: Motion) -> str:
 
 
 def verdict(response: Response[StackOutcome]) -> str:
-    """Return what happened in words."""
+    """Return the outcome in a sentence."""
     outcome = response.outcome
     if outcome.overturned_any:
         return describe_falls(response)
     if moved_stones := [gettext(stone.name) for stone in outcome.stones if stone.state != "standing"]:
-        return gettext("Every stone stands; moved: {stones}.", stones=moved_stones)
-    return gettext("Every stone stands where it was.")
+        return gettext("No stone fell; displaced: {stones}.", stones=moved_stones)
+    return gettext("No stone moved.")
 
 
 def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> Iterator[Any]:
-    """Yield in what share of the versions each stone falls and moves, and what was varied."""
+    """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
     columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
     yield styled_line()
     yield table(
-        gettext("{runs} plausible versions; moves: more than {far}, or falls", runs=probability.runs, far=length),
+        gettext("{runs} samples; moves: residual displacement above {far}, or falls", runs=probability.runs, far=length),
         columns,
         map(_chance_row, reversed(probability.stones)),
     )
@@ -116,7 +115,7 @@ def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> I
 
 
 def _chance_row(chance: StoneProbability) -> list[str]:
-    """Return how often one stone falls, and to what azimuth, of +x where north is not known; nothing where it falls to all sides."""
+    """Return the row of one stone; fall direction from +x if north is unknown, a dash for scattered directions."""
     mean = chance.fell_towards_deg if chance.fell_azimuth_deg is None else chance.fell_azimuth_deg
     has_direction = mean is not None and chance.fell_alike_ratio is not None and chance.fell_alike_ratio >= MIN_CONCENTRATION
     low, high = (format_fixed(100.0 * end, 0) for end in chance.interval)
@@ -131,35 +130,19 @@ def _chance_row(chance: StoneProbability) -> list[str]:
 
 
 def probability_sentence(probability: PileProbability, *, gal: bool = True) -> str:
-    """Return in how many versions a stone falls or moves, as a sentence; never as if it were the pile's own probability."""
-    fall_count = round(probability.overturned * probability.runs)
-    low, high = probability.interval
-    if fall_count == 0:
-        falls = gettext("no stone falls in any of {runs} plausible versions", runs=probability.runs)
-    elif fall_count == probability.runs:
-        falls = gettext("a stone falls in all {runs} plausible versions", runs=probability.runs)
-    else:
-        falls = gettext(
-            "a stone falls in {fallen} of {runs} plausible versions, {share} ({low} to {high})",
-            fallen=fall_count,
-            runs=probability.runs,
-            share=format_share(probability.overturned),
-            low=format_share(low),
-            high=format_share(high),
-        )
+    """Return the probability of a fall with its confidence interval, and the share of samples with displaced stones."""
+    falls = gettext(
+        "Probability of a fall {share} (95 % CI {interval}, {runs} samples)",
+        share=format_share(probability.overturned),
+        interval=format_share_interval(probability.interval),
+        runs=probability.runs,
+    )
     length = format_length(probability.moved_m, gal=gal)
-    if probability.moved in (0.0, 1.0):
-        moves = (
-            gettext("in all, one moves more than {far}", far=length)
-            if probability.moved
-            else gettext("none moves more than {far}", far=length)
-        )
-    else:
-        moves = gettext("in {share} one moves more than {far}", share=format_share(probability.moved), far=length)
+    moves = gettext("fall or residual displacement above {far}: {share}", far=length, share=format_share(probability.moved))
     if not probability.left_out_count:
         return gettext("{falls}; {moves}.", falls=falls, moves=moves)
     return gettext(
-        "{falls}; {moves}; {count} of {asked} versions created energy and are left out.",
+        "{falls}; {moves}; {count} of {asked} samples omitted (energy created numerically).",
         falls=falls,
         moves=moves,
         count=probability.left_out_count,
@@ -168,11 +151,12 @@ def probability_sentence(probability: PileProbability, *, gal: bool = True) -> s
 
 
 def variation_text(probability: PileProbability, pile: Pile) -> str:
-    """Return what was varied, and of what the share is."""
+    """Return the varied parameters."""
     versions = probability.versions
     size = lazy_gettext("size ±{share}", share=format_share(versions.size))
     return gettext(
-        "of this model's scatter alone: {shape}, friction of each joint ±{mu}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees",
+        "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude "
+        "±{amplitude}, direction ±{azimuth:g} degrees",
         shape=lazy_gettext("{parts}", parts=[size, _wear_text(pile, versions.inset)] if versions.inset else [size]),
         mu=format_share(versions.mu),
         amplitude=format_share(versions.amplitude),
@@ -181,34 +165,34 @@ def variation_text(probability: PileProbability, pile: Pile) -> str:
 
 
 def _wear_text(pile: Pile, tolerance: float) -> Message:
-    """Return how the insets of the stones of samples vary."""
     if not any(worn_share(stone) for stone in pile.stones):
         return lazy_gettext("sharp edges")
-    return lazy_gettext("worn edges ±{share} of their inset", share=format_share(tolerance))
+    return lazy_gettext("edge wear ±{share}", share=format_share(tolerance))
 
 
 def base_text(response: Response[StackOutcome]) -> str:
-    """Return in words on what the stones stand, and what that makes of the top stone."""
+    """Return the contact model and its effect on the top stone."""
     base, points = effective_base(response), response.options["points"]
     values = {"stone": gettext(base.stone), "kept": base.restitution, "sharp": base.housner_ratio}
-    law = gettext("Rigid stones") if response.options["law"] == RIGID else gettext("Stones that press on springs")
+    law = gettext("Rigid contact") if response.options["law"] == RIGID else gettext("Spring contact")
     if points == EDGE_POINTS and base.width_ratio < 1.0:
         return gettext(
-            "{law} on worn edges: {stone} turns about lines at {share:.2f} of its half width, and an impact leaves, on firm ground, "
-            "{kept:.2f} of its angular velocity; on sharp edges {sharp:.2f}.",
+            "{law}, worn edges: {stone} rotates about lines at {share:.2f} of its half width; on rigid ground an "
+            "impact retains {kept:.2f} of the angular velocity ({sharp:.2f} for sharp edges).",
             law=law,
             share=base.width_ratio,
             **values,
         )
     if points == EDGE_POINTS and base.restitution <= 0.0:
-        return gettext("{law} on their edges; on firm ground, {stone} is so squat that an impact ends its rocking.", law=law, **values)
+        return gettext("{law} at the edges; {stone} is too squat to continue rocking after an impact on rigid ground.", law=law, **values)
     if points == EDGE_POINTS:
         return gettext(
-            "{law} on their edges; an impact leaves {stone}, on firm ground, {kept:.2f} of its angular velocity.", law=law, **values
+            "{law} at the edges; on rigid ground an impact retains {kept:.2f} of the angular velocity of {stone}.", law=law, **values
         )
     return gettext(
-        "{law} at {points} x {points} points a joint, as in the paper: {stone} turns about lines at {share:.2f} of its half width, as if "
-        "it were so much narrower, and an impact leaves {kept:.2f} of its angular velocity; on its edges {sharp:.2f}.",
+        "{law}, {points} x {points} contact points per joint as in the paper: {stone} rotates about lines at "
+        "{share:.2f} of its half width, and an impact retains {kept:.2f} of the angular velocity ({sharp:.2f} for edge "
+        "contact).",
         law=law,
         points=points,
         share=base.width_ratio,

@@ -1,4 +1,4 @@
-"""How the falls of a pile's stones are told: one by itself, some together, or one after the other."""
+"""Sentences on falls of stones: single, simultaneous or successive."""
 
 from __future__ import annotations
 
@@ -14,28 +14,30 @@ from seisblock.records import Motion
 from seisblock.report.directions import direction_with_compass
 
 SIMULTANEOUS_S = 0.5
-"""Stones of which the last falls so soon after the first fall together, s: so long a stone takes from 1.2 m to the ground."""
+"""Longest time between the first and last of simultaneous falls, s; the fall time from a height of 1.2 m."""
 
 SAME_SIDE_DEG = 45.0
-"""To about one side fall those that fall within so many degrees of their mean direction."""
+"""Largest deviation from the mean direction of falls to one side, degrees."""
 
 MAX_NAMES = 6
-"""How many stones a sentence names."""
+"""Most stones named in a sentence."""
 
 
 def fallen_stones(response: Response[StackOutcome]) -> list[StoneOutcome]:
-    """Return the stones that fell, in the order of time."""
+    """Return the fallen stones in order of time."""
     return sorted((stone for stone in response.outcome.stones if stone.fell_at_s is not None), key=_fall_time)
 
 
 def describe_falls(response: Response[StackOutcome]) -> str:
-    """Return in a sentence what fell, when and to which side; nothing where all stand."""
+    """Return a sentence on stones, times and directions of falls; empty without falls."""
     falls, motion = fallen_stones(response), response.motion
     if len(falls) < 2:
         return "".join(_describe_fall(stone, motion) for stone in falls)
     if fell_together(falls):
         values = {"time": _fall_time(falls[0]), "side": direction_with_compass(_mean_direction(falls), motion)}
-        return gettext("{stones} fell together at {time:.2f} s, to about {side}.", stones=_group_name(falls, response.body), **values)
+        return gettext(
+            "{stones} fell together at {time:.2f} s, approximately to {side}.", stones=_group_name(falls, response.body), **values
+        )
     first, last = falls[0], falls[-1]
     first_values = {
         "stone": gettext(first.name),
@@ -51,7 +53,7 @@ def describe_falls(response: Response[StackOutcome]) -> str:
 
 
 def fell_together(falls: Sequence[StoneOutcome]) -> bool:
-    """Return whether several stones, in the order of time, fell within a short time to about one side."""
+    """Return whether stones, in order of time, fell simultaneously to one side."""
     if len(falls) < 2 or _fall_time(falls[-1]) - _fall_time(falls[0]) > SIMULTANEOUS_S:
         return False
     mean = _mean_direction(falls)
@@ -59,58 +61,55 @@ def fell_together(falls: Sequence[StoneOutcome]) -> bool:
 
 
 def _describe_fall(stone: StoneOutcome, motion: Motion) -> str:
-    """Return when a stone fell, to which side, and where it came to lie."""
     values = {"stone": gettext(stone.name), "side": direction_with_compass(_fall_direction(stone), motion), "time": _fall_time(stone)}
     if stone.fell_onto is None:
-        return gettext("{stone} fell at {time:.2f} s to {side}, and is still in the air.", **values)
+        return gettext("{stone} fell at {time:.2f} s to {side}; in the air at the end of the run.", **values)
     if stone.fell_onto == GROUND:
         return gettext("{stone} fell at {time:.2f} s to {side}, onto the ground.", **values)
     return gettext("{stone} fell at {time:.2f} s to {side}, onto {other}.", **values, other=gettext(stone.fell_onto))
 
 
 def _group_name(falls: Sequence[StoneOutcome], pile: Pile) -> str:
-    """Return what stones are together: the whole pile, all that stood on one stone, or their names."""
+    """Return the whole pile, all stones above one, or the names."""
     names = {stone.name for stone in falls}
     if len(names) == len(pile.stones):
         return gettext("All {count} stones", count=len(names))
     foot, *further_bases = {stone.on for stone in pile.stones if stone.name in names and stone.on not in names}
     if not further_bases and foot != GROUND and _stones_above(foot, pile) == names:
-        return gettext("All above {stone}", stone=gettext(foot))
+        return gettext("All stones above {stone}", stone=gettext(foot))
     return _names(falls)
 
 
 def _stones_above(foot: str, pile: Pile) -> set[str]:
-    """Return the stones that stand on a stone, and on those."""
+    """Return the stones supported by a stone, directly or indirectly."""
     stones = {foot}
-    for stone in pile.stones:  # from below upwards
+    for stone in pile.stones:  # supports come before the stones that they carry
         if stone.on in stones:
             stones.add(stone.name)
     return stones - {foot}
 
 
 def _names(stones: Sequence[StoneOutcome]) -> str:
-    """Return the names of stones, or how many they are."""
+    """Return the names of stones, or their number if there are many."""
     if len(stones) > MAX_NAMES:
         return gettext("{count} stones", count=len(stones))
     return join_list(gettext(stone.name) for stone in stones)
 
 
 def _fall_time(stone: StoneOutcome) -> float:
-    """Return when a stone fell, s."""
     return stone.fell_at_s or 0.0
 
 
 def _fall_direction(stone: StoneOutcome) -> float:
-    """Return to where it fell, degrees from +x."""
+    """Return the direction of fall, degrees from +x."""
     return stone.fell_towards_deg or 0.0
 
 
 def _mean_direction(falls: Sequence[StoneOutcome]) -> float:
-    """Return the mean direction of falls, degrees from +x."""
+    """Return the circular mean of the fall directions, degrees from +x."""
     angles = [math.radians(_fall_direction(stone)) for stone in falls]
     return math.degrees(math.atan2(sum(map(math.sin, angles)), sum(map(math.cos, angles))))
 
 
 def _angle_between(a: float, b: float) -> float:
-    """Return the angle between two directions, degrees."""
     return abs(math.remainder(a - b, 360.0))

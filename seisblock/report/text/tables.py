@@ -1,4 +1,4 @@
-"""Tables for people: one console, one style, units in the heading."""
+"""Console, tables and number formats of the text reports."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.core.i18n import escape_control, gettext
+from seisblock.core.i18n import escape_control, gettext, join_sentences
 from seisblock.records import Record
 from seisblock.records.site import format_local_time, get_site
 from seisblock.report.text.record_info import record_info
@@ -23,37 +23,37 @@ from seisblock.report.units_display import acceleration_unit
 Item = TypeVar("Item")
 
 DASH = "-"
-"""What stands where there is no number."""
+"""Cell without a value."""
 
 UNBOUNDED_WIDTH = 10_000
-"""Columns of a terminal that is wide enough for anything."""
+"""Console width without wrapping, columns."""
 
 
 def console(*, stderr: bool = False) -> Console:
-    """Return a console on the present stdout or stderr; colours obey NO_COLOR and pipes."""
+    """Return a console on the current stdout or stderr; colours follow NO_COLOR and pipes."""
     return _Console(stderr=stderr, highlight=False, markup=False, emoji=False, soft_wrap=False)
 
 
 class _Console(Console):
-    """A console that lets the command line decide what to do when its reader has gone."""
+    """Console that leaves broken pipes to the command line."""
 
     def print(self, *objects: Any, **options: Any) -> None:
-        """Print; a text goes in a group, for rich would join bare ones into a text of its own, broken at blanks only."""
+        """Print; single texts are grouped because rich joins bare ones into its own text, broken at blanks only."""
         super().print(*(Group(item) if isinstance(item, Text) else item for item in objects), **options)
 
     def on_broken_pipe(self) -> None:
-        """Raise, instead of leaving the process."""
+        """Raise instead of exiting."""
         raise BrokenPipeError
 
 
 def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:
-    """Return a table under its title: the first column is text, numbers are right-aligned.
+    """Return a table under its title: the first column left-aligned, the others right-aligned.
 
     Parameters
     ----------
     title : str
     columns : sequence of str
-        Headings; a unit stands in round brackets.
+        Headings, with the unit in round brackets.
     rows : sequence of rows
         Texts, or numbers that :func:`format_number` formats.
     caption : str
@@ -62,13 +62,13 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
 
 
 def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:
-    """Return a table with a column for each of some things; what does not fit beside each other goes on below.
+    """Return a table with a column per item, split into several tables where the terminal ends.
 
     Parameters
     ----------
     title : str
     names : sequence of str
-        Headings; the first is that of the names of the rows.
+        Headings; the first one is that of the row names.
     rows : sequence of rows
         Texts, or numbers that :func:`format_number` formats.
     caption : str
@@ -77,13 +77,12 @@ def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]]
 
 
 def _with_title(title: str, body: Any, caption: str) -> Group:
-    """Return a table between its title and its caption: rich would wrap them to its width."""
+    """Return a table between title and caption; rich would wrap both to the table width."""
     around = [styled_line(title, "italic")] if title else []
     return Group(*around, body, *([styled_line(caption, "dim")] if caption else []))
 
 
 def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
-    """Return the table alone."""
     result = Table(box=SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(columns):
         result.add_column(escape_control(heading), justify="left" if index == 0 else "right", overflow="fold")
@@ -95,13 +94,12 @@ def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
 
 
 class _SplitTable:
-    """A table that is cut between its columns where the terminal ends; the first column is repeated."""
+    """Table split between columns at the terminal width; the first column is repeated."""
 
     def __init__(self, names: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
         self.names, self.rows = names, rows
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        """Yield as many tables as it takes."""
         first, unbound = 1, options.update_width(UNBOUNDED_WIDTH)
         while first < len(self.names):
             last = len(self.names)
@@ -113,26 +111,24 @@ class _SplitTable:
             first = last
 
     def _part(self, first: int, last: int) -> Table:
-        """Return the table of the columns from one to before another."""
         return _table([self.names[0], *self.names[first:last]], [[row[0], *row[first:last]] for row in self.rows])
 
 
 def styled_line(text: str = "", style: str = "") -> Text:
-    """Return a text for the console; what a file wrote into it neither commands the terminal nor marks anything up."""
+    """Return a text for the console with control characters escaped and without markup."""
     return _WrappedText(escape_control(text), style)
 
 
 class _WrappedText(Text):
-    """A text that is broken between wide letters too: rich breaks at blanks, of which Japanese has few."""
+    """Text with line breaks between wide characters, too; rich breaks at blanks, of which Japanese has few."""
 
     def wrap(self, console: Console, width: int, **options: Any) -> Lines:  # type: ignore[override]
-        """Return the lines of the text."""
         if not is_wide(self.plain) and not (has_quantity(self.plain) and fits(self.plain, width)):
             return super().wrap(console, width, **options)
         lines = Lines()
         for part in self.split("\n", allow_blank=True):
             first, *further_pieces = part.divide(break_positions(part.plain, width))
-            # a line that goes on begins with no blank
+            # continuation lines begin without a blank
             lines.extend([first, *(segment[len(segment) - len(segment.plain.lstrip()) :] for segment in further_pieces)])
         for segment in lines:
             segment.rstrip()
@@ -143,7 +139,7 @@ class _WrappedText(Text):
 
 
 def format_number(value: Any, digits: int = 4) -> str:
-    """Return a number with so many significant digits, a truth as yes or no, nothing as a dash."""
+    """Return a number with `digits` significant digits, yes or no for a boolean, a dash for none."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return DASH
     if isinstance(value, bool):
@@ -158,32 +154,54 @@ def format_number(value: Any, digits: int = 4) -> str:
 
 
 def format_fixed(value: float, decimals: int) -> str:
-    """Return a number with so many decimals; what rounds to nothing has no sign."""
+    """Return a number with a fixed number of decimals, without negative zero."""
     # adding zero after rounding turns -0.0 into 0.0
     return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 def format_seconds(value: float | None) -> str:
-    """Return a time to the millisecond."""
+    """Return a time, s, to the millisecond."""
     return DASH if value is None else f"{value:.3f}"
 
 
+def format_share_interval(interval: tuple[float, float]) -> str:
+    """Return an interval of shares in per cent, with one decimal for ends that would round to 0 or 100.
+
+    Examples
+    --------
+    >>> format_share_interval((0.297, 0.438)), format_share_interval((0.0, 0.018)), format_share_interval((0.0013, 0.9996))
+    ('30-44 %', '0-2 %', '0.1-100.0 %')
+    """
+    low, high = (f"{100.0 * end:.{1 if 0.0 < end < 0.005 or 0.995 <= end < 1.0 else 0}f}" for end in interval)
+    return gettext("{low}-{high} %", low=low, high=high)
+
+
+def tilt_ratio_cell(ratio: float, *, overturned: bool) -> str:
+    """Return the peak tilt over the overturning angle; beyond it the tilt of a falling body has no meaning as a ratio."""
+    return ">1" if overturned else format_number(ratio)
+
+
+def with_notes(result: str, notes: Sequence[str]) -> str:
+    """Return a result followed by its notes."""
+    return gettext("{result} {notes}", result=result, notes=join_sentences(notes)) if notes else result
+
+
 def acceleration_cell(value: float | None, *, gal: bool) -> str:
-    """Return an acceleration given in m/s^2 in the unit asked for."""
+    """Return an acceleration, m/s^2, in gal or m/s^2."""
     return DASH if value is None else f"{value / acceleration_unit(gal=gal).size:.{1 if gal else 4}f}"
 
 
 def format_acceleration(value: float | None, *, gal: bool) -> str:
-    """Return an acceleration given in m/s^2 with the unit asked for."""
+    """Return an acceleration, m/s^2, in gal or m/s^2 with the unit."""
     return f"{acceleration_cell(value, gal=gal)} {acceleration_unit(gal=gal).name}"
 
 
 def group_answers(
     items: Iterable[Item], record_of: Callable[[Item], Record | None], verdict_of: Callable[[Item], Iterable[Text]]
 ) -> Iterator[tuple[list[Text], list[Item]]]:
-    """Yield, record by record, what the answer begins with, and what belongs to it.
+    """Yield, per record, the heading lines and the items.
 
-    The answer to what was asked comes first, then the line of the record that it is about; several records begin with their lines.
+    For one record the verdicts come first, then the record line; for several records each group begins with its record line.
 
     Parameters
     ----------
@@ -191,7 +209,7 @@ def group_answers(
     record_of : callable
         Returns the record of an item, None where it has none.
     verdict_of : callable
-        Returns the lines that say what happened.
+        Returns the verdict lines.
     """
     parts: dict[int, tuple[Record | None, list[Item]]] = {}
     for item in items:
@@ -204,8 +222,8 @@ def group_answers(
 
 
 def record_line(record: Record) -> Text:
-    """Return one line that says which record an answer is about."""
-    start = format_local_time(record, record.start) or gettext("start unknown")
+    """Return a line that identifies a record, with station, earthquake, processing and warnings below."""
+    start = format_local_time(record, record.start) or gettext("start time unknown")
     name = get_site(record).label or record.source or gettext("record")
     text = gettext(
         "{name}  {start}  {samples} samples, {rate:g} Hz, {format}",
@@ -220,10 +238,10 @@ def record_line(record: Record) -> Text:
         result.append(f"\n{escape_control(text)}", style="not bold")
     result.append(f"\n{escape_control(processing_text(record))}", style="dim not bold")
     for flag in record.doubts:
-        result.append("\n" + gettext("doubtful: {doubt}", doubt=flag.message), style="yellow not bold")
+        result.append("\n" + gettext("warning: {doubt}", doubt=flag.message), style="yellow not bold")
     return result
 
 
 def processing_text(record: Record) -> str:
-    """Return what was done to a record since it was read."""
-    return "; ".join(map(gettext, record.history)) or gettext("as read")
+    """Return the processing applied to a record."""
+    return "; ".join(map(gettext, record.history)) or gettext("no processing")

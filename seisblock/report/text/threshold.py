@@ -1,4 +1,4 @@
-"""What it would take: the shaking from which a body that kept still would move, beside that of the record."""
+"""Thresholds of rocking and sliding of a body at rest, relative to the record."""
 
 from __future__ import annotations
 
@@ -13,54 +13,54 @@ from seisblock.records import Motion
 from seisblock.records.motion import ALONG, UP
 from seisblock.report.text.tables import format_acceleration
 
-ROCKS, SLIDES = N_("rocks from {threshold} on{factor}"), N_("slides from {threshold} on{factor}")
-"""How a body that kept still would begin to move."""
+ROCKS, SLIDES = N_("rocking threshold {threshold}{factor}"), N_("sliding threshold {threshold}{factor}")
+"""Templates of the two kinds of initiation."""
 
 SCIENTIFIC_LIMIT = 1e6
-"""Factor from which nobody counts its digits."""
+"""Factor from which scientific notation is used."""
 
 
 def threshold_text(
     template: str, towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0, gal: bool = True
 ) -> str:
-    """Return from which acceleration of the ground a body moves, and how many times the record that is.
+    """Return the ground acceleration at which a body moves, and its ratio to the record.
 
     Parameters
     ----------
     template : str
         ``ROCKS`` or ``SLIDES``.
     towards : two float, 1
-        Horizontal over vertical force, at the feet, at which it begins to move to +x and to -x; infinite where it cannot.
+        Horizontal over vertical force at the feet at initiation of motion to +x and to -x; infinite if impossible.
     motion : Motion
-        A motion above the threshold is told no factor: then something else held the body.
+        No factor is printed for a motion above the threshold.
     gravity : float, m/s^2
     vertical : float, 1
-        Factor on the vertical motion: where it acts the weight comes and goes, and the record's factor is not that of its peak.
+        Factor on the vertical motion, which varies the weight; the factor then differs from threshold over PGA.
     gal : bool
 
     Examples
     --------
     >>> threshold_text(ROCKS, (0.2, 0.2), Motion.from_arrays([0.0, 1.0, -1.6], 0.01), gravity=10.0)
-    "rocks from 200.0 gal on, 1.25 times this record's PGA"
+    "rocking threshold 200.0 gal (1.25 times this record's PGA)"
     >>> sinking = Motion.from_arrays([0.0, 1.0, -1.6], 0.01, vertical=[0.0, 0.0, -1.0])
     >>> threshold_text(ROCKS, (0.2, 0.2), sinking, gravity=10.0, vertical=1.0)
-    'rocks from 200.0 gal on without vertical motion, 1.11 times this record with it'
+    'rocking threshold 200.0 gal without vertical motion (1.11 times this record with it)'
     """
     threshold, peak = min(towards) * gravity, float(np.abs(motion.horizontal).max())
     factor = onset_factor(towards, motion, gravity=gravity, vertical=vertical)
-    words = ""
+    factor_text = ""
     if 1.0 < factor < np.inf:
         if vertical and motion.vertical.any():
-            words = gettext(" without vertical motion, {times} times this record with it", times=format_factor(factor))
+            factor_text = gettext(" without vertical motion ({times} times this record with it)", times=format_factor(factor))
         elif np.isclose(factor * peak, threshold):
-            words = gettext(", {times} times this record's PGA", times=format_factor(factor))
+            factor_text = gettext(" ({times} times this record's PGA)", times=format_factor(factor))
         else:
-            words = gettext(", {times} times this record", times=format_factor(factor))
-    return gettext(template, threshold=format_acceleration(threshold, gal=gal), factor=words)
+            factor_text = gettext(" ({times} times this record)", times=format_factor(factor))
+    return gettext(template, threshold=format_acceleration(threshold, gal=gal), factor=factor_text)
 
 
 def effective_friction(options: Mapping[str, Any]) -> float:
-    """Return the friction that holds the feet of a body that stands, 1: without limit where tenons hold them, too.
+    """Return the friction coefficient at the feet, 1; infinite with tenons.
 
     Parameters
     ----------
@@ -76,9 +76,9 @@ def effective_friction(options: Mapping[str, Any]) -> float:
 
 
 def onset_factor(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:
-    """Return the least factor on a motion from which a body moves; infinite where none does.
+    """Return the smallest scale factor at which a body moves; infinite if none does.
 
-    The ground pushes the body to +x where it goes to -x, with -a against a resistance of c (g + a_v), both of them scaled.
+    Motion to +x begins at -a = c (g + a_v) with ground acceleration a to +x; a and a_v are both scaled (derived here).
 
     Examples
     --------
@@ -95,11 +95,12 @@ def onset_factor(towards: tuple[float, float], motion: Motion, *, gravity: float
 
 
 def format_factor(factor: float) -> str:
-    """Return a factor to three digits, whole from 100 on, as a power of ten from a million on.
+    """Return a factor to three digits, as an integer from 100 on, as a power of ten from a million on.
 
     Examples
     --------
-    >>> format_factor(1.25), format_factor(340.2), format_factor(1053.7), format_factor(8.7e300)
-    ('1.25', '340', '1054', '8.7e+300')
+    >>> format_factor(1.25), format_factor(1.0004), format_factor(340.2), format_factor(1053.7), format_factor(8.7e300)
+    ('1.25', '1.00', '340', '1054', '8.70e+300')
     """
-    return f"{factor:.0f}" if 100.0 <= factor < SCIENTIFIC_LIMIT else f"{factor:.3g}"
+    # the alternate form keeps trailing zeros: a factor just above 1 reads 1.00
+    return f"{factor:.0f}" if 100.0 <= factor < SCIENTIFIC_LIMIT else f"{factor:#.3g}"

@@ -1,4 +1,4 @@
-"""How uplift under a record is told: a table per component and a sentence."""
+"""Text report of uplift under a record: a sentence and a table of corners per component."""
 
 from __future__ import annotations
 
@@ -16,31 +16,29 @@ from seisblock.report.units_display import format_length, length_cell, length_un
 UpliftResponses = Sequence[Response[UpliftOutcome]]
 
 BEYOND_MODEL = N_(
-    "how far it lifts cannot be told: the block leans beyond {small:g} of its slenderness, where this model, without P-delta, fails."
+    "amount of uplift not available: the tilt exceeds {small:g} of the overturning angle, beyond the range of this model (no P-delta)."
 )
-"""What stands in the place of numbers that are none."""
+"""Text in place of values beyond the range of the model."""
 
 MIN_SHARE = 5e-4
-"""A smaller share of the time would be written as 0.0 %."""
+"""Smallest share of time printed; smaller ones would read 0.0 %."""
 
 CORNER_LABELS = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
-"""Names of the corners."""
 
 
 def tables(responses: UpliftResponses, *, gal: bool) -> Iterator[Any]:
-    """Yield the record, and for each component a table of the corners and what happened in words."""
+    """Yield the record, and per component a sentence and a table of the corners."""
     for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
         yield from heading
         yield from (block for response in part for block in _details(response, gal=gal))
 
 
 def _details(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[Any]:
-    """Yield the table of one component, and how its springs move."""
     outcome = response.outcome
     yield table(f"+x = {response.motion.name}", [gettext("corner"), *CORNER_LABELS], _rows(response, gal=gal))
     yield styled_line(
         gettext(
-            "Natural frequencies {frequencies} Hz; at rest it sinks by {settlement}.",
+            "Natural frequencies {frequencies} Hz; static settlement {settlement}.",
             frequencies=[f"{f:.3g}" for f in outcome.natural_frequencies_hz],
             settlement=format_length(outcome.static_settlement_m, gal=gal),
         )
@@ -49,7 +47,7 @@ def _details(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[Any]:
 
 
 def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]]:
-    """Yield what each corner did, a column per corner; where the model does not hold, the first uplift alone."""
+    """Yield the table rows, a column per corner; only the first uplift beyond the range of the model."""
     corners = response.outcome.corners
     static = response.body.static_corner_force(response.options["gravity_m_s2"])
     yield [gettext("first uplift (s)"), *(format_seconds(c.first_uplift_s) for c in corners)]
@@ -65,33 +63,33 @@ def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]
 
 
 def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
-    """Return what happened in words."""
+    """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.uplifts:
         if outcome.uplift_scale is None:
-            return gettext("{name}: no corner lifts.", name=name)
+            return gettext("{name}: no uplift.", name=name)
         factor = format_factor(outcome.uplift_scale)
-        return gettext("{name}: no corner lifts; the motion would have to be {factor} times as strong.", name=name, factor=factor)
+        return gettext("{name}: no uplift; scale factor to uplift {factor}.", name=name, factor=factor)
     corners = outcome.first_corners
     if len(corners) > 1:
         numbers = gettext(" and ").join(map(str, corners))
         first_text = gettext(
-            "{name}: corners {corners} lift first, at {time:.3f} s", name=name, corners=numbers, time=outcome.first_uplift_s
+            "{name}: first uplift at corners {corners}, at {time:.3f} s", name=name, corners=numbers, time=outcome.first_uplift_s
         )
     else:
         first_text = gettext(
-            "{name}: corner {corner} lifts first, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s
+            "{name}: first uplift at corner {corner}, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s
         )
     if not outcome.within_model:
         caveat = gettext(BEYOND_MODEL, small=MAX_LEAN_RATIO)
-        factor_text = gettext("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
+        factor_text = gettext("Scale factor to uplift {factor:.3g}.", factor=outcome.uplift_scale)
         return join_sentences([gettext("{first}; {second}", first=first_text, second=caveat), factor_text])
     shares = [
         gettext("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share >= MIN_SHARE
     ]
     return first_text + gettext(
-        "; the highest uplift is {most}. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "
-        "{factor:.3g} times this motion just lifts one.",
+        "; maximum uplift {most}. Time in the air {air:.3f} s, {changes} changes of contact ({shares} corners). Scale "
+        "factor to uplift {factor:.3g}.",
         most=format_length(outcome.max_uplift_m, gal=gal),
         air=outcome.uplift_duration_s,
         changes=outcome.contact_changes,

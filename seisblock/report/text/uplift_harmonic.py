@@ -1,4 +1,4 @@
-"""How harmonic uplift is told: modes, minima and the curve, as tables, document and file."""
+"""Text report of harmonic uplift: modes, minima and the uplift curve."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "�
 UNITS = {"phi": "°", "rho": "°"}
 RANGE_END = N_("end of the range")
 MAX_ROWS = 24
-"""Rows of a curve that a terminal shows unless the frequencies were asked for."""
+"""Most rows of a curve on the terminal, unless frequencies are given."""
 
 
 def region_title(region: UpliftRegion, names: Sequence[str] = tuple(SYMBOLS)) -> str:
-    """Return the parameters of a region in the paper's letters."""
+    """Return the parameters of a region in the notation of the paper."""
     return ", ".join(f"{SYMBOLS[name]} = {region.ratios[name]:.4g}{UNITS.get(name, '')}" for name in names)
 
 
@@ -31,7 +31,7 @@ def varied_names(regions: Sequence[UpliftRegion]) -> list[str]:
 
 
 def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
-    """Yield the modes, the minima and the curve of each region."""
+    """Yield modes, minima and curve of each region."""
     for region in regions:
         yield styled_line(verdict(region), "bold")
         wv, w1 = region.body.omega[2], region.modes.omega_1
@@ -44,8 +44,8 @@ def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
             ],
         )
         yield table(
-            gettext("least A/g that lifts a corner"),
-            [gettext("near the mode"), "θ/ω_1", "A/g", gettext("corner")],
+            gettext("smallest A/g with uplift"),
+            [gettext("near mode"), "θ/ω_1", "A/g", gettext("corner")],
             [[gettext(m.mode or RANGE_END), m.frequency_ratio, m.acceleration_ratio, _corner_text(m.corners)] for m in region.minima]
             or [
                 [
@@ -63,26 +63,24 @@ def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
             gettext("uplift curve"),
             ["θ/ω_1", "A/g"],
             [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in indices],
-            caption="" if step == 1 else gettext("one of {step} of {all} rows; all with --csv or --json", step=step, all=n),
+            caption="" if step == 1 else gettext("every {step}th of {all} rows; all with --csv or --json", step=step, all=n),
         )
 
 
 def verdict(region: UpliftRegion) -> str:
-    """Return how hard the shaking must be that lifts a corner, and where it is easiest."""
+    """Return the smallest amplitude with uplift and its frequency."""
     minimum = region.minimum
     if not math.isfinite(minimum.acceleration_ratio):
-        return gettext("{block}: no shaking lifts a corner.", block=region_title(region))
-    text = N_("{block}: a corner lifts from {least:.3g} g on, at {ratio:.3g} times the first rocking frequency.")
+        return gettext("{block}: no uplift at any amplitude.", block=region_title(region))
+    text = N_("{block}: uplift from {least:.3g} g at {ratio:.3g} times the first rocking frequency.")
     return gettext(text, block=region_title(region), least=minimum.acceleration_ratio, ratio=minimum.frequency_ratio)
 
 
 def _finite_or_none(value: float) -> Any:
-    """Return a number, or nothing when no amplitude lifts."""
     return value if math.isfinite(value) else None
 
 
 def _corner_text(corners: Sequence[int]) -> str:
-    """Return corners as text."""
     return gettext("any") if len(corners) == 4 else " ".join(str(corner) for corner in corners)
 
 

@@ -1,4 +1,4 @@
-"""How the evidence is told: what differs from a paper and why, first; then everything that holds."""
+"""Text report of the evidence: failures, explained differences, agreements."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.core.i18n import N_, gettext, join_sentences, lazy_gettext
-from seisblock.report.text.tables import styled_line, table
+from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.report.text.tables import styled_line, table, with_notes
 from seisblock.validation.case import (
     EVIDENCE_KINDS,
     VERDICTS,
@@ -28,9 +28,9 @@ WIDTH = 110
 """Widest line, characters."""
 
 _HEADINGS: dict[Verdict, str] = {
-    "fails": N_("What does not read as claimed"),
-    "differs": N_("What differs from the papers, and why"),
-    "holds": N_("What holds"),
+    "fails": N_("Cases that fail"),
+    "differs": N_("Differences from the papers, with causes"),
+    "holds": N_("Cases that hold"),
 }
 _STYLES: dict[Verdict, str] = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
 
@@ -38,13 +38,13 @@ KINDS: dict[EvidenceKind, str] = {
     "computed": N_("computed"),
     "rebuilt": N_("input rebuilt"),
     "derived": N_("derived here"),
-    "print": N_("print itself"),
+    "print": N_("print check"),
 }
-"""Short names of what a case is worth."""
+"""Short names of the kinds of evidence."""
 
 
 def tables(results: Sequence[CaseResult], *, all_cases: bool = True) -> Iterator[Any]:
-    """Yield what is printed: how many hold; what fails, what differs and why, paper by paper; what holds, if all is asked for; counts.
+    """Yield counts; failures and explained differences by paper; agreements if `all_cases`; counts by kind.
 
     Parameters
     ----------
@@ -71,27 +71,27 @@ def _explained_cases(results: Sequence[CaseResult]) -> Iterator[Any]:
     for note in dict.fromkeys(map(explanation, results)):
         yield _case_table([result for result in results if explanation(result) == note])
         if note:
-            yield Constrain(Padding(styled_line(gettext("why: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
+            yield Constrain(Padding(styled_line(gettext("cause: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
 
 
 def explanation(result: CaseResult) -> str:
-    """Return why a case differs; or, of one that fails, what was claimed of it."""
+    """Return the reason of a difference, or the broken claim of a failed case."""
     case = result.case
     if result.verdict != "fails":
         return gettext(case.note)
     if math.isnan(result.computed):
-        return gettext("it could not be computed")
+        return gettext("not computed")
     if case.status == "holds":
-        return gettext("should agree and does not")
+        return gettext("expected to agree, differs")
     if case.today is None or abs(result.error) <= case.tolerance:
-        return gettext("is said to differ, and agrees")
-    return gettext("differs by another amount than was explained: {value:.6g} then", value=case.today[0])
+        return gettext("expected to differ, agrees")
+    return gettext("differs by another amount than explained (explained: {value:.6g})", value=case.today[0])
 
 
 def _case_table(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
-    """Return expected, computed, difference and tolerance, one row per case; columns align from one grid to the next."""
+    """Return expected, computed, difference and tolerance, one row per case; columns align between grids."""
     grid = Table(box=None, show_header=heading, pad_edge=False, width=None, expand=True)
-    grid.add_column("  " + gettext("where"), width=13)
+    grid.add_column("  " + gettext("place"), width=13)
     grid.add_column(gettext("quantity"), ratio=1)
     for name, width in ((gettext("expected"), 10), (gettext("computed"), 10), (gettext("error"), 8), (gettext("tolerance"), 9)):
         grid.add_column(name, width=width, justify="right", overflow="fold")
@@ -102,18 +102,18 @@ def _case_table(results: Sequence[CaseResult] = (), *, heading: bool = False) ->
 
 
 def quantity_label(result: CaseResult) -> str:
-    """Return what is compared, with its unit."""
+    """Return the compared quantity with its unit."""
     unit_text = unit_label(result.case)
     return gettext(result.case.quantity) + (f" ({unit_text})" if unit_text else "")
 
 
 def unit_label(case: Case) -> str:
-    """Return the unit of a case as it is printed, nothing where it has none."""
+    """Return the unit of a case; empty without one."""
     return "" if case.unit == "1" else case.unit.replace("^2", "²")
 
 
 def quantity_with_kind(result: CaseResult) -> str:
-    """Return what is compared, and what the case is worth where the program is not compared with the paper itself."""
+    """Return the compared quantity, with the kind of evidence unless computed from the input of the paper."""
     kind = result.case.kind
     return quantity_label(result) if kind == "computed" else f"{quantity_label(result)} [{gettext(KINDS[kind])}]"
 
@@ -122,11 +122,11 @@ MAX_CHARACTERS = 10
 """Most characters of a number in a column."""
 
 INTEGER_LIMIT, INTEGER_DIGITS = 1e5, 5
-"""Below this a number is told without a power of ten."""
+"""Numbers below this are printed without a power of ten."""
 
 
 def format_short(value: float, digits: int = 5) -> str:
-    """Return a number with so many significant digits, in as few characters as that takes.
+    """Return a number with `digits` significant digits in the fewest characters.
 
     Examples
     --------
@@ -142,7 +142,7 @@ def format_short(value: float, digits: int = 5) -> str:
 
 
 def _kind_table(results: Sequence[CaseResult]) -> Any:
-    """Return how many cases of each kind got each verdict."""
+    """Return the number of cases by kind and verdict."""
     rows = [
         [
             gettext(EVIDENCE_KINDS[kind]),
@@ -153,23 +153,22 @@ def _kind_table(results: Sequence[CaseResult]) -> Any:
         ]
         for kind, verdict_counts in count_verdicts_by_kind(results).items()
     ]
-    header = [gettext("what a case is worth"), gettext("cases"), gettext("hold"), gettext("differ"), gettext("fail")]
-    return table(gettext("The evidence"), header, rows)
+    header = [gettext("kind of evidence"), gettext("cases"), gettext("hold"), gettext("differ"), gettext("fail")]
+    return table(gettext("Evidence by kind"), header, rows)
 
 
 def _count_line(results: Sequence[CaseResult], *, all_cases: bool) -> Text:
-    """Return the first line."""
     verdict_counts = count_verdicts(results)
     singular, plural = N_("1 case: {verdicts}."), N_("{all} cases: {verdicts}.")
     text = styled_line(
         gettext(singular if len(results) == 1 else plural, all=len(results), verdicts=verdict_counts_text(verdict_counts)),
         "bold red" * bool(verdict_counts["fails"]),
     )
-    return text if all_cases else text.append(join_sentences(["", gettext("--all lists those that hold.")]), style="dim")
+    return text if all_cases else text.append(with_notes("", [gettext("--all lists the cases that hold.")]), style="dim")
 
 
 def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:
-    """Return how many cases got each verdict, in words.
+    """Return the number of cases by verdict.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where a line may end: between words, and between the wide letters of Japanese, which take two columns of a terminal."""
+"""Line wrapping for Latin text and full-width Japanese characters."""
 
 from __future__ import annotations
 
@@ -6,44 +6,44 @@ import re
 from itertools import pairwise
 
 _WIDE = r"\u1100-\u115f\u2e80-\u303e\u3041-\u3247\u3250-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe6f\uff00-\uff60\uffe0-\uffe6"
-"""Letters that take two columns."""
+"""Characters two columns wide."""
 
 _CLOSING_PUNCTUATION = "、。，．）」』］：；！？ー・々ぁぃぅぇぉゃゅょっァィゥェォャュョッ"
-"""Marks that may not begin a line."""
+"""Characters that may not begin a line."""
 
 _UNITS = rf"(?:%|mm|cm|km|m|s|Hz|gal|kine|g|kg|N|J|rad|deg)(?![\w/])(?:[^\s{_WIDE}]*)"
-"""What belongs to the number before it, with the marks behind it."""
+"""Unit that stays with the preceding number, with following punctuation."""
 
 _NUMBER = rf"[(+-]*\d[\d.,]*\ {_UNITS}"
 
 _ATOM = re.compile(rf"\s*[（「『［]*(?:{_NUMBER}|[^\s{_WIDE}]+|[{_WIDE}])[{_CLOSING_PUNCTUATION}]*|\s+")
-"""What is not broken: a word, a number with its unit, or a wide letter, with the marks that belong to it."""
+"""Unbreakable piece: a word, a number with unit, or a wide character, with adjacent punctuation."""
 
 _WIDE_LETTER = re.compile(rf"[{_WIDE}]")
 
 
 def is_wide(text: str) -> bool:
-    """Whether a text holds letters that take two columns."""
+    """Return whether a text contains characters two columns wide."""
     return _WIDE_LETTER.search(text) is not None
 
 
 def has_quantity(text: str) -> bool:
-    """Whether a text holds a number with a unit, which should stay together."""
+    """Return whether a text contains a number with a unit, which should stay together."""
     return re.search(_NUMBER, text) is not None
 
 
 def fits(text: str, width: int) -> bool:
-    """Whether no word of a text takes more columns than `width`."""
+    """Return whether every unbreakable piece of a text fits into `width` columns."""
     return max((display_width(atom[0].strip()) for atom in _ATOM.finditer(text)), default=0) <= width
 
 
 def display_width(text: str) -> int:
-    """Return how many columns of a terminal a text takes."""
+    """Return the number of terminal columns of a text."""
     return len(text) + len(_WIDE_LETTER.findall(text))
 
 
 def break_positions(text: str, width: int) -> list[int]:
-    """Return where a text is broken, as positions in it, so that no line takes more columns than `width`.
+    """Return the positions of line breaks such that no line exceeds `width` columns.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def break_positions(text: str, width: int) -> list[int]:
     start = end = 0
     for atom in _ATOM.finditer(text):
         so_far = text[start : atom.end()].rstrip()
-        # a line that goes on loses the blank before it
+        # leading blanks of continuation lines are dropped and do not count
         if end > start and display_width(so_far.lstrip() if positions else so_far) > width:
             start = end
             positions.append(start)
@@ -65,6 +65,6 @@ def break_positions(text: str, width: int) -> list[int]:
 
 
 def wrap_text(text: str, width: int) -> list[str]:
-    """Return a text in lines of at most so many columns."""
+    """Return the lines of a text wrapped to `width` columns."""
     ends = [0, *break_positions(text, width), len(text)]
     return [text[first:last].strip() for first, last in pairwise(ends)]

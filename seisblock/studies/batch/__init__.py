@@ -1,1 +1,1 @@
-"""Many records and many bodies: one table."""
+"""Batches of records and bodies with one result table."""

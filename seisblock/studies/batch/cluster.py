@@ -1,4 +1,4 @@
-"""A batch on a Dask scheduler: each record with all its rows is a task, so that a task takes seconds and travels once."""
+"""Batch on a Dask scheduler: one task per record with all its rows, so that transfer costs are small."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 LOCAL_PREFIX = "local:"
-"""What the name of a cluster of this machine's own processes begins with."""
+"""Prefix of cluster names with processes on this machine."""
 
 CONNECT_TIMEOUT_S = 10
-"""How long a scheduler may take to answer."""
+"""Connection timeout, s."""
 
 TASKS_PER_THREAD = 4
-"""Tasks handed out for each thread of the workers: enough that none waits, few enough that memory stays flat."""
+"""Submitted tasks per worker thread: keeps workers busy at bounded memory."""
 
 POLL_INTERVAL_S = 1.0
-"""How often a scheduler is asked how many threads its workers have: they come and go, and each question is a round trip."""
+"""Interval between queries of the number of worker threads, s; each one is a round trip."""
 
 QUIET_DASK_CONFIG = {
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.system-monitor.interval": "5s",
     "distributed.worker.profile.enabled": False,
 }
-"""How seldom the processes started here look at themselves: by default fifty to a hundred times a second, and nobody reads it."""
+"""Slower self-monitoring of local processes; the default is 50 to 100 times per second."""
 
 
 @contextmanager
 def connect(address: str) -> Iterator[Client]:
-    """Give a client of a scheduler, or of processes started here that end with the block.
+    """Context manager of a client of a scheduler, or of local processes closed at exit.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def connect(address: str) -> Iterator[Client]:
     Raises
     ------
     ParameterError
-        If the package is not installed, the address is none, or no scheduler answers there.
+        If the package is not installed, the address is invalid, or no scheduler responds.
     """
     try:
         import dask
         from distributed import Client, LocalCluster
     except ImportError as error:
-        raise ParameterError("a cluster needs Dask: pip install 'seisblock[distributed]'") from error
+        raise ParameterError("a cluster requires Dask: pip install 'seisblock[distributed]'") from error
     if address.startswith(LOCAL_PREFIX):
         with (
             dask.config.set(QUIET_DASK_CONFIG),
@@ -72,44 +72,46 @@ def connect(address: str) -> Iterator[Client]:
         return
     try:
         client = Client(address, timeout=CONNECT_TIMEOUT_S)
-    except (OSError, ValueError, TypeError, MemoryError) as error:  # what a web server answers begins, to Dask, with an enormous length
+    # Dask reads the answer of a web server as a huge message length: MemoryError
+    except (OSError, ValueError, TypeError, MemoryError) as error:
         raise ParameterError(
-            "no Dask scheduler answers at {address}: start one, or take {local} for the processes of this machine",
+            "no Dask scheduler responds at {address}; start one, or use {local} for processes on this machine",
             address=address[:200],
             local=LOCAL_PREFIX + "2",
         ) from error
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a scheduler that goes is told here, in a sentence
+    # a lost scheduler is reported by an exception below
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         yield client
 
 
 def _process_count(address: str) -> int:
-    """Return how many processes ``local:N`` asks for."""
+    """Return the number of processes of ``local:N``."""
     number = address[len(LOCAL_PREFIX) :]
     if not number.isdecimal() or not 1 <= int(number) <= 512:
-        raise ParameterError("a cluster of this machine is local:N with 1 to 512 processes, found {address}", address=address[:200])
+        raise ParameterError("a local cluster is given as local:N with N from 1 to 512; found {address}", address=address[:200])
     return int(number)
 
 
 def map_cluster(
     client: Client, work: Callable[[Task], Result], tasks: Iterable[Task], *, on_lost: Callable[[Task, str], Result]
 ) -> Generator[Result, None, None]:
-    """Yield the answers of many tasks, in their order; those of a worker that dies are done by another.
+    """Yield the results of tasks in their order; tasks of dead workers are repeated on others.
 
     Parameters
     ----------
     client : distributed.Client
     work : callable
-        One task; travels with each, so that no worker's death loses it.
+        Function of one task; sent with each task, so that the death of a worker does not lose it.
     tasks : iterable
-        Taken as they are needed.
+        Consumed lazily.
     on_lost : callable
-        ``lost(task, reason)``: the answer for a task that every worker which takes it dies of.
+        ``on_lost(task, reason)``: the result of a task that kills all its workers.
 
     Raises
     ------
     ParameterError
-        If the scheduler goes away.
+        If the scheduler stops responding.
     """
     from distributed import wait
 
@@ -128,7 +130,8 @@ def map_cluster(
                 return
             task, future = pending[0]
             result, reason = _wait_for_result(client, future)
-            if reason:  # what waited in a worker is blamed for its death, too: the one that is to blame dies alone as well
+            # tasks queued on a dead worker are blamed, too: rerun alone to find out whether this one is the cause
+            if reason:
                 wait([future for _, future in pending])
                 pending[0] = task, client.submit(pickled_work, task, pure=False)
                 result, reason = _wait_for_result(client, pending[0][1])
@@ -137,20 +140,21 @@ def map_cluster(
     except (OSError, CancelledError) as error:
         if not _is_disconnected(client, error):
             raise
-        raise ParameterError("the Dask scheduler stopped answering: start it again, and go on") from error
+        raise ParameterError("the Dask scheduler stopped responding; restart it and resume") from error
     finally:
         if client.status == "running":
-            with suppress(OSError):  # it may go this very moment
+            # the scheduler may disappear at this moment
+            with suppress(OSError):
                 client.cancel([future for _, future in pending])
 
 
 def _pickled_result(work: Callable[[Task], Result], task: Task) -> bytes:
-    """Return the answer of a task as bytes: rows that Dask sees into travel one by one."""
+    """Return the result of a task as bytes; Dask would otherwise serialise each row separately."""
     return pickle.dumps(work(task))
 
 
 def _wait_for_result(client: Client, future: Any) -> tuple[Any, str]:
-    """Return the answer of a task, or why it has none: every worker that took it died."""
+    """Return the result of a task, or the reason of its failure if all its workers died."""
     from distributed import KilledWorker
 
     try:
@@ -162,5 +166,5 @@ def _wait_for_result(client: Client, future: Any) -> tuple[Any, str]:
 
 
 def _is_disconnected(client: Client, error: BaseException) -> bool:
-    """Return whether an error tells of a scheduler that is gone, of which no task is to blame."""
+    """Return whether an error means a lost scheduler rather than a failed task."""
     return client.status != "running" or getattr(error, "reason", "") == "scheduler-connection-lost"

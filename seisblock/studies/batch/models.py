@@ -1,4 +1,4 @@
-"""What each solver of a batch needs of a listed body, and what it answers: one table instead of a branch in every place."""
+"""Batch solvers: body construction, solution and result columns of each model."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _SIZES = _BLOCK[:-3]
 
 @dataclass(frozen=True)
 class SolverBody:
-    """A body as one solver takes it: what it is called, what it is, and the options of its own."""
+    """Body of a solver with its name and options."""
 
     name: str
     body: Any
@@ -58,27 +58,27 @@ class SolverBody:
 
 @dataclass(frozen=True)
 class BatchModel:
-    """One solver of a batch.
+    """Batch solver.
 
     Parameters
     ----------
     name : str
     kinds : tuple of type
-        Bodies it takes as they are.
+        Body types accepted without conversion.
     columns : tuple of str
-        What it takes from a row of a table of bodies.
+        Columns used of a table of bodies.
     build_body : callable
-        ``place(listed, options) -> Placed``.
+        ``build_body(spec, options) -> SolverBody``.
     solve : callable
         ``solve(body, motion, **options) -> Response``.
     outcome : type
-        Of its answer; the scalar fields are columns of the table.
+        Outcome type; its scalar fields are columns of the table.
     happens : str
-        The column that answers the user's question.
+        Column of the event.
     chance : callable or None
-        ``chance(placed, motion, runs, seed, options) -> Row``: what perturbed runs say; None where nothing is perturbed.
+        ``chance(solver_body, motion, runs, seed, options) -> Row``: probability columns; None for solvers without samples.
     chances : mapping of str to type
-        The columns that `chance` fills.
+        Columns filled by `chance`.
     """
 
     name: str
@@ -93,11 +93,11 @@ class BatchModel:
 
     @cached_property
     def scalars(self) -> Mapping[str, type]:
-        """The scalar fields of the outcome, with their types."""
+        """Scalar fields of the outcome with their types."""
         return scalar_fields(self.outcome)
 
     def check_options(self, options: ValueMap) -> None:
-        """Refuse options that neither the solver nor its bodies have.
+        """Raise for options that neither the solver nor its bodies have.
 
         Raises
         ------
@@ -107,30 +107,29 @@ class BatchModel:
         allowed = (*signature(self.solve).parameters, *(name for name in ("mu", "mu_kinetic") if name in self.columns))
         unknown = [f"`{name}`" for name in options if name not in allowed]
         if unknown:
-            raise ParameterError("{solver} has no option {names}: leave it out", solver=self.name, names=unknown)
+            raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
 
-    def happened(self, row: ValueMap) -> bool:
-        """Return whether what the user asks about happened in a row with an answer."""
+    def event_occurred(self, row: ValueMap) -> bool:
+        """Return whether the event of the solver occurred in a row with a result."""
         value = row[self.happens]
         return value == JUMPED if isinstance(value, str) else bool(value)
 
     def ignored_keys(self, spec: BodySpec) -> list[str]:
-        """Return what is told of a body that this solver takes no notice of."""
+        """Return the keys of a body that the solver does not use."""
         return [key for key in spec.parameters if key not in self.columns]
 
 
 def _rigid_body(spec: BodySpec) -> Block | ScannedBody:
-    """Return the rigid body of a row or a file."""
     values = spec.parameters
     sizes = {key: values[key] for key in _SIZES if key in values}
     if spec.description is not None:
         if sizes or "kind" in values:
-            raise BodyError("{source}: give sizes, with or without `kind`, or `body`, not both", source=spec.source)
+            raise BodyError("{source}: give either sizes (with or without `kind`) or `body`, not both", source=spec.source)
         body = body_from_table(spec.description, side=values.get("side", "short"))
     else:
         missing = [key for key in ("width", "height") if key not in sizes]
         if missing:
-            raise BodyError("{source}: {missing} missing: a block needs width and height", source=spec.source, missing=missing)
+            raise BodyError("{source}: {missing} missing; a block requires width and height", source=spec.source, missing=missing)
         try:
             body = of_kind(Block(**sizes, name=spec.name), values.get("kind", "block"))
         except BodyError as error:
@@ -140,11 +139,11 @@ def _rigid_body(spec: BodySpec) -> Block | ScannedBody:
 
 
 def _friction(spec: BodySpec, options: ValueMap) -> dict[str, float | None]:
-    """Return the static and the kinetic friction: of the row, else of its surface, else of its file, else as given for all."""
+    """Return static and kinetic friction: from the row, its surface, its file, or the common options, in this order."""
     values = spec.parameters
     if "mu" in values or "surface" in values:
         if "mu" in values and "surface" in values:
-            raise BodyError("{source}: give mu or a surface, not both", source=spec.source)
+            raise BodyError("{source}: give mu or surface, not both", source=spec.source)
         contact_surface = surface(values["surface"]) if "surface" in values else None
         mu, kinetic = (values["mu"], None) if contact_surface is None else (contact_surface.mu, contact_surface.mu_kinetic)
     else:
@@ -152,22 +151,20 @@ def _friction(spec: BodySpec, options: ValueMap) -> dict[str, float | None]:
         if mu is None:
             mu, kinetic = options.get("mu"), options.get("mu_kinetic")
     if mu is None:
-        raise BodyError("{source}: how rough is it under the body? Tell mu, the static friction coefficient", source=spec.source)
+        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
     return {"mu": mu, "mu_kinetic": values.get("mu_kinetic", kinetic)}
 
 
 def _without_friction(options: ValueMap) -> dict[str, Any]:
-    """Return the options that are left where friction belongs to the body, or to its contact."""
+    """Return the options without friction, which belongs to the body or its contact."""
     return {key: value for key, value in options.items() if key not in ("mu", "mu_kinetic")}
 
 
 def _row_values(spec: BodySpec, *names: str) -> dict[str, Any]:
-    """Return what a row says under some names."""
     return {name: spec.parameters[name] for name in names if name in spec.parameters}
 
 
 def _respond_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place a free-standing block."""
     row_options = _row_values(spec, "restitution", "rocking_restitution", "tenon")
     body = _rigid_body(spec)
     if isinstance(body, Block) and ("mu" in spec.parameters or "surface" in spec.parameters):
@@ -176,14 +173,12 @@ def _respond_body(spec: BodySpec, options: ValueMap) -> SolverBody:
 
 
 def _rock_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place a block that rocks."""
     file_restitution = None if spec.description is None else table_restitution(spec.description, spec.source)
     row_options = {**({} if file_restitution is None else {"restitution": file_restitution}), **_row_values(spec, "restitution")}
     return SolverBody(spec.name, _rigid_body(spec), {**options, **row_options})
 
 
 def _slide_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place an object on a base on which it slides."""
     friction = _friction(spec, options)
     if "kappa" in spec.parameters and "mu_kinetic" not in spec.parameters:
         friction["mu_kinetic"] = None
@@ -192,7 +187,6 @@ def _slide_body(spec: BodySpec, options: ValueMap) -> SolverBody:
 
 
 def _uplift_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place a block on corner springs."""
     sizes = _row_values(spec, "width", "depth", "height", "mass")
     if spec.description is not None:
         block = block_from_table(spec.description, side=spec.parameters.get("side", "short"))
@@ -205,48 +199,44 @@ def _uplift_body(spec: BodySpec, options: ValueMap) -> SolverBody:
 
 
 def _jump_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place a two-layer block."""
     if spec.description is None or spec.description.get("kind") != "two-layer":
-        raise BodyError("{source}: a jump needs a two-layer body: name its file, or a bundled one such as chozusha", source=spec.source)
+        raise BodyError("{source}: jump requires a two-layer body; give its file or a bundled one such as chozusha", source=spec.source)
     contact_values = {**contact_from_table(spec.description), **_row_values(spec, "mu", "mu_kinetic")}
     if "mu" not in contact_values:
         contact_values |= {key: options[key] for key in ("mu", "mu_kinetic") if options.get(key) is not None}
     if "mu" not in contact_values:
-        raise BodyError("{source}: how rough is it under the body? Tell mu, the static friction coefficient", source=spec.source)
+        raise BodyError("{source}: friction required: give mu (static coefficient)", source=spec.source)
     block = two_layer_from_table(spec.description, spec.parameters.get("side", "short"))
     return SolverBody(spec.name, block, {**_without_friction(options), "contact": Contact(**contact_values), **_row_values(spec, "drop")})
 
 
 def _stack_body(spec: BodySpec, options: ValueMap) -> SolverBody:
-    """Place a pile of stones."""
     if spec.description is None or spec.description.get("kind") != "pile":
-        raise BodyError("{source}: a stack needs a pile: name its file, or a bundled one such as lantern", source=spec.source)
+        raise BodyError("{source}: stack requires a pile of stones; give its file or a bundled one such as lantern", source=spec.source)
     pile = load_pile(str(spec.description["source"]), mu=spec.parameters.get("mu", options.get("mu")))
     return SolverBody(spec.name, pile, _without_friction(options))
 
 
 def _respond_probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int, options: ValueMap) -> Row:
-    """Return what plausible versions of a free-standing object do."""
     result = respond_probability(solver_body.body, motion, runs=runs, seed=seed, **options)
     low, high = result.interval
     return _probability_columns(result.runs, result.overturned, low, high, result.no_answer) | {"probability_moved": result.moved}
 
 
 def _rock_probability_columns(solver_body: SolverBody, motion: Motion, runs: int, seed: int, options: ValueMap) -> Row:
-    """Return what slightly changed versions of a rocking block do."""
     result = perturb(solver_body.body, motion, runs, seed=seed, **options)
     return _probability_columns(result.runs, result.probability, *result.probability_interval, result.no_answer)
 
 
 def _probability_columns(runs: int, overturned: float, low: float, high: float, no_answer: tuple[int, ...]) -> Row:
-    """Return a share of falls as columns, with a warning where versions have no answer."""
+    """Return an overturning probability as columns, with a warning for samples without a result."""
     row: Row = {"runs": runs, "probability_overturned": overturned, "probability_low": low, "probability_high": high}
     warning = left_out_versions(no_answer, runs)
     return row if warning is None else {**row, LEFT_OUT: warning}
 
 
 LEFT_OUT = "left_out"
-"""Key under which what perturbed runs say holds a sentence on those of them that have no answer; it is no column."""
+"""Key of the warning on samples without a result; not a column."""
 
 _PROBABILITY_COLUMNS: dict[str, type] = {"runs": int, "probability_overturned": float, "probability_low": float, "probability_high": float}
 
@@ -297,11 +287,11 @@ BATCH_MODELS = {
         BatchModel("stack", (Pile,), ("mu",), _stack_body, solve_stack, StackOutcome, "overturned_any"),
     )
 }
-"""By the names of the commands."""
+"""Batch solvers by command name."""
 
 
 def batch_model(name: str) -> BatchModel:
-    """Return the solver of a batch by its name.
+    """Return the batch solver with a name.
 
     Raises
     ------
@@ -309,5 +299,5 @@ def batch_model(name: str) -> BatchModel:
         If there is none of that name.
     """
     if name not in BATCH_MODELS:
-        raise ParameterError("there is no solver {name!r} for a batch; there are {known}", name=str(name)[:100], known=list(BATCH_MODELS))
+        raise ParameterError("unknown batch solver {name!r}; available: {known}", name=str(name)[:100], known=list(BATCH_MODELS))
     return BATCH_MODELS[name]

@@ -1,4 +1,4 @@
-"""Running a batch: one record after another on all cores, or as tasks of a cluster that is there already."""
+"""Batch execution on local threads or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
 NO_PROCESSING = Preparation()
-"""Nothing is done to a record but what its format needs."""
+"""Default preparation: only the processing required by the format."""
 
 Bodies: TypeAlias = "Location | Mapping[str, Any] | Iterable[Any]"
 
@@ -47,9 +47,9 @@ def run_batch(
     progress: Progress | None = None,
     **options: Any,
 ) -> BatchTable:
-    """Return what many records do to many bodies: a row for each record, component and body.
+    """Return the results of records and bodies: a row for each record, component and body.
 
-    A record that cannot be read, a component that it lacks and a body that the solver refuses are rows with a reason.
+    Unreadable records, missing components and rejected bodies give rows with a reason.
 
     Parameters
     ----------
@@ -61,25 +61,25 @@ def run_batch(
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump``, ``uplift`` or ``stack``.
     components : str, or sequence of str
-        Codes or azimuths; all horizontals of each record when left out. ``all-azimuths`` looks in every direction, in steps of 5 degrees,
-        and answers for the one that is worst for each body (``respond``, ``rock``, ``slide``).
+        Codes or azimuths; default: all horizontals of each record. ``all-azimuths`` solves every direction in steps of 5 degrees and
+        returns the worst one of each body (``respond``, ``rock``, ``slide``).
     preparation : Preparation
-        What is done to each record before.
+        Processing of each record.
     runs, seed : int
-        Perturbed runs behind a probability (``respond``, ``rock``), 0 for none, and their seed.
+        Number of samples of a probability (``respond``, ``rock``), 0 for none, and their seed.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: number of cores.
     client : distributed.Client
-        Of a Dask scheduler: each record is a task. The table is the same.
+        Client of a Dask scheduler: each record is a task. The table is the same.
     progress : callable
-        Told the number of records done and the number in all.
+        Called with the number of finished records and their total.
     options
-        Of the solver, for every body whose row says nothing else: ``mu``, ``vertical``, ``gravity``, ...
+        Of the solver, for every body without own values: ``mu``, ``vertical``, ``gravity``, ...
 
     Raises
     ------
     ParameterError
-        If there is no such solver, it can take none of the bodies, or it has no such option.
+        If solver or option is unknown, or the solver accepts none of the bodies.
     BodyError, RecordNotFoundError
         If a list of bodies or of records cannot be read.
 
@@ -110,13 +110,13 @@ def make_plan(
     seed: int = 0,
     strict: bool = False,
 ) -> tuple[Plan, tuple[str, ...]]:
-    """Return what is done with each record of a batch, and what is to be known of it; see :func:`run_batch`."""
+    """Return the plan of a batch and its warnings; see :func:`run_batch`."""
     model = batch_model(solver)
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
         raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and model.chance is None:
-        raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=solver)
+        raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
@@ -138,11 +138,11 @@ def iter_record_rows(
 
     Parameters
     ----------
-    tasks : iterable of Recording or Record
-        Taken as they are needed: a bundle's members are not held longer than they are.
+    tasks : iterable of RecordSource or Record
+        Consumed lazily; members of a bundle are released after use.
     plan : Plan
     total : int
-        How many there are, for the progress.
+        Number of tasks, for the progress.
     workers, client, progress
         As in :func:`run_batch`.
     """
@@ -162,7 +162,7 @@ def iter_record_rows(
 
 
 def _tasks(records: Location | Record | Iterable[Location | Record], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
-    """Yield the records of a batch: those that were read already, and those that names stand for."""
+    """Yield record sources and records of a batch."""
     sources: Iterable[Location | Record] = [records] if isinstance(records, (str, PathLike, Record)) else records
     for kind, group in groupby(sources, key=lambda source: isinstance(source, Record)):
         if kind:
@@ -172,7 +172,7 @@ def _tasks(records: Location | Record | Iterable[Location | Record], read_option
 
 
 def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBody]:
-    """Return the bodies of a batch with their names; those that are given as they are take every option as it is given."""
+    """Return the bodies of a batch with their names; given body objects take all options unchanged."""
     if isinstance(bodies, (str, PathLike)):
         return list(read_bodies(str(bodies)))
     if isinstance(bodies, model.kinds):
@@ -182,9 +182,9 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
     elif isinstance(bodies, Iterable):
         pairs = [(getattr(body, "name", "") or lazy_gettext("body {number}", number=n), body) for n, body in enumerate(bodies, start=1)]
     else:
-        raise KindError("bodies are needed: a table, files, or bodies; found {found}", found=checks.type_name(bodies))
+        raise KindError("bodies required (a table, files or body objects); found {found}", found=checks.type_name(bodies))
     if not pairs:
-        raise ParameterError("no body was named: give at least one")
+        raise ParameterError("no body given; give at least one")
     result: list[BodySpec | SolverBody] = []
     for name, body in pairs:
         if isinstance(body, (str, PathLike)):
@@ -195,7 +195,7 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
             result.append(SolverBody(name, body, {}))
         else:
             raise KindError(
-                "{solver} takes {kinds}, found {found}",
+                "{solver} takes {kinds}; found {found}",
                 solver=model.name,
                 kinds=[kind.__name__ for kind in model.kinds],
                 found=checks.type_name(body),
@@ -204,6 +204,6 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
 
 
 def ignored_column_notes(model: BatchModel, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
-    """Return what is to be known of a list of bodies that says more than a solver hears."""
+    """Return warnings on columns of the list of bodies that the solver does not use."""
     ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_keys(body))
-    return (lazy_gettext("{solver} takes no notice of {columns}", columns=list(ignored), solver=model.name),) if ignored else ()
+    return (lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name),) if ignored else ()

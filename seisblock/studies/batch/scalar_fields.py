@@ -1,4 +1,4 @@
-"""Which fields of an outcome are columns of a table: the scalars that every run tells."""
+"""Scalar outcome fields that become table columns."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 _SCALARS = (bool, int, float, str)
 
 OPTIONAL_FIELDS = ("verdict_flips_within_2_percent", "flips_at_factor")
-"""What an outcome tells where somebody looked for it, which takes forty more runs: no columns."""
+"""Outcome fields computed on request only (40 additional runs); not columns."""
 
 
 def scalar_fields(outcome: type) -> Mapping[str, type]:
-    """Return the scalar fields of an outcome, with their types.
+    """Return the scalar fields of an outcome with their types.
 
     Examples
     --------
@@ -28,6 +28,6 @@ def scalar_fields(outcome: type) -> Mapping[str, type]:
 
 
 def _scalar_type(hint: Any) -> type | None:
-    """Return the scalar type of an annotation, None alone or beside it; None where it is no scalar."""
+    """Return the scalar type of an annotation, optional or not; None for other types."""
     kinds = [kind for kind in get_args(hint) if kind is not type(None)] if get_origin(hint) in (Union, types.UnionType) else [hint]
     return kinds[0] if len(kinds) == 1 and kinds[0] in _SCALARS else None

@@ -1,4 +1,4 @@
-"""The answer of a batch: a table with a row for each record, component and body."""
+"""Batch result table: a row for each record, component and body."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ if TYPE_CHECKING:
 Row = Mapping[str, Any]
 
 KEY_COLUMNS: dict[str, type] = {"record": str, "path": str, "station": str, "start": str, "component": str, "body": str, "solver": str}
-"""The columns that say which row it is."""
+"""Columns that identify a row."""
 
 REASON, WARNINGS = "failure", "warnings"
-"""The columns that say why a row has no answer, and what to know before believing it."""
+"""Columns for the reason of a missing result, and for warnings."""
 
 
 DIRECTIONS, FALLEN_DIRECTIONS = "directions", "directions_overturned"
-"""The columns of all azimuths: in how many directions was looked, and in how many of them the body falls."""
+"""Columns of azimuth sweeps: number of directions, and number of those with overturning."""
 
 
 def batch_columns(model: BatchModel, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
-    """Return the columns of a batch of one solver, of perturbed runs and of all directions where there are any, with their types."""
+    """Return the columns of a batch with their types, including probabilities and azimuth sweeps."""
     probability_columns = (model.chances or {}) if runs else {}
     directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
     if all_azimuths and model.happens == "overturned":
@@ -43,9 +43,9 @@ class BatchTable:
     columns : mapping of str to type
         The names of the columns, in order, with the types of their cells: bool, int, float or str.
     rows : sequence of mappings
-        By the names of the columns; what a row does not name is None.
+        By column name; missing keys are None.
     notes : tuple of str
-        What is to be known of the whole.
+        Notes on the table.
 
     Examples
     --------
@@ -64,20 +64,20 @@ class BatchTable:
     def __getitem__(self, column: str) -> list[Any]:
         """Return the cells of a column."""
         if column not in self.columns:
-            raise ParameterError("there is no column {column!r}; there are {known}", column=str(column)[:100], known=list(self.columns))
+            raise ParameterError("no column {column!r}; available: {known}", column=str(column)[:100], known=list(self.columns))
         return [row.get(column) for row in self.rows]
 
     @property
     def failures(self) -> list[Row]:
-        """The rows without an answer, each with its reason."""
+        """Rows without a result, each with its reason."""
         return [row for row in self.rows if row.get(REASON)]
 
     def cells(self) -> Iterator[list[Any]]:
-        """Yield the cells of each row, in the order of the columns."""
+        """Yield the cells of each row in column order."""
         return (row_cells(self.columns, row) for row in self.rows)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return a DataFrame, its columns of the types that pandas has for values that may be missing.
+        """Return a DataFrame with nullable column types.
 
         Raises
         ------
@@ -93,5 +93,5 @@ class BatchTable:
 
 
 def row_cells(columns: Iterable[str], row: Row) -> list[Any]:
-    """Return the cells of a row, in the order of the columns."""
+    """Return the cells of a row in column order."""
     return [row.get(name) for name in columns]

@@ -1,4 +1,4 @@
-"""What a batch comes to: how often each body did what was asked about."""
+"""Event counts of a batch by body."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from seisblock.studies.batch.table import REASON, Row
 
 @dataclass
 class BodyCounts:
-    """Rows of one body: with an answer, without, and those in which it happened."""
+    """Row counts of one body: with a result, without, and with the event."""
 
     body: str
     answers: int = 0
     failures: int = 0
-    happened: int = 0
+    events: int = 0
 
 
 @dataclass
 class Tally:
-    """Counts kept while rows go by, so that no table need be held.
+    """Running counts of rows, so that no table need be stored.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Tally:
     reasons: dict[str, int] = field(default_factory=dict)
 
     def add_rows(self, rows: Sequence[Row]) -> Sequence[Row]:
-        """Take the rows of one record into account, and return them."""
+        """Count the rows of one record, and return them."""
         self.records += bool(rows)
         for row in rows:
             reason = row.get(REASON)
@@ -50,24 +50,24 @@ class Tally:
                 count.failures += 1
                 continue
             count.answers += 1
-            count.happened += self.model.happened(row)
+            count.events += self.model.event_occurred(row)
         return rows
 
     @property
     def answers(self) -> int:
-        """Rows with an answer."""
+        """Number of rows with a result."""
         return sum(count.answers for count in self.bodies.values())
 
     @property
     def failures(self) -> int:
-        """Rows without one."""
+        """Number of rows without a result."""
         return self.unreadable + sum(count.failures for count in self.bodies.values())
 
     @property
-    def happened(self) -> int:
-        """Rows in which it happened."""
-        return sum(count.happened for count in self.bodies.values())
+    def event_count(self) -> int:
+        """Number of rows with the event."""
+        return sum(count.events for count in self.bodies.values())
 
-    def ranked(self) -> list[BodyCounts]:
-        """Return the counts of the bodies, those to which it happened most often first."""
-        return sorted(self.bodies.values(), key=lambda count: -count.happened / max(count.answers, 1))
+    def sorted_counts(self) -> list[BodyCounts]:
+        """Return the counts of the bodies, most events first."""
+        return sorted(self.bodies.values(), key=lambda count: -count.events / max(count.answers, 1))

@@ -1,4 +1,4 @@
-"""One task of a batch: a record with all its rows. It travels to other processes, so it holds nothing but data."""
+"""Batch task: one record with all its rows; plain data, since tasks are sent to other processes."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ALL = "all"
 
 @dataclass(frozen=True)
 class RejectedBody:
-    """A body that a solver cannot take, and why: the reason stands in each of its rows."""
+    """A body that a solver rejects, with the reason for its rows."""
 
     name: str
     reason: str
@@ -36,21 +36,21 @@ class RejectedBody:
 
 @dataclass(frozen=True)
 class Plan:
-    """What is done with each record of a batch.
+    """Processing of each record of a batch.
 
     Parameters
     ----------
     solver : str
-    bodies : tuple of Placed or Unplaced
+    bodies : tuple of SolverBody or RejectedBody
     components : tuple of str
         Codes or azimuths; all horizontals when empty; ``all-azimuths`` for the worst of all directions.
     preparation : Preparation
-    read_options : Options
-        What the caller says of files that do not say it themselves.
+    read_options : ReadOptions
+        Properties of files that lack them.
     runs, seed : int
-        Perturbed runs behind a probability, 0 for none, and their seed.
+        Number of samples of a probability, 0 for none, and their seed.
     strict : bool
-        Whether a record about which there is any doubt fails.
+        Whether records with quality flags fail.
     """
 
     solver: str
@@ -64,14 +64,14 @@ class Plan:
 
     @property
     def model(self) -> BatchModel:
-        """The solver's entry."""
+        """Batch solver."""
         return BATCH_MODELS[self.solver]
 
 
 def build_solver_bodies(
     model: BatchModel, bodies: Sequence[BodySpec | SolverBody], options: Mapping[str, Any]
 ) -> tuple[SolverBody | RejectedBody, ...]:
-    """Return bodies as a solver takes them, and those that it cannot take.
+    """Return accepted and rejected bodies of a solver.
 
     Raises
     ------
@@ -88,23 +88,21 @@ def build_solver_bodies(
             result.append(RejectedBody(body.name, error.message))
     rejected = [item for item in result if isinstance(item, RejectedBody)]
     if rejected and len(rejected) == len(result):
-        raise ParameterError("{solver} can take none of the bodies: {reason}", solver=model.name, reason=rejected[0].reason)
+        raise ParameterError("{solver} accepts none of the bodies: {reason}", solver=model.name, reason=rejected[0].reason)
     duplicates = [name for name, count in Counter(item.name for item in result).items() if count > 1]
     if duplicates:
-        raise ParameterError(
-            "two bodies are called {name!r}, and a row of the answer could be either: rename one", name=duplicates[0][:100]
-        )
+        raise ParameterError("two bodies have the name {name!r}; rename one", name=duplicates[0][:100])
     return tuple(result)
 
 
 def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
-    """Return the rows of one record: each component with each body; one with the reason where the record cannot be read.
+    """Return the rows of one record: each component with each body; one row with the reason if it cannot be read.
 
-    A station of a bundle that is not the one asked for has none.
+    Stations of a bundle other than the requested one have no rows.
 
     Parameters
     ----------
-    recording : Recording or Record
+    recording : RecordSource or Record
     plan : Plan
     """
     columns = _record_columns(recording, plan)
@@ -116,23 +114,23 @@ def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
         if plan.strict:
             require_clean(record)
         doubts = qc_summary([record])
-        prepared = plan.preparation.apply(record)
+        processed_record = plan.preparation.apply(record)
     except SeisblockError as error:
         return [{**columns, REASON: error.message}]
-    return component_rows(prepared, plan, columns, doubts)
+    return component_rows(processed_record, plan, columns, doubts)
 
 
 def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubts: Sequence[str] = ()) -> list[Row]:
-    """Return the rows of a record to which nothing is done any more: each component, or the worst of all directions, with each body.
+    """Return the rows of a processed record: each component, or the worst azimuth, with each body.
 
     Parameters
     ----------
     record : Record
     plan : Plan
     columns : mapping
-        What each row says beside.
+        Further columns of each row.
     doubts : sequence of str
-        The warnings with which each begins.
+        First warnings of each row.
     """
     columns = columns or {}
     if is_all_azimuths(plan.components):
@@ -142,26 +140,24 @@ def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubt
 
 
 def failure_row(plan: Plan, recording: RecordSource | Record, reason: str) -> list[Row]:
-    """Return the row of a record that no worker of a cluster survived."""
-    return [{**_record_columns(recording, plan), REASON: lazy_gettext("every worker that took this record died: {reason}", reason=reason)}]
+    """Return the row of a record whose workers all died."""
+    return [{**_record_columns(recording, plan), REASON: lazy_gettext("all workers that ran this record died: {reason}", reason=reason)}]
 
 
 def _record_columns(recording: RecordSource | Record, plan: Plan) -> dict[str, Any]:
-    """Return what a row says of a record before it is read."""
+    """Return the columns known before a record is read."""
     if isinstance(recording, RecordSource):
         return {"record": recording.name, "path": recording.path, "solver": plan.solver}
     return {"record": recording.source.rsplit("/", 1)[-1], "path": recording.source, "solver": plan.solver}
 
 
 def _selected_components(record: Record, requested: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the components, or azimuths, of a record that are looked at."""
     if requested and not any(name.lower() == ALL for name in requested):
         return requested
     return tuple(component.code for component in record.horizontals) or requested or (ALL,)
 
 
 def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts: Sequence[str]) -> Iterator[Row]:
-    """Yield the rows of one component."""
     try:
         motion = motion_of(record, name)
     except SeisblockError as error:
@@ -180,7 +176,6 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
 
 
 def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Plan, doubts: Sequence[str]) -> Row:
-    """Return what a solver says of one body in the worst of all directions."""
     row: Row = {"component": ALL_AZIMUTHS, "body": body.name}
     if isinstance(body, RejectedBody):
         return {**row, REASON: body.reason}
@@ -193,7 +188,7 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
 
 
 def _solve_row(motion: Motion, body: SolverBody, plan: Plan, doubts: Sequence[str]) -> Row:
-    """Return what a solver says of one body alone under one motion, or why it does not."""
+    """Return the result of one body under one motion, or the reason of its failure."""
     model = plan.model
     try:
         aligned_body = replace(body, body=block_for_motion(body.body, motion))

@@ -1,4 +1,4 @@
-"""Bodies of a batch side by side through one motion, where a solver follows rows that tell all that its answers do."""
+"""Vectorised solution of the bodies of a batch under one motion."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from seisblock.studies.batch.models import SolverBody
 
 RowResult: TypeAlias = "tuple[Mapping[str, Any], Sequence[str]]"
-"""The scalars of an outcome, and what is to be known before believing them."""
+"""Scalar outcome fields and warnings."""
 
 
 def solve_vectorized(solver: str, bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowResult]:
-    """Return the answers of those bodies that a solver can follow side by side, by their names; the others are followed alone.
+    """Return results by body name for the bodies that a solver can vectorise; the others are solved one by one.
 
     Parameters
     ----------
     solver : str
-    bodies : sequence of Placed
+    bodies : sequence of SolverBody
     motion : Motion
     """
     if solver not in VECTORIZED_SOLVERS:
@@ -41,12 +41,13 @@ def solve_vectorized(solver: str, bodies: Sequence[SolverBody], motion: Motion) 
         try:
             results |= solve(group, motion, **shared_options)
         except (SeisblockError, TypeError):
-            continue  # one after another they say which of them it is, and why
+            # solved one by one, the failing body is identified with its reason
+            continue
     return results
 
 
 def _solve_uplifts(bodies: Sequence[SolverBody], motion: Motion, **shared: Any) -> dict[str, RowResult]:
-    """Follow blocks on springs; a run that was given up is followed alone, which tells why."""
+    """Solve blocks on springs; stopped runs are repeated one by one for their reason."""
     gains = [(1.0, 1.0, vertical_gain(motion, body.options.get("vertical"))) for body in bodies]
     result = uplift_many([body.body for body in bodies], motion, gains=gains, **shared)
     return {
@@ -57,7 +58,7 @@ def _solve_uplifts(bodies: Sequence[SolverBody], motion: Motion, **shared: Any) 
 
 
 def _solve_jumps(bodies: Sequence[SolverBody], motion: Motion, **shared: Any) -> dict[str, RowResult]:
-    """Follow two-layer blocks; where a foot jams, or a run was given up, there is no answer."""
+    """Solve two-layer blocks; jammed feet and stopped runs have no result."""
     contacts, drop = [body.options["contact"] for body in bodies], [body.options.get("drop", 0.0) for body in bodies]
     result = jump_many([body.body for body in bodies], motion, contacts=contacts, drop=drop, **shared)
     return {
@@ -74,4 +75,4 @@ VECTORIZED_SOLVERS: dict[str, tuple[Callable[..., dict[str, RowResult]], tuple[s
     "uplift": (_solve_uplifts, ("vertical",)),
     "jump": (_solve_jumps, ("contact", "drop")),
 }
-"""What follows them, and which options may differ from row to row."""
+"""Vectorised solver and the options that may differ between rows."""

@@ -1,4 +1,4 @@
-"""``all-azimuths`` in a batch: each body in every direction of each record, and the answer for the worst, as single commands have it."""
+"""``all-azimuths`` in a batch: worst azimuth of each body and record, as in the single commands."""
 
 from __future__ import annotations
 
@@ -19,41 +19,41 @@ from seisblock.studies.sliding import slide_study, worst_directions
 
 
 def is_all_azimuths(components: Sequence[str]) -> bool:
-    """Return whether every direction is asked for."""
+    """Return whether all azimuths are requested."""
     return any(name.lower() == ALL_AZIMUTHS for name in components)
 
 
 def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[str, Any]) -> None:
-    """Refuse what does not go with every direction.
+    """Raise for components and options incompatible with all azimuths.
 
     Raises
     ------
     ParameterError
-        If components are named beside it, the solver looks in none, or has options that act in one direction only.
+        If other components are given, or the solver or an option does not support all azimuths.
     """
     if not is_all_azimuths(components):
         return
     if len(components) > 1:
-        raise ParameterError("{name} stands for every direction: name no component beside it", name=ALL_AZIMUTHS)
+        raise ParameterError("{name} covers all directions; give no other component", name=ALL_AZIMUTHS)
     if solver not in DIRECTIONAL_SOLVERS:
-        raise ParameterError("{solver} does not look in every direction; {known} do", solver=solver, known=list(DIRECTIONAL_SOLVERS))
+        raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=list(DIRECTIONAL_SOLVERS))
     allowed = DIRECTIONAL_SOLVERS[solver][1]
     unknown = [f"`{name}`" for name in options if name not in allowed]
     if unknown:
-        raise ParameterError("{solver} in every direction has no option {names}: leave it out", solver=solver, names=unknown)
+        raise ParameterError("{solver} in all azimuths has no option {names}; remove it", solver=solver, names=unknown)
 
 
 Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
-"""A direction, in how many it was looked for, and what is to be known of them."""
+"""Worst direction, counts of directions, and warnings."""
 
 
 def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst:
-    """Return the direction in which a record is worst for a body, and in how many it was looked for.
+    """Return the worst direction of a record for a body, and the number of directions.
 
     Parameters
     ----------
     solver : str
-    solver_body : Placed
+    solver_body : SolverBody
     record : Record
         With two horizontal components of known azimuths.
     """
@@ -61,23 +61,20 @@ def worst_azimuth(solver: str, solver_body: SolverBody, record: Record) -> Worst
 
 
 def _worst_rock(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at a block that rocks."""
-    return _counted(rock_directions(solver_body.body, record, **solver_body.options))
+    return _worst_result(rock_directions(solver_body.body, record, **solver_body.options))
 
 
 def _worst_respond(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at a free-standing body."""
-    return _counted(respond_directions(solver_body.body, record, **solver_body.options))
+    return _worst_result(respond_directions(solver_body.body, record, **solver_body.options))
 
 
-def _counted(found: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
-    """Count the directions that have an answer, the worst of which comes first, and those in which the body falls."""
-    fallen, answered = sum(each.overturned for each in found), sum(not each.gave_up for each in found)
-    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: answered, FALLEN_DIRECTIONS: fallen}, left_out_directions(found)
+def _worst_result(results: Sequence[RespondAzimuth] | Sequence[RockAzimuth]) -> Worst:
+    """Return the first (worst) direction with the number of directions solved and of those with overturning."""
+    fall_count, solved_count = sum(result.overturned for result in results), sum(not result.gave_up for result in results)
+    return f"{results[0].azimuth_deg:g}", {DIRECTIONS: solved_count, FALLEN_DIRECTIONS: fall_count}, left_out_directions(results)
 
 
 def _worst_slide(solver_body: SolverBody, record: Record) -> Worst:
-    """Look at an object that slides."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
     motions = [motion_of(record, f"{azimuth:g}") for azimuth in sweep_azimuths(base)]
     points = slide_study(
@@ -99,4 +96,4 @@ DIRECTIONAL_SOLVERS: dict[str, tuple[Callable[[SolverBody, Record], Worst], tupl
     "rock": (_worst_rock, ("restitution", "linear", "vertical", "gravity")),
     "slide": (_worst_slide, ("mu", "mu_kinetic", "vertical", "gravity")),
 }
-"""What looks in every direction, and the options that act in each."""
+"""Worst-azimuth function of each solver, and the options that it accepts."""

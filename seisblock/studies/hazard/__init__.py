@@ -1,1 +1,1 @@
-"""From a fragility and the hazard of a site to the frequency with which it happens there."""
+"""Annual frequency of a limit state from a fragility and a site hazard."""

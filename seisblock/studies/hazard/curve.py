@@ -1,4 +1,4 @@
-"""The hazard of a site: how often an intensity is exceeded there in a year, a power law between the levels of a table."""
+"""Site hazard curve: annual exceedance frequency of an intensity, a power law between tabulated levels."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from seisblock.core.typing import ArrayLike, FloatArray
 
 @dataclass(frozen=True, eq=False)
 class HazardCurve:
-    """The annual frequency with which an intensity is exceeded.
+    """Annual exceedance frequency of an intensity.
 
     Between two levels the frequency is a power of the intensity, a straight line on two logarithmic axes; beyond the first and the last
-    level it goes on with the slope found there ([Cornell2002]_ relation of hazard and intensity, piece by piece).
+    level it is extrapolated with the end slopes ([Cornell2002]_ relation of hazard and intensity, piece by piece).
 
     Parameters
     ----------
     levels : (n,) array
-        Positive intensities that rise, in units of SI.
+        Positive, increasing intensities, in units of SI.
     rates : (n,) array, 1/year
-        Positive; they fall, or stay.
+        Positive, non-increasing.
     name : str
-        Of the branch of a logic tree; empty where there is one only.
+        Of the branch of a logic tree; empty for a single curve.
     weight : float, 1
         Of the branch.
 
@@ -46,11 +46,11 @@ class HazardCurve:
     weight: float = 1.0
 
     def __post_init__(self) -> None:
-        x = checks.float_array("the levels of a hazard curve", self.levels)
+        x = checks.float_array("the intensities of a hazard curve", self.levels)
         rate = checks.float_array("the frequencies of a hazard curve", self.rates)
         if x.ndim != 1 or x.size < 2 or rate.shape != x.shape:
             raise HazardError(
-                "a hazard curve needs two levels or more, each with its frequency; found {levels} and {rates}",
+                "a hazard curve needs at least two levels, each with a frequency; found {levels} levels and {rates} frequencies",
                 levels=x.size,
                 rates=rate.size,
             )
@@ -60,28 +60,28 @@ class HazardCurve:
         level_drops, rate_rises = np.flatnonzero(np.diff(x) <= 0.0), np.flatnonzero(np.diff(rate) > 0.0)
         if level_drops.size:
             raise HazardError(
-                "the levels of a hazard curve must rise: {level:.4g} is there twice or out of order", level=x[level_drops[0] + 1]
+                "the levels of a hazard curve must increase: {level:.4g} is duplicated or out of order", level=x[level_drops[0] + 1]
             )
         if rate_rises.size:
             raise HazardError(
-                "stronger shaking cannot be more frequent than weaker, as it is in this hazard curve from {low:.4g} to {high:.4g}",
+                "the frequencies of a hazard curve must not increase with intensity: this one rises from {low:.4g} to {high:.4g}",
                 low=x[rate_rises[0]],
                 high=x[rate_rises[0] + 1],
             )
         if rate[-1] == rate[-2]:
-            raise HazardError("this hazard curve does not fall at its end: add a stronger level, or leave out the last ones")
+            raise HazardError("the hazard curve does not decrease at its end; add a higher level or remove the last ones")
         object.__setattr__(self, "levels", x)
         object.__setattr__(self, "rates", rate)
         checks.positive("the weight of a branch", self.weight)
 
     @property
     def slopes(self) -> FloatArray:
-        """Powers k with which the frequency falls, rate ~ level^-k, (n + 1,): below the first level, between levels, beyond the last."""
+        """Exponents k of rate ~ level^-k, (n + 1,): below the first level, between levels, beyond the last."""
         inner = -np.diff(np.log(self.rates)) / np.diff(np.log(self.levels))
         return np.concatenate([inner[:1], inner, inner[-1:]])
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
-        """Return the annual frequency, 1/year, with which some positive intensities are exceeded, of the shape in which they come."""
+        """Return the annual exceedance frequency, 1/year, of positive intensities, in their shape."""
         u = np.log(checks.float_array("the intensities", intensity))
         logs = np.log(self.levels)
         piece = np.searchsorted(logs, u)
@@ -89,7 +89,7 @@ class HazardCurve:
         return np.asarray(np.asarray(self.rates)[anchor] * np.exp(-self.slopes[piece] * (u - logs[anchor])))
 
     def with_levels(self, levels: FloatArray) -> HazardCurve:
-        """Return the same curve with further levels between its own and beyond them."""
+        """Return the same curve with additional levels."""
         union = np.union1d(np.asarray(self.levels), levels)
         is_original = np.isin(union, self.levels)
         rates = self.rate(union)
@@ -99,16 +99,16 @@ class HazardCurve:
 
 @dataclass(frozen=True, eq=False)
 class Hazard:
-    """The hazard of a site in one measure of intensity: one curve, or the branches of a logic tree.
+    """Site hazard in one intensity measure: one curve, or the branches of a logic tree.
 
     Parameters
     ----------
     im, unit : str
         Measure of intensity (``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``) and the unit of its levels, SI.
     branches : tuple of HazardCurve
-        Their weights have the sum 1.
+        Their weights sum to 1.
     notes : tuple of str
-        What was left out of the table.
+        Notes on omitted levels.
     table_unit : float
         Factor from the unit of the table's levels to SI.
 
@@ -127,12 +127,12 @@ class Hazard:
     def __post_init__(self) -> None:
         total = sum(branch.weight for branch in self.branches)
         if not self.branches or abs(total - 1.0) > WEIGHT_SUM_TOLERANCE:
-            raise HazardError("the weights of the branches of a hazard have the sum {total:.4g}: it must be 1", total=total)
+            raise HazardError("the weights of the hazard branches must sum to 1; found {total:.4g}", total=total)
 
     def rate(self, intensity: ArrayLike) -> FloatArray:
-        """Return the mean annual frequency, 1/year, with which some intensities are exceeded."""
+        """Return the mean annual exceedance frequency, 1/year."""
         return np.asarray(sum(branch.weight * branch.rate(intensity) for branch in self.branches))
 
 
 WEIGHT_SUM_TOLERANCE = 0.001
-"""How far from 1 the sum of printed weights may be."""
+"""Tolerance of the sum of rounded weights."""

@@ -1,11 +1,11 @@
-r"""How often something happens at a site, and what it says about the hazard that something did not happen.
+r"""Annual frequency of a limit state at a site, and update of hazard branches by non-occurrence.
 
-With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, it
-happens with the frequency
+With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, the
+limit state occurs with the frequency
 
 .. math:: \Lambda = \int_0^\infty F \, |d\lambda| = \int_0^\infty \lambda \, dF ,
 
-the mean of the hazard over the intensities at which it happens. On a piece on which :math:`\lambda = \lambda_a (x/x_a)^{-k}`, with
+the mean of the hazard over the distribution of the capacity. On a piece on which :math:`\lambda = \lambda_a (x/x_a)^{-k}`, with
 :math:`u = \ln x`, :math:`\mu = \ln\theta` and :math:`z = (u - \mu)/\beta`, the integral of the second form is (derived here, by completing
 the square)
 
@@ -13,8 +13,8 @@ the square)
    = \lambda_a e^{-k(\mu - u_a) + k^2\beta^2/2} \left[ \Phi(z_2 + k\beta) - \Phi(z_1 + k\beta) \right] ,
 
 and :math:`\int F |d\lambda| = F_1\lambda_1 - F_2\lambda_2 + \int \lambda \, dF` there: no quadrature. One piece from zero to infinity is
-the closed form :math:`\lambda(\theta) \, e^{k^2\beta^2/2}` ([Cornell2002]_ relation of limit state and hazard). What stood for T years did
-so with the probability :math:`e^{-T\Lambda}`, if earthquakes come independently.
+the closed form :math:`\lambda(\theta) \, e^{k^2\beta^2/2}` ([Cornell2002]_ relation of limit state and hazard). The
+probability of no occurrence in T years is :math:`e^{-T\Lambda}` for Poissonian earthquakes.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
 
 MAX_MEDIAN_RATIO = 10.0
-"""So many times the last level of a hazard, or its first over so much, and a median is doubted: gal for m/s^2, or cm/s for m/s, are 100."""
+"""Largest ratio of a median to the range of hazard levels without a warning; wrong units (gal, cm/s) give 100."""
 
 MAX_EXTRAPOLATED_SHARE = 0.02
-"""Share of the frequency from beyond the ends of a hazard curve, from which on it is said."""
+"""Largest share of the frequency from beyond the hazard levels without a warning."""
 
 
 @dataclass(frozen=True)
 class ProbabilityInYears:
-    """How probable it is that it happens at least once.
+    """Probability of at least one occurrence.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class ProbabilityInYears:
 
 @dataclass(frozen=True)
 class RiskShare:
-    """What shaking between two intensities contributes.
+    """Contribution of an intensity interval.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class RiskShare:
 
 @dataclass(frozen=True)
 class BranchRisk:
-    """What one branch of the hazard says.
+    """Risk of one hazard branch.
 
     Parameters
     ----------
@@ -81,9 +81,9 @@ class BranchRisk:
     weight : float, 1
     annual_rate : float, 1/year
     standing : float or None, 1
-        Probability that it did not happen in the years in which it did not; None where none were given.
+        Probability of non-occurrence in the observed period; None without one.
     weight_after : float or None, 1
-        The weight times that, of the sum over the branches.
+        Posterior weight of the branch.
     """
 
     branch: str
@@ -95,7 +95,7 @@ class BranchRisk:
 
 @dataclass(frozen=True)
 class Risk:
-    """How often it happens at a site.
+    """Annual frequency of a limit state at a site.
 
     Parameters
     ----------
@@ -104,17 +104,17 @@ class Risk:
     annual_rate : float, 1/year
         The mean over the branches.
     return_period_years : float or None
-        Its inverse; None where it is zero within the range of numbers.
+        Its inverse; None for a rate of zero.
     probability : ProbabilityInYears
         Of the mean over the branches.
     branches : tuple of BranchRisk
     disaggregation : tuple of RiskShare
         Between the levels of the hazard, of all branches together.
     beyond_levels_share : float, 1
-        Share of the frequency from below the first and beyond the last level, where the curve goes on with its slope.
+        Share of the frequency from extrapolation below the first and beyond the last level.
     stood_years : float or None
     annual_rate_after : float or None, 1/year
-        With the weights after it stood.
+        With the posterior weights.
     notes : tuple of str
     """
 
@@ -132,7 +132,7 @@ class Risk:
 
 
 def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stood_years: float | None = None) -> Risk:
-    """Return how often it happens at a site, and which levels and branches that comes from.
+    """Return the annual frequency at a site with its disaggregation by level and branch.
 
     Parameters
     ----------
@@ -140,9 +140,9 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
         In the unit of the hazard.
     hazard : Hazard
     years : float, years
-        For which the probability is told.
+        Period of the probability.
     stood_years : float or None, years
-        In which it did not happen: the likelihood of each branch, and the weights that follow.
+        Observed period without occurrence; updates the weights of the branches.
 
     Raises
     ------
@@ -158,7 +158,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     """
     checks.positive("the number of years", years)
     if stood_years is not None:
-        checks.positive("the number of years in which it stood", stood_years)
+        checks.positive("the number of years without occurrence", stood_years)
     union = np.unique(np.concatenate([np.asarray(branch.levels) for branch in hazard.branches]))
     shares = [_contributions(branch.with_levels(union), fragility) for branch in hazard.branches]
     weights = np.array([branch.weight for branch in hazard.branches])
@@ -166,7 +166,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
     rates = np.array([row.sum() for row in shares])
     total = float(weights @ rates)
     outside_rate = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
-    standing = None if stood_years is None else np.exp(-rates * stood_years)
+    no_event_probability = None if stood_years is None else np.exp(-rates * stood_years)
     posterior_weights = None if stood_years is None else _posterior_weights(weights, -rates * stood_years)
     return Risk(
         fragility=fragility,
@@ -179,7 +179,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
                 branch.name,
                 float(weights[i]),
                 float(rates[i]),
-                None if standing is None else float(standing[i]),
+                None if no_event_probability is None else float(no_event_probability[i]),
                 None if posterior_weights is None else float(posterior_weights[i]),
             )
             for i, branch in enumerate(hazard.branches)
@@ -193,7 +193,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
 
 
 def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
-    """Return the frequency, 1/year, with which it happens below the first level, between levels and beyond the last, (n + 1,)."""
+    """Return the annual frequency, 1/year, below the first level, between levels and beyond the last, (n + 1,)."""
     from scipy.special import ndtr
 
     u, mu, beta = np.log(np.asarray(curve.levels)), math.log(fragility.median), fragility.beta
@@ -206,10 +206,11 @@ def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
 
 
 def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return ln(Phi(high) - Phi(low)), exact in both tails."""
+    """Return ln(Phi(high) - Phi(low)), accurate in both tails."""
     from scipy.special import log_ndtr
 
-    right = low + high > 0.0  # there the differences are those of the tails on the other side
+    # differences of Phi near 1 lose all digits: mirror intervals in the upper tail to the lower one
+    right = low + high > 0.0
     a, b = np.where(right, -high, low), np.where(right, -low, high)
     top = log_ndtr(b)
     with np.errstate(divide="ignore"):
@@ -217,13 +218,12 @@ def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
 
 
 def _posterior_weights(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
-    """Return the weights of branches after what each made so likely."""
+    """Return the branch weights updated by the log-likelihoods."""
     scaled_weights = weights * np.exp(log_likelihood - log_likelihood.max())
     return np.asarray(scaled_weights / scaled_weights.sum())
 
 
 def _disaggregate(levels: FloatArray, rates: FloatArray, total: float) -> tuple[RiskShare, ...]:
-    """Return what each stretch of intensities contributes."""
     ends = [None, *(float(level) for level in levels), None]
     return tuple(
         RiskShare(low, high, float(rate), float(rate) / total if total > 0.0 else 0.0)
@@ -232,22 +232,19 @@ def _disaggregate(levels: FloatArray, rates: FloatArray, total: float) -> tuple[
 
 
 def _median_warnings(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -> tuple[str, ...]:
-    """Return what is to be said of a median that no level of the table is near."""
     lowest, highest = float(levels[0]), float(levels[-1])
     if lowest / MAX_MEDIAN_RATIO <= fragility.median <= MAX_MEDIAN_RATIO * highest:
         return ()
-    text = "the median, {median:.4g} {unit}, is far from every level of the hazard, {least:.4g} to {most:.4g} {unit}: is its unit right?"
+    text = "the median {median:.4g} {unit} is far from all levels of the hazard ({least:.4g} to {most:.4g} {unit}); check its unit"
     return (lazy_gettext(text, median=fragility.median, unit=hazard.unit, least=lowest, most=highest),)
 
 
 def _extrapolation_warnings(outside_rate: float, total: float) -> tuple[str, ...]:
-    """Return what is to be said of what lies beyond the table."""
     if outside_rate <= MAX_EXTRAPOLATED_SHARE * total:
         return ()
     return (
         lazy_gettext(
-            "{share:.0%} of the frequency comes from beyond the levels of the hazard, where its curve is continued with its slope: "
-            "more levels would tell",
+            "{share:.0%} of the frequency comes from beyond the levels of the hazard (extrapolated with the end slopes); add levels",
             share=outside_rate / total,
         ),
     )

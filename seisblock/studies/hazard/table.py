@@ -1,4 +1,4 @@
-"""Reading a hazard from a table: levels of an intensity, and how often, or how probably, each is exceeded."""
+"""Hazard tables: intensity levels with exceedance frequencies or probabilities."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ UNITS_OF: Mapping[str, Mapping[str, float]] = {
     "m": LENGTH_UNITS,
     "1": {},
 }
-"""What values of a measure may be written in, by its unit here."""
+"""Accepted units of each measure and their size in the internal unit."""
 
 _MEASURE = re.compile(
     r"(pga|pgv|pgd|arias|p\*?pgv|sa[\s_(=]*\d*\.?\d+\s*s?\)?)(?:[\s_]*[(\[]\s*(\S.*?)\s*[)\]]|_(\w[\w/^]*))?\s*\Z", re.IGNORECASE
@@ -38,7 +38,7 @@ _IN_YEARS = re.compile(r"(?:poe|probability)(?:in)?(\d+)(?:years?|yr|y)|(\d+)年
 _BRANCH_COLUMNS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
 
 COLUMN_EXAMPLES = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
-"""Headings of levels, for messages."""
+"""Level headings quoted in messages."""
 
 
 class _Row(NamedTuple):
@@ -51,7 +51,7 @@ class _Row(NamedTuple):
 
 
 class _Columns(NamedTuple):
-    """What the columns of a table mean."""
+    """Interpretation of the columns of a table."""
 
     names: list[str]
     measure: IntensityMeasure
@@ -61,7 +61,7 @@ class _Columns(NamedTuple):
 
 
 def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
-    """Return the hazard of a site from a CSV file, or the bundled one, which is synthetic, by its name.
+    """Return the site hazard of a CSV file, or of the bundled synthetic one by name.
 
     The header names a column of levels with its unit (``pgv_m_s``, ``pga (g)``, ``sa(0.5)_gal``), and one of how often each is exceeded:
     annual frequencies (``annual_rate``), annual probabilities (``annual_poe``), or probabilities in some years (``poe_50_years``,
@@ -71,7 +71,7 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
     ----------
     path : str or Path
     im : str or None
-        Which measure, where the table has levels of several.
+        Intensity measure, if the table contains several.
 
     Raises
     ------
@@ -95,16 +95,15 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
 
 
 def _path(name: str | Path) -> Path:
-    """Return the file that a name means: a path, else a bundled hazard."""
+    """Return the path of a file or of a bundled hazard."""
     path = Path(checks.path(name))
     return resolve_file_or_sample(path, "hazard") or path
 
 
 def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
-    """Return the hazard of a table's text."""
     rows = data_lines(text)
     if len(rows) < 2:
-        raise HazardError("there is no hazard in it: give a header, and a line for each level")
+        raise HazardError("the table is empty; expected a header and one line per level")
     separator = find_separator(rows[0][1])
     columns = _columns(split_cells(rows[0][1], separator), measure)
     rows_by_branch: dict[str, list[_Row]] = {}
@@ -119,7 +118,7 @@ def _hazard(text: str, measure: IntensityMeasure | None) -> Hazard:
 
 
 def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
-    """Return the measure that a heading names, and what its unit is worth, SI; None where it names none.
+    """Return the intensity measure of a heading and its unit in SI; None for other headings.
 
     Raises
     ------
@@ -142,17 +141,14 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
     if unit not in unit_factors:
         unit_names = [*units]
         if not unit:
-            raise HazardError(
-                "the column {heading!r} has no unit: name it for example {known}", heading=heading[:40], known=COLUMN_EXAMPLES
-            )
+            raise HazardError("column {heading!r} has no unit; name it for example {known}", heading=heading[:40], known=COLUMN_EXAMPLES)
         raise HazardError(
-            "the column {heading!r} has the unknown unit {unit!r}: use one of {known}", heading=heading[:40], unit=unit, known=unit_names
+            "column {heading!r}: unknown unit {unit!r}; use one of {known}", heading=heading[:40], unit=unit, known=unit_names
         )
     return measure, unit_factors[unit]
 
 
 def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Columns:
-    """Return what the columns of a table mean."""
     names, ignored, measures, other_measures, rates = [], [], {}, [], {}
     for cell in cells:
         heading_measure, key = measure_of(cell), normalize_heading(cell)
@@ -168,53 +164,51 @@ def _columns(cells: Sequence[str], requested: IntensityMeasure | None) -> _Colum
             other_measures += [] if heading_measure is None else [heading_measure[0].name]
             ignored += [] if names[-1] or not cell else [cell]
     if not measures and other_measures and requested is not None:
-        text = "its levels are of {found}, and {im} is asked for: give a hazard in {im}, or a fragility in {found}"
+        text = "the levels are of {found}, but {im} is required; give a hazard in {im} or a fragility in {found}"
         raise HazardError(text, found=other_measures, im=requested.name)
     if len(measures) != 1:
         text = "expected one column of levels, such as {known}; found {found}"
         raise HazardError(text, known=COLUMN_EXAMPLES, found=list(measures) or list(cells))
     if len(rates) != 1:
-        text = "expected one column annual_rate, or annual_poe, or poe_50_years; found {found}"
+        text = "expected one of the columns annual_rate, annual_poe, poe_50_years; found {found}"
         raise HazardError(text, found=list(rates) or list(cells))
     if names.count("branch") > 1 or names.count("weight") > 1:
-        raise HazardError("two columns mean the same: leave one branch and one weight")
-    notes = (lazy_gettext("{columns} of the hazard were passed over", columns=ignored),) if ignored else ()
+        raise HazardError("duplicate columns: keep one branch and one weight")
+    notes = (lazy_gettext("unused columns of the hazard: {columns}", columns=ignored),) if ignored else ()
     ((measure, factor),) = measures.values()
     return _Columns(names, measure, factor, next(iter(rates.values())), notes)
 
 
 def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
-    """Return one row of a table."""
     level = checks.positive("the level", parse_number_cell(cells.get("level", ""), "level")) * columns.factor
     value = parse_number_cell(cells.get("rate", ""), "rate")
     if columns.years is None:
         rate = checks.non_negative("the annual frequency", value)
     else:
-        probability = checks.fraction("the probability of being exceeded", value)
+        probability = checks.fraction("the exceedance probability", value)
         rate = -math.log1p(-probability) / columns.years if probability < 1.0 else math.inf
     weight = parse_number_cell(cells["weight"], "weight") if cells.get("weight") else None
     return _Row(cells.get("branch", ""), level, rate, weight)
 
 
 def _branches(rows_by_branch: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[HazardCurve, ...], list[str]]:
-    """Return the curves of a table, and what was left out of it."""
+    """Return the curves of a table and the number of omitted levels."""
     curves, dropped = [], 0
     for name, rows in rows_by_branch.items():
         used_rows = sorted((row for row in rows if 0.0 < row.rate < math.inf), key=lambda row: row.level)
         dropped += len(rows) - len(used_rows)
         weights = {row.weight for row in rows if row.weight is not None}
         if len(weights) > 1:
-            raise HazardError("the branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
+            raise HazardError("branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
         weight = weights.pop() if weights else 1.0 if len(rows_by_branch) == 1 else None
         if weight is None:
-            raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
+            raise HazardError("branch {name!r} has no weight; add a column weight with one value per branch", name=name)
         try:
             rates = [row.rate for row in used_rows]
-            HazardCurve(
-                [row.level / unit for row in used_rows], rates
-            )  # refused in the numbers of the table, where there is something to refuse
+            # errors quote levels in the unit of the table, so validate in that unit first
+            HazardCurve([row.level / unit for row in used_rows], rates)
             curves.append(HazardCurve([row.level for row in used_rows], rates, name, weight))
         except InputError as error:
-            raise (HazardError("the branch {name!r}: {text}", name=name, text=error.message) if name else error) from None
-    text = lazy_gettext("{count} levels of the hazard that are never, or surely, exceeded were left out", count=dropped)
+            raise (HazardError("branch {name!r}: {text}", name=name, text=error.message) if name else error) from None
+    text = lazy_gettext("{count} levels of the hazard with an exceedance probability of 0 or 1 are omitted", count=dropped)
     return tuple(curves), [text] if dropped else []

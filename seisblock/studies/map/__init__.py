@@ -1,1 +1,1 @@
-"""An earthquake's stations: what each measured, and what that did to a body or a cemetery."""
+"""Stations of an earthquake: intensity measures and the response of a body or a cemetery."""

@@ -1,4 +1,4 @@
-"""Whether the headers of two records tell of one earthquake, and which that is."""
+"""Comparison of earthquake headers of records."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.records.site import Earthquake, great_circle_km
 
 MAX_EPICENTRE_DISTANCE_KM = 100.0
-"""Epicentres further apart than any two solutions of one earthquake are those of two."""
+"""Largest distance between epicentre solutions of one earthquake, km."""
 
 ONE_DAY = timedelta(days=1)
-"""Records that begin further apart are hardly of one earthquake, whatever the clocks of their instruments."""
+"""Largest difference between start times of records of one earthquake."""
 
 MAX_ORIGIN_TIME_DIFFERENCE = timedelta(minutes=3)
-"""Origin times further apart are those of two earthquakes; old headers tell the minute."""
+"""Largest difference between origin times of one earthquake; old headers give minutes only."""
 
 
 def are_different_earthquakes(first: Earthquake, second: Earthquake) -> bool:
-    """Return whether two headers tell of two earthquakes, by what both of them tell.
+    """Return whether two headers contradict each other on the earthquake.
 
     Parameters
     ----------
@@ -55,4 +55,4 @@ def describe_earthquake(earthquake: Earthquake) -> str:
         return f"{origin_time:%Y-%m-%d %H:%M} UTC"
     if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
         return f"{earthquake.latitude_deg:g}, {earthquake.longitude_deg:g}"
-    return earthquake.name or lazy_gettext("one that tells no place")
+    return earthquake.name or lazy_gettext("location unknown")

@@ -1,4 +1,4 @@
-"""A station as a row: the keys of documents, tables and points on maps, in one order."""
+"""Keys of a station in documents, tables and map points, in one order."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from seisblock.studies.map.stations import StationReport
 
 
 def station_row(report: StationReport) -> dict[str, Any]:
-    """Return the keys of a station and what stands under them.
+    """Return the keys of a station with their values.
 
     Parameters
     ----------
-    report : StationAnswer
+    report : StationReport
 
     Examples
     --------

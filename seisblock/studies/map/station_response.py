@@ -1,4 +1,4 @@
-"""What one record did to what might have stood at its station, in the worst of all directions."""
+"""Response of a body or a cemetery to the record of one station, in the worst direction."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from seisblock.studies.survey.shaking import Shaking
 
 @dataclass(frozen=True)
 class StationResult:
-    """What happened at a station; a body has no rate, a cemetery only that.
+    """Response at a station; a body has no rate, a cemetery nothing else.
 
     Parameters
     ----------
@@ -45,17 +45,17 @@ class StationResult:
     rate : float or None
         Share of the stones that fall.
     happened : bool or None
-        Whether what the solver is asked about happened: the body overturns (``respond``, ``rock``), slips, jumps, lifts.
+        Whether the event of the solver occurred: overturning (``respond``, ``rock``), sliding, jump, uplift.
     overturned : bool or None
-        None of a solver in which nothing falls.
+        None for solvers without overturning.
     probability : float or None
-        Share of the plausible versions of body and shaking that fall; None where it was not asked for.
+        Overturning probability; None if not requested.
     max_slip_m : float or None
-        Furthest displacement of the body from where it stood; of a jump that of all its chains together.
+        Maximum displacement of the body; for a jump the sum over all chains.
     max_uplift_m : float or None
-        How far a corner of a body on springs rose.
+        Maximum uplift of a corner of a body on springs.
     remarks : tuple of str
-        Directions and versions of the body that have no answer.
+        Directions and samples without a result.
     """
 
     azimuth_deg: float | None = None
@@ -69,35 +69,35 @@ class StationResult:
 
     @property
     def overturns_nominally(self) -> bool:
-        """Whether a body falls as it was given, where its share tells of its versions, of which none may fall."""
+        """True if the nominal body overturns, as opposed to its samples."""
         return self.probability is not None and bool(self.overturned)
 
     @property
     def severity(self) -> tuple[float, ...]:
-        """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement or the rise."""
+        """Sort key, larger is worse: overturning share, verdict, displacement or rise."""
         share = self.rate if self.probability is None else self.probability
         verdict = float(self.overturned or False), float(self.happened or False)
         return (-1.0 if share is None else share, *verdict, self.max_slip_m or self.max_uplift_m or 0.0)
 
 
 class StationModel(Protocol):
-    """What is asked of each station: its effect, its name, and the papers behind it."""
+    """Body or cemetery evaluated at each station."""
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the body or cemetery."""
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return what a record does to it."""
+        """Return the response to a record."""
 
 
 @dataclass(frozen=True)
 class StationBody:
-    """A body, followed in every direction where its solver looks in each, else along the horizontal components; the worst counts.
+    """A body, evaluated in all azimuths if its solver supports them, else along the horizontal components; the worst counts.
 
     Parameters
     ----------
@@ -107,20 +107,20 @@ class StationBody:
         Of the solver: of ``respond`` its ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``,
         ``settle_s``.
     vertical : bool, float or None, 1
-        Whether the vertical motion acts; None: as the solver has it by itself.
+        Whether the vertical motion acts; None: default of the solver.
     runs, seed : int
-        Versions behind the probability (``respond``, ``rock``), 0 for none, and their seed.
+        Number of samples of the probability (``respond``, ``rock``), 0 for none, and their seed.
     step_deg : float
-        Degrees between the directions of ``respond``; other solvers have their own.
+        Azimuth step of ``respond``, degrees; other solvers use their own.
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
     label : str
-        What it is called, where the body has no name.
+        Name of a body without a name.
 
     Raises
     ------
     ParameterError
-        If the solver is none of these, or has no versions to tell a probability of.
+        If the solver is unknown, or does not support samples.
 
     Examples
     --------
@@ -142,28 +142,28 @@ class StationBody:
     def __post_init__(self) -> None:
         if self.solver not in DISPLACEMENT_COLUMNS:
             raise ParameterError(
-                "{solver!r} follows no body at a station; {known} do", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
+                "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
             )
         if self.runs and batch_model(self.solver).chance is None:
-            raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=self.solver)
+            raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=self.solver)
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the body."""
         return self.label or getattr(self.body, "name", "") or lazy_gettext("object")
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
         return papers("all modes") if self.solver == "respond" else COMMAND_PAPERS[self.solver]
 
     @property
     def is_directional(self) -> bool:
-        """Whether every direction is looked in."""
+        """True if the solver covers all azimuths."""
         return self.solver in DIRECTIONAL_SOLVERS
 
     def check_options(self) -> None:
-        """Refuse options that the solver refuses at every station: it is asked once, on ground that is still for 4 samples.
+        """Raise for invalid solver options, tested once on a motion of 4 zero samples.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class StationBody:
         self.evaluate(Record(rows, 0.01))
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return what a record does to the body where that is worst."""
+        """Return the response to a record in the worst direction."""
         if self.solver == "respond":
             return self._respond_result(record)
         options = {**self.options, **({} if self.vertical is None else {"vertical": self.vertical})}
@@ -188,9 +188,9 @@ class StationBody:
         return max(results, key=lambda effect: effect.severity)
 
     def _respond_result(self, record: Record) -> StationResult:
-        """Return what became of a free-standing body in the worst direction; the share is that of its versions there."""
-        found = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
-        worst, share, remarks = found[0], None, left_out_directions(found)
+        """Return the full response in the worst direction, with the probability there."""
+        results = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
+        worst, share, remarks = results[0], None, left_out_directions(results)
         if self.runs:
             motion = motion_of(record, f"{worst.azimuth_deg:g}")
             block = block_for_motion(self.body, motion)
@@ -217,11 +217,10 @@ DISPLACEMENT_COLUMNS: Mapping[str, str | None] = {
     "jump": "total_displacement_m",
     "uplift": "max_uplift_m",
 }
-"""The solvers that follow a body at a station, and the column of a batch that tells how far it moved or rose."""
+"""Solvers available for stations, and their displacement or rise column."""
 
 
 def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResult:
-    """Return a row of a batch as the effect at a station."""
     name, column = str(row["component"]), DISPLACEMENT_COLUMNS[model.name]
     distance = None if column is None or row[column] is None else abs(row[column])
     azimuths = {component.code: component.azimuth_deg for component in record.components}
@@ -230,7 +229,7 @@ def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResu
         overturned = row["outcome"] in (OVERTURNED_ROCKING, OVERTURNED_LANDED)
     return StationResult(
         azimuths[name] if name in azimuths else float(name),
-        happened=model.happened(row),
+        happened=model.event_occurred(row),
         overturned=overturned,
         probability=row.get("probability_overturned"),
         max_slip_m=None if column == "max_uplift_m" else distance,
@@ -240,13 +239,13 @@ def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResu
 
 @dataclass(frozen=True)
 class StationCemetery:
-    """A cemetery, judged by PGA and equivalent frequency in every direction.
+    """A cemetery, assessed by PGA and equivalent frequency in every direction.
 
     Parameters
     ----------
     cemetery : Cemetery
-    method : Method
-        How a stone is judged; by a criterion that needs no motion.
+    method : AssessmentMethod
+        Assessment method with a closed-form criterion.
     step_deg : float
         Degrees between directions.
     """
@@ -257,20 +256,20 @@ class StationCemetery:
 
     def __post_init__(self) -> None:
         if self.method.criterion == "simulate":
-            raise ParameterError("stations are judged by a criterion, furukawa or rigid: leave the simulation out")
+            raise ParameterError("stations require a closed-form criterion, furukawa or rigid; remove the simulation")
 
     @property
     def name(self) -> str:
-        """What stands there."""
+        """Name of the cemetery."""
         return self.cemetery.name
 
     @property
     def citations(self) -> tuple[str, ...]:
-        """Keys of the papers relied on."""
+        """Keys of the cited papers."""
         return self.method.citations
 
     def evaluate(self, record: Record) -> StationResult:
-        """Return which share falls in the direction in which most do; of equal shares, that of the larger PGA."""
+        """Return the rate in the direction with the largest one; among equal rates, that of the larger PGA."""
         rows = [component_at_azimuth(record, azimuth).acceleration for azimuth in (0.0, 90.0)]
         north, east = (ground_history(row, record.dt) for row in rows)
         worst = (-1.0, 0.0, 0.0)

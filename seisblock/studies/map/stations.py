@@ -1,4 +1,4 @@
-"""Station by station: what was measured, what it did, and where that is; the worst first."""
+"""Station survey of an earthquake: measures, response and position by station, largest response first."""
 
 from __future__ import annotations
 
@@ -37,45 +37,45 @@ from seisblock.studies.map.station_response import StationBody, StationModel, St
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 
 NO_PROCESSING = Preparation()
-"""Nothing is done to a record but what its format needs."""
+"""Default preparation: only the processing required by the format."""
 
 OUTLINE_POINTS = 160
-"""Of an outline."""
+"""Points of an outline."""
 
 
 @dataclass(frozen=True)
 class StationReport:
-    """One station.
+    """Report of one station.
 
     Parameters
     ----------
     record : str
         File name.
     station, name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude, longitude : float or None
-        Degrees north and east; None where the file does not say: the station is listed, and on no map.
+        Degrees north and east; None if not in the file: the station is listed, but not on the map.
     epicentral_distance_km : float or None
     local_start : str
-        Time of the first sample on the network's own clock.
+        Local time of the first sample.
     pga_m_s2, pgv_m_s : float or None
         The larger of the horizontal components.
     jma_intensity : float or None, 1
-        None where it needs components, or samples, that are not there.
-    effect : StationEffect
+        None for missing components or too few samples.
+    effect : StationResult
     failure : str or None
-        Why there is no answer, or no effect.
+        Reason of a missing result.
     doubts : tuple of str
-        What a careful reader notices about the record, and which directions or versions of the body have no answer.
+        Quality flags of the record, and directions or samples without a result.
     history : tuple of str
-        What was done to it, the storey on which a body stands among it.
+        Processing steps, including floor motion.
     earthquake : Earthquake or None
     origin_told : str
-        When that was on the network's own clock.
+        Local origin time.
     outline : tuple of pairs of float, m/s^2
-        Least and largest acceleration of the horizontal of the larger peak, in equal stretches of the record.
+        Minima and maxima of the horizontal with the larger peak, over equal intervals of the record.
     duration_s : float
-        That of the record.
+        Of the record, s.
     start : datetime or None
         Of the record, UTC.
     """
@@ -102,25 +102,25 @@ class StationReport:
 
     @property
     def is_mapped(self) -> bool:
-        """Whether it is known where the station is, and what was measured there."""
+        """True if position and measures are available."""
         return valid_coordinates(self.latitude, self.longitude) is not None and self.pga_m_s2 is not None
 
     @property
     def label(self) -> str:
-        """Code and name of the station, else the file's name."""
+        """Code and name of the station, else the file name."""
         return " ".join(part for part in (self.station, self.name) if part) or self.record
 
 
 @dataclass(frozen=True)
 class Stations:
-    """The stations of one earthquake, the worst first, those without an answer last.
+    """Stations of one earthquake, largest response first, those without a result last.
 
     Parameters
     ----------
-    answers : tuple of StationAnswer
+    answers : tuple of StationReport
     earthquake : Earthquake or None
     origin_told : str
-        When that was on the clock of the network that tells it.
+        Local origin time.
     """
 
     answers: tuple[StationReport, ...]
@@ -129,12 +129,12 @@ class Stations:
 
     @property
     def mapped(self) -> tuple[StationReport, ...]:
-        """Those of which it is known where they are."""
+        """Reports with a position."""
         return tuple(answer for answer in self.answers if answer.is_mapped)
 
 
 Station: TypeAlias = "Location | RecordSource | Record"
-"""What a station may be given as: names, a recording that is yet to be read, or a record."""
+"""Station input: names, a record source or a record."""
 
 
 def survey_stations(
@@ -147,36 +147,36 @@ def survey_stations(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Stations:
-    """Return what each station of an earthquake measured, and what that did to a body or a cemetery.
+    """Return the measures at each station of an earthquake, and the response of a body or a cemetery.
 
-    A record that cannot be read, and one with which a subject can do nothing, is an answer with its reason; the others are answered.
+    Unreadable records and failed solutions give a report with a reason; the others are not affected.
 
     Parameters
     ----------
     records : path, RecordSource or Record, or several
-        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; taken as they are needed.
-    subject : StandingBody, StandingStones or None
-        What stands at each station; None for what was measured alone.
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.discover.iter_records`; read lazily.
+    subject : StationBody, StationCemetery or None
+        Body or cemetery at each station; None for measures only.
     preparation : Preparation
-        What is done to each record before.
-    read_options : Options
-        What the caller says of files that do not say it themselves.
+        Processing of each record.
+    read_options : ReadOptions
+        Properties of files that lack them.
     strict : bool
-        Whether a record about which there is any doubt has no answer.
+        Whether records with quality flags fail.
     workers : int
-        Threads; as many as there are cores when left out.
+        Threads; default: number of cores.
     progress : callable
-        Told the number of stations done, and the number known of.
+        Called with the number of finished stations and of known ones.
 
     Raises
     ------
     ParameterError
-        If the records are of two earthquakes, or there is none, or a solver refuses an option of the body whatever the station.
+        If the records are of two earthquakes, there are none, or an option of the body is invalid.
 
     Examples
     --------
-    >>> found = survey_stations("hanmer_springs_2016")
-    >>> found.answers[0].station, found.answers[0].latitude, round(found.answers[0].jma_intensity, 1)
+    >>> survey = survey_stations("hanmer_springs_2016")
+    >>> survey.answers[0].station, survey.answers[0].latitude, round(survey.answers[0].jma_intensity, 1)
     ('HSES', -42.52333, 5.4)
     """
     checks.instance(preparation, Preparation)
@@ -194,18 +194,17 @@ def survey_stations(
         reference = _check_same_earthquake(reference, report)
         reports.append(report)
     if not reports and read_options.station is not None:
-        raise ParameterError("no station {station!r} among these records", station=read_options.station)
+        raise ParameterError("no station {station!r} in these records", station=read_options.station)
     if not reports:
-        raise ParameterError("there is no record: name files, folders or bundles of one earthquake")
+        raise ParameterError("no records; give files, folders or archives of one earthquake")
     reports.sort(key=lambda item: (item.pga_m_s2 is not None, *item.effect.severity, item.pga_m_s2 or 0.0), reverse=True)
     return Stations(tuple(reports), reference.earthquake if reference else None, reference.origin_told if reference else "")
 
 
 def _recordings(records: Station | Iterable[Station], read_options: ReadOptions) -> Iterator[RecordSource | Record]:
-    """Yield what is read already or about to be, and what names stand for."""
     single = isinstance(records, (str, PathLike, RecordSource, Record))
     if not single and not isinstance(records, Iterable):
-        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(records))
+        raise KindError("expected names or records of stations, found {found}", found=checks.type_name(records))
     sources: Iterable[Any] = [records] if single else records  # type: ignore[assignment]
     for is_name, group in groupby(sources, key=lambda source: isinstance(source, (str, PathLike))):
         if is_name:
@@ -215,7 +214,6 @@ def _recordings(records: Station | Iterable[Station], read_options: ReadOptions)
 
 
 def _with_progress(reports: Iterable[StationReport | None], progress: Progress | None) -> Iterator[StationReport | None]:
-    """Yield answers, and tell how many there are so far."""
     for count, report in enumerate(reports, start=1):
         if progress is not None:
             progress(count, count)
@@ -225,9 +223,9 @@ def _with_progress(reports: Iterable[StationReport | None], progress: Progress |
 def _assess_station(
     recording: RecordSource | Record, *, subject: StationModel | None, preparation: Preparation, reading: ReadOptions, strict: bool
 ) -> StationReport | None:
-    """Return the answer of one station, None for one that was not asked for."""
+    """Return the report of one station; None for an excluded one."""
     if not isinstance(recording, (RecordSource, Record)):
-        raise KindError("names or records of stations are needed, found {found}", found=checks.type_name(recording))
+        raise KindError("expected names or records of stations, found {found}", found=checks.type_name(recording))
     name = recording.name if isinstance(recording, RecordSource) else recording.source.rsplit("/", 1)[-1]
     try:
         record = recording.read(reading) if isinstance(recording, RecordSource) else recording
@@ -235,38 +233,37 @@ def _assess_station(
             return None
         if strict:
             require_clean(record)
-        prepared = preparation.apply(record)
+        processed_record = preparation.apply(record)
     except SeisblockError as error:
-        is_other_station = reading.station is not None and isinstance(error, ComponentError)  # a file without that station
+        is_other_station = reading.station is not None and isinstance(error, ComponentError)  # the file lacks the requested station
         return None if is_other_station else StationReport(name, failure=error.message)
-    site, earthquake = get_site(prepared), get_earthquake(prepared)
+    site, earthquake = get_site(processed_record), get_earthquake(processed_record)
     site_fields: dict[str, object] = {
         "station": site.code,
         "name": site.name,
         "latitude": site.latitude_deg,
         "longitude": site.longitude_deg,
-        "epicentral_distance_km": epicentral_distance_km(prepared),
-        "start": prepared.start,
-        "local_start": format_local_time(prepared, prepared.start),
-        "doubts": tuple(qc_summary([prepared])),
-        "history": prepared.history,
+        "epicentral_distance_km": epicentral_distance_km(processed_record),
+        "start": processed_record.start,
+        "local_start": format_local_time(processed_record, processed_record.start),
+        "doubts": tuple(qc_summary([processed_record])),
+        "history": processed_record.history,
         "earthquake": earthquake,
-        "origin_told": "" if earthquake is None else format_local_time(prepared, earthquake.origin_time),
+        "origin_told": "" if earthquake is None else format_local_time(processed_record, earthquake.origin_time),
     }
     try:
-        measured_fields = _measure_record(prepared)
+        measured_fields = _measure_record(processed_record)
     except SeisblockError as error:
         return StationReport(name, **site_fields, failure=error.message)  # type: ignore[arg-type]
     try:
-        effect, failure = subject.evaluate(prepared) if subject is not None else StationResult(), None
+        effect, failure = subject.evaluate(processed_record) if subject is not None else StationResult(), None
     except SeisblockError as error:
         effect, failure = StationResult(), error.message
-    site_fields["doubts"] = (*qc_summary([prepared]), *effect.remarks)
+    site_fields["doubts"] = (*qc_summary([processed_record]), *effect.remarks)
     return StationReport(name, **site_fields, **measured_fields, effect=effect, failure=failure)  # type: ignore[arg-type]
 
 
 def _measure_record(record: Record) -> dict[str, Any]:
-    """Return peaks, intensity and outline of a record."""
     rows = [component.acceleration for component in record.horizontals]
     if not rows:
         raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
@@ -281,18 +278,18 @@ def _measure_record(record: Record) -> dict[str, Any]:
 
 
 def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Return least and largest value of a row in equal stretches."""
+    """Return minima and maxima of a row over equal intervals."""
     starts = np.unique(np.linspace(0, row.size, min(OUTLINE_POINTS, row.size), endpoint=False).astype(int))
     return tuple(zip(np.minimum.reduceat(row, starts).tolist(), np.maximum.reduceat(row, starts).tolist(), strict=True))
 
 
 def _check_same_earthquake(reference: StationReport | None, report: StationReport) -> StationReport | None:
-    """Return the station that tells most of the earthquake of all so far, and refuse another earthquake."""
+    """Return the station with the most detailed earthquake header; raise for a different earthquake."""
     if report.earthquake is None or reference is None or reference.earthquake is None:
         return reference if report.earthquake is None else report
     if are_different_earthquakes(reference.earthquake, report.earthquake):
         raise ParameterError(
-            "these records are of two earthquakes: {one} ({first}) and {other} ({second}): give those of one",
+            "records of two earthquakes: {one} ({first}) and {other} ({second}); give the records of one",
             one=describe_earthquake(reference.earthquake),
             first=reference.label,
             other=describe_earthquake(report.earthquake),
@@ -302,6 +299,6 @@ def _check_same_earthquake(reference: StationReport | None, report: StationRepor
 
 
 def _earthquake_detail(report: StationReport) -> int:
-    """Return how much of what tells two earthquakes apart a station tells: the time, the place."""
+    """Return the level of detail of the earthquake header: time, position."""
     earthquake = report.earthquake
     return 0 if earthquake is None else (earthquake.origin_time is not None) + (earthquake.place is not None)

@@ -1,4 +1,4 @@
-"""What fallen gravestones say of the shaking between stations: each surveyed place beside the stations around it."""
+"""Ground motion inferred from fallen gravestones, compared with surrounding stations."""
 
 from __future__ import annotations
 
@@ -27,33 +27,33 @@ COLUMNS = {
     "stones": ("stones", "墓石", "墓石数"),
     "fallen": ("fallen", "転倒", "転倒数"),
 }
-"""Headings of a list of surveys."""
+"""Column headings of a list of surveys."""
 
 STATION_CONTRADICTION = N_(
-    "{place} and station {station}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} by the stones, "
-    "{intensity:.1f} measured"
+    "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} by the "
+    "stones, {intensity:.1f} measured"
 )
 PLACE_CONTRADICTION = N_(
-    "{one} and {other}, {distance:.1f} km apart, contradict each other: {low:.1f} to {high:.1f} and {lower:.1f} to {higher:.1f} by their "
-    "stones"
+    "{one} and {other} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} and {lower:.1f} to "
+    "{higher:.1f} by the stones"
 )
 
 MAX_NEIGHBOURS = 3
-"""Stations that tell what the shaking at a place may have been, weighted by the inverse of the distance."""
+"""Number of stations used for interpolation by inverse distance."""
 
 MAX_NEIGHBOUR_KM = 100.0
-"""Stations further from a place tell nothing of the shaking there."""
+"""Largest distance of a station used for interpolation, km."""
 
 MAX_COMPARISON_KM = 10.0
-"""Places further apart need not have felt the same."""
+"""Largest distance at which shaking is comparable, km."""
 
 INTENSITY_TOLERANCE = 0.5
-"""How far the intensity of a station so near may lie outside of what the stones tell: half a step of JMA's scale."""
+"""Tolerance of the intensity of a station against the interval of the stones: half a JMA class."""
 
 
 @dataclass(frozen=True)
 class SurveyedPlace:
-    """A cemetery as it was found.
+    """Observed counts of a cemetery.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Neighbour:
 
 @dataclass(frozen=True)
 class SurveyComparison:
-    """What a surveyed place says, beside what the stations around it measured.
+    """Inferred ground motion of a surveyed place with the stations around it.
 
     Parameters
     ----------
@@ -96,11 +96,11 @@ class SurveyComparison:
     estimate : ShakingEstimate
         Of the fallen stones alone.
     neighbours : tuple of Neighbour
-        The nearest stations with an intensity, the nearest first, none further than ``REACH_KM``.
+        Stations with an intensity, nearest first, within ``MAX_NEIGHBOUR_KM``.
     expected_intensity : float or None, 1
-        Theirs, weighted by the inverse of the distance.
+        Mean of the stations, weighted by inverse distance.
     residual : float or None, 1
-        The estimate's intensity less that; None where the stones tell only a bound.
+        Estimated minus expected intensity; None for one-sided estimates.
     """
 
     surveyed: SurveyedPlace
@@ -116,7 +116,7 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
     Raises
     ------
     BodyError
-        If the file cannot be read, a column is missing, or a row holds what cannot be; the message names the line.
+        If the file cannot be read, a column is missing, or a row is invalid; the message names the line.
     """
     path = Path(name)
     data = read_bytes(path, str(path), BodyError)
@@ -126,7 +126,10 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
     missing = [key for key, index in column_indices.items() if index is None]
     if missing:
         raise BodyError(
-            "{name}: a list of surveys needs the columns {columns}; it lacks {missing}", name=path, columns=list(COLUMNS), missing=missing
+            "{name}: a list of surveys requires the columns {columns}; missing: {missing}",
+            name=path,
+            columns=list(COLUMNS),
+            missing=missing,
         )
     result = [
         _place(
@@ -138,22 +141,20 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
         if any(cell.strip() for cell in row)
     ]
     if not result:
-        raise BodyError("{name}: the list of surveys names no place", name=path)
+        raise BodyError("{name}: the list of surveys is empty", name=path)
     return tuple(result)
 
 
 def _text(path: Path, data: bytes) -> str:
-    """Return the text of a file in UTF-8 or Shift-JIS."""
     for encoding in ("utf-8-sig", "cp932"):
         try:
             return data.decode(encoding)
         except UnicodeDecodeError:
             continue
-    raise BodyError("{name} is not text (neither UTF-8 nor Shift-JIS)", name=path)
+    raise BodyError("{name} is not a text file (neither UTF-8 nor Shift-JIS)", name=path)
 
 
 def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
-    """Return one surveyed place."""
     try:
         latitude, longitude = float(cells["latitude"]), float(cells["longitude"])
         stones, fallen = int(cells["stones"]), int(cells["fallen"])
@@ -161,37 +162,36 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
         raise BodyError("{name}, line {line}: expected degrees and whole numbers of stones, found {found}", name=path, line=line,
                         found=list(cells.values())) from None  # fmt: skip
     if valid_coordinates(latitude, longitude) is None:
-        raise BodyError("{name}, line {line}: {place} lies at {latitude}, {longitude}, which is not on the Earth", name=path, line=line,
+        raise BodyError("{name}, line {line}: {place}: {latitude}, {longitude} is not a valid position", name=path, line=line,
                         place=cells["place"], latitude=latitude, longitude=longitude)  # fmt: skip
     if not 0 <= fallen <= stones or stones == 0:
         raise BodyError(
-            "{name}, line {line}: {fallen} of {stones} stones cannot have fallen", name=path, line=line, fallen=fallen, stones=stones
+            "{name}, line {line}: {fallen} of {stones} stones overturned is impossible", name=path, line=line, fallen=fallen, stones=stones
         )
     return SurveyedPlace(cells["place"] or lazy_gettext("line {line}", line=line), latitude, longitude, stones, fallen)
 
 
 def compare_surveys(
-    surveyed: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
+    places: Iterable[SurveyedPlace], station_survey: Stations, cemetery: Cemetery, assumptions: Assumptions | None = None
 ) -> tuple[SurveyComparison, ...]:
-    """Return what each surveyed place says, beside the stations around it, in the order given.
+    """Return the comparison of each surveyed place, in the given order.
 
     Parameters
     ----------
-    surveyed : iterable of SurveyedPlace
+    places : iterable of SurveyedPlace
     station_survey : Stations
     cemetery : Cemetery
-        The population of stones of which each survey counted some.
+        Population of stones, sampled by each survey.
     assumptions : Assumptions
-        Behind the estimates.
+        Of the estimates.
     """
     stations = [answer for answer in station_survey.mapped if answer.jma_intensity is not None]
-    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in surveyed)
+    return tuple(_compare_place(place, stations, cemetery, assumptions) for place in places)
 
 
 def _compare_place(
     place: SurveyedPlace, stations: Sequence[StationReport], cemetery: Cemetery, assumptions: Assumptions | None
 ) -> SurveyComparison:
-    """Return what one surveyed place says."""
     estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None, assumptions)
     neighbours = (
         Neighbour(station.station or station.record, _distance_km(place, station), station.jma_intensity)
@@ -210,19 +210,18 @@ def _compare_place(
 
 
 def _distance_km(place: SurveyedPlace, station: StationReport) -> float:
-    """Return how far a place is from a station, km."""
     return great_circle_km((place.latitude, place.longitude), (station.latitude or 0.0, station.longitude or 0.0))
 
 
 def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
-    """Return the pairs that cannot both be right, a sentence each: places near each other, or a place and a station.
+    """Return a sentence for each inconsistent pair of nearby places, or of a place and a station.
 
-    Two surveyed places contradict each other where their intervals of intensity have nothing in common, a place and a station where the
-    station's intensity lies more than ``ALIKE`` outside the place's interval; pairs further apart than ``NEAR_KM`` are not compared.
+    Two surveyed places are inconsistent if their intensity intervals are disjoint, a place and a station if the intensity of the station
+    lies more than ``INTENSITY_TOLERANCE`` outside the interval; pairs more than ``MAX_COMPARISON_KM`` apart are not compared.
 
     Parameters
     ----------
-    answers : sequence of SurveyAnswer
+    answers : sequence of SurveyComparison
     """
     messages: list[str] = []
     for answer in answers:
@@ -242,6 +241,6 @@ def contradictions(answers: Sequence[SurveyComparison]) -> list[str]:
 
 
 def _interval(answer: SurveyComparison) -> tuple[float, float]:
-    """Return the interval of intensity of a survey, open where the stones tell only a bound: 0 and 7.5 end JMA's scale."""
+    """Return the intensity interval of a survey; one-sided estimates are limited by 0 and 7.5."""
     low, high = answer.estimate.jma_intensity_interval
     return 0.0 if low is None else low, 7.5 if high is None else high
