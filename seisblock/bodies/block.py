@@ -114,7 +114,7 @@ class Block:
             text = "{name}: the centre of gravity must lie above the base, within {half:g} m of its middle; found an offset of {offset} m"
             raise BodyError(text, name=self.name, half=half, offset=self.centroid_offset)
         if self.centroid_height is not None and self.centroid_height > self.height:
-            text = "{name}: the centre of gravity, at {centre} m, lies above the height of {height} m"
+            text = "{name}: the height of the centre of gravity, {centre} m, exceeds the height of the block, {height} m"
             raise BodyError(text, name=self.name, centre=self.centroid_height, height=self.height)
 
     @property

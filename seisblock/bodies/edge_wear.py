@@ -44,7 +44,7 @@ class EdgeWear:
 
     def __post_init__(self) -> None:
         for value in (self.length_m, self.share):
-            checks.non_negative("an inset, how far in from each side a block turns,", value)
+            checks.non_negative("the inset of the worn edges", value)
 
     def inset(self, width: float) -> float:
         """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on.
@@ -54,8 +54,8 @@ class EdgeWear:
         depth = self.length_m + self.share * width
         if not depth < MAX_SHARE * width:
             raise ParameterError(
-                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half of it (a "
-                "bare number is a share of the width, 0.1; a length has a unit, 1cm)",
+                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half the width (a bare "
+                "number is a share of the width, 0.1; a length has a unit, 1cm)",
                 depth=depth,
                 width=width,
             )

@@ -69,11 +69,9 @@ def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if kind == "pile":
         return load_pile(source).as_block()
     if kind == "scan":
-        raise BodyError("{where} is a scan, which is another block in each direction: say towards which azimuth", where=source)
+        raise BodyError("{where} is a scan, whose dimensions depend on the azimuth: give the azimuth", where=source)
     if kind != "block":
-        raise BodyError(
-            '{where}: expected kind = "block", "two-layer", "pile" or "scan", found {kind}', where=source, kind=quote_value(kind)
-        )
+        raise BodyError('{where}: kind must be "block", "two-layer", "pile" or "scan", found {kind}', where=source, kind=quote_value(kind))
     check_keys(table, _KEYS)
     sizes: dict[str, Any] = {"width": get_length(table, "width"), "height": get_length(table, "height")}
     sizes |= {key: get_length(table, key) for key in _LENGTH_KEYS[2:] if key in table}

@@ -29,10 +29,8 @@ class Surface:
 
 
 SURFACES = {
-    "granite/granite": Surface(
-        0.438, 0.438, "[Furukawa2009]_ table 2", N_("kinetic value of gravestones; the static one is taken as equal")
-    ),
-    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", N_("ABS resin on steel, which the paper takes for posts on stone")),
+    "granite/granite": Surface(0.438, 0.438, "[Furukawa2009]_ table 2", N_("kinetic value of gravestones; static value taken as equal")),
+    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", N_("ABS resin on steel, used in the paper for posts on stone")),
     "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", N_("dry")),
     "wood/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
     "metal/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
@@ -60,5 +58,5 @@ def surface(pair: str) -> Surface:
         if name in SURFACES:
             return SURFACES[name]
     raise ParameterError(
-        "no friction is known of {pair!r}; there are {known}: or give the coefficient itself", pair=pair, known=list(SURFACES)
+        "no friction coefficient for the pair {pair!r}; available: {known}; or give the coefficient", pair=pair, known=list(SURFACES)
     )

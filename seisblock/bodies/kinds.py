@@ -44,7 +44,7 @@ def of_kind(block: Block, kind: str) -> Block:
     from seisblock.bodies.block_array import wear_within  # numpy, which the help of a command does without
 
     if kind not in KINDS:
-        raise BodyError("there is no kind of body {kind!r}; known are {known}", kind=str(kind)[:100], known=list(KINDS))
+        raise BodyError("unknown kind of body {kind!r}; known: {known}", kind=str(kind)[:100], known=list(KINDS))
     if kind != GRAVESTONE:
         return block
     median = wear_within(block, DEFAULT_WEAR.share)

@@ -74,7 +74,7 @@ class SpringBlock:
         checks.positive("mass of the block", self.mass, "kg", error=BodyError)
         warn_large_lengths(lazy_gettext("block"), width=self.width, depth=self.depth, height=self.height)
         if len(self.stiffness) != 3:
-            raise BodyError("stiffness takes three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
+            raise BodyError("stiffness requires three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
         for axis, value in zip("xyz", self.stiffness, strict=True):
             checks.positive("stiffness k{axis} of a corner", value, "N/m", error=BodyError, axis=axis)
         object.__setattr__(self, "stiffness", tuple(float(k) for k in self.stiffness))

@@ -53,19 +53,19 @@ def spring_block(
     """
     if width is None or height is None:
         missing_name = "`width`" if width is None else "`height`"
-        raise BodyError("{missing} is missing: give `width` and `height`, for example 1.2 and 3 m", missing=missing_name)
+        raise BodyError("{missing} required: give `width` and `height`, for example 1.2 and 3 m", missing=missing_name)
     zeta = PAPER_DAMPING if damping is None else damping
     if stiffness is not None:
         if frequency_vertical is not None or beta is not None:
-            raise BodyError("`stiffness` says all of the springs: leave `frequency_vertical` and `beta` out")
+            raise BodyError("`stiffness` excludes `frequency_vertical` and `beta`: omit them")
         if mass is None:
-            raise BodyError("`stiffness` needs `mass`, kg, to say how fast the block moves on its springs")
+            raise BodyError("`stiffness` requires `mass`, kg, for the natural frequencies")
         if len(stiffness) != 3:
-            raise BodyError("`stiffness` takes three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
+            raise BodyError("`stiffness` requires three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
         kx, ky, kz = stiffness
         return SpringBlock(width, width if depth is None else depth, height, mass, (kx, ky, kz), zeta)
     if frequency_vertical is None:
-        raise BodyError("the springs have no stiffness: give `frequency_vertical` in Hz, or `mass` and `stiffness` kx,ky,kz in N/m")
+        raise BodyError("spring stiffness required: give `frequency_vertical` in Hz, or `mass` and `stiffness` kx,ky,kz in N/m")
     return SpringBlock.from_frequency(
         width,
         width if depth is None else depth,

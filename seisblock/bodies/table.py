@@ -132,7 +132,7 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     paths = [names] if isinstance(names, (str, Path)) else list(names)
     bodies = [body for name in paths for body in (_read_body_table(str(name)) if _is_table(name) else [_read_body_file(str(name))])]
     if not bodies:
-        raise BodyError("no body was named: give a table of bodies, a file that describes one, or a bundled body")
+        raise BodyError("body required: give a table of bodies, a file that describes one body, or a bundled body")
     check_limit(N_("bodies"), len(bodies), "SEISBLOCK_BODIES", error=BodyError)
     return tuple(bodies)
 
@@ -152,10 +152,10 @@ def _read_body_table(name: str) -> list[BodySpec]:
     """Return the bodies of a table."""
     path = Path(name)
     if path.is_dir():
-        raise BodyError("{name} is a directory: give a CSV file with one body on each line", name=name)
+        raise BodyError("{name} is a folder: give a CSV file with one body on each line", name=name)
     lines = data_lines(read_text(path, name))
     if len(lines) < 2:
-        raise BodyError("{name}: there is no body in it: expected a header, and one body on each line below it", name=name)
+        raise BodyError("{name} contains no bodies: a header and one line per body are required", name=name)
     (header_line, header), rows = lines[0], lines[1:]
     separator = find_separator(header)
     columns, units = _parse_header(split_cells(header, separator), name, header_line)
@@ -182,7 +182,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
         name, unit = parse_heading(cell, _COLUMNS)
         if not name:
             raise BodyError(
-                "{source}, line {line}: unknown column {cell!r}; known are {known}",
+                "{source}, line {line}: unknown column {cell!r}; known: {known}",
                 source=source,
                 line=line,
                 cell=cell[:100],
@@ -192,7 +192,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
             raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         if unit and name not in (*LENGTH_COLUMNS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
             raise BodyError(
-                "{source}, line {line}: column {cell!r} has the unit {unit!r}; expected {expected}",
+                "{source}, line {line}: unit {unit!r} of column {cell!r} is not known; known: {expected}",
                 source=source,
                 line=line,
                 cell=cell[:100],
@@ -202,7 +202,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
         units[name] = unit
         columns.append(name)
     if "name" not in columns:
-        raise BodyError("{source}, line {line}: expected a column name; found {found}", source=source, line=line, found=list(cells))
+        raise BodyError("{source}, line {line}: column name required; found {found}", source=source, line=line, found=list(cells))
     return columns, units
 
 
@@ -210,7 +210,7 @@ def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) ->
     """Return the body of one row."""
     name = row["name"]
     if not name:
-        raise BodyError("a body without a name: fill the cell")
+        raise BodyError("the name of a body is empty: fill the cell")
     values: dict[str, Any] = {}
     for key, cell in row.items():
         if key != "name" and cell:
@@ -230,7 +230,7 @@ def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
     if key in LENGTH_COLUMNS:
         value = parse_length_cell(cell, key, unit)
         if abs(value) > MAX_LENGTH:
-            raise BodyError("{key} of {value:g} m is no object's (without a unit it means metres)", key=key, value=value)
+            raise BodyError("{key} of {value:g} m is not plausible for an object (read as metres without a unit)", key=key, value=value)
         return _check_range(key, value, "m")
     return _check_range(key, parse_number_cell(cell, key))
 

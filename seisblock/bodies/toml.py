@@ -40,22 +40,22 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
         if path.parent != Path() or not _exists(bundled):
             bundled_names = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST" and kind in (None, _kind(p)))
             raise BodyError(
-                "no body file {name}, and no bundled body of that name; bundled are {known}",
+                "no body file {name}, and no bundled body of that name; bundled: {known}",
                 name=str(name)[:MAX_QUOTED_LENGTH],
                 known=bundled_names,
             )
         path = bundled
     if path.is_dir():
-        raise BodyError("{name} is a directory: give a TOML file that describes a body", name=name)
+        raise BodyError("{name} is a folder: give a TOML file that describes a body", name=name)
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty: give a TOML file that describes a body", name=name)
     try:
         table = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise BodyError("{name} is no text in UTF-8: give a TOML file that describes a body, saved as UTF-8", name=name) from error
+        raise BodyError("{name} is not UTF-8 text: give a TOML file that describes a body, saved as UTF-8", name=name) from error
     except (ValueError, RecursionError) as error:  # no TOML, a date that is none, lists in lists in lists
-        raise BodyError("{name} is not a TOML description of a body: {reason}", name=str(name), reason=str(error)) from error
+        raise BodyError("{name} is not valid TOML: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
 
 
@@ -112,7 +112,7 @@ def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
     unknown_keys = sorted(set(table) - {*allowed, "source"})
     if unknown_keys:
         raise BodyError(
-            "{source}: unknown entries {unknown}; known are {known}",
+            "{source}: unknown entries {unknown}; known: {known}",
             source=source_name(table),
             unknown=[key[:MAX_QUOTED_LENGTH] for key in unknown_keys],
             known=sorted(allowed),
@@ -128,9 +128,7 @@ def check_kind(table: Mapping[str, Any], kind: str) -> None:
     """Refuse a table that describes another kind of body."""
     actual = table.get("kind")
     if actual != kind:
-        raise BodyError(
-            '{source}: expected kind = "{kind}", found {found}', source=source_name(table), kind=kind, found=quote_value(actual)
-        )
+        raise BodyError('{source}: kind must be "{kind}", found {found}', source=source_name(table), kind=kind, found=quote_value(actual))
 
 
 def get_length(table: Mapping[str, Any], key: str) -> float:
@@ -171,7 +169,7 @@ def _require(table: Mapping[str, Any], key: str) -> Any:
     """Return an entry that must be there."""
     if key not in table:
         raise BodyError(
-            "{source}: {key} is missing; it has {known}", source=source_name(table), key=key, known=[k for k in table if k != "source"]
+            "{source}: {key} is missing; entries: {known}", source=source_name(table), key=key, known=[k for k in table if k != "source"]
         )
     return table[key]
 
@@ -200,5 +198,5 @@ def _check_list(value: Any, table: Mapping[str, Any], key: str) -> Sequence[Any]
 def _check_text(value: Any, table: Mapping[str, Any], key: str) -> str:
     """Return what must be a text."""
     if not isinstance(value, str):
-        raise BodyError("{source}: {key} must be a text, found {found}", source=source_name(table), key=key, found=quote_value(value))
+        raise BodyError("{source}: {key} must be a string, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value

@@ -174,7 +174,7 @@ class Contact:
     restitution_y: float = 0.85
 
     def __post_init__(self) -> None:
-        checks.non_negative("mu, the static friction coefficient,", self.mu)
+        checks.non_negative("the static friction coefficient `mu`", self.mu)
         checks.non_negative("the kinetic friction coefficient", self.kinetic)
         checks.fraction("restitution x", self.restitution_x)
         checks.fraction("restitution y", self.restitution_y)
@@ -275,5 +275,5 @@ def load_contact(name: str | Path) -> Contact:
     table = read_body_toml(name)
     values = contact_from_table(table)
     if "mu" not in values:
-        raise BodyError("{name} brings no friction of its own: make a Contact(mu=...)", name=table.get("name", name))
+        raise BodyError("friction required: {name} defines none; use Contact(mu=...)", name=table.get("name", name))
     return Contact(**values)

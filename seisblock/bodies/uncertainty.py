@@ -56,7 +56,7 @@ class ParameterRanges:
                 continue
             low, high = (check("the range of {name}", value, error=BodyError, name=name) for value in limits)
             if low > high:
-                text = "the range of {name} runs from {low:g} to {high:g}: tell the lesser number first"
+                text = "the range of {name} runs from {low:g} to {high:g}: give the smaller number first"
                 raise BodyError(text, name=name, low=low, high=high)
             object.__setattr__(self, key, (low, high))
         if self.inset_m is not None and self.width_m is not None and self.inset_m[1] >= self.width_m[0] / 2:
@@ -78,7 +78,7 @@ class ParameterRanges:
     @property
     def edges_text(self) -> Message | None:
         """The range of the worn edges, in words."""
-        return _format_range(self.inset_m, N_("edges {low:.4g} to {high:.4g} m in"))
+        return _format_range(self.inset_m, N_("edges worn by {low:.4g} to {high:.4g} m"))
 
     @property
     def friction_text(self) -> Message | None:
@@ -130,7 +130,7 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         name = key.removesuffix("_m")
         body_value = body_values.get(name)
         if body_value is not None and not low * (1 - 1e-9) <= body_value <= high * (1 + 1e-9):
-            text = "{source}: {key} is {own:g} in the body, outside its range of {low:g} to {high:g}"
+            text = "{source}: {key} of the body is {own:g}, outside its range of {low:g} to {high:g}"
             raise BodyError(text, source=source_name(range_table), key=name, own=body_value, low=low, high=high)
     try:
         return ParameterRanges(**limits)  # type: ignore[arg-type]

@@ -30,32 +30,32 @@ from seisblock.core.i18n import N_, escape_control, gettext, lazy_gettext, trunc
 from seisblock.core.io.overwrite import track_files
 
 COMMANDS: dict[str, tuple[str, str]] = {
-    "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
+    "measure": ("seisblock.cli.measure:measure", "Intensity measures of a record: peaks, frequencies, durations, JMA intensity."),
     "respond": (
         "seisblock.cli.respond:respond",
-        "What a free-standing object does: rests, slides, rocks, flies, falls, whichever comes.",
+        "Full response: rest, sliding, rocking, flight, overturning.",
     ),
     "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
-    "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
+    "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with margins."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
-    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
-    "stack": ("seisblock.cli.stack:stack", "A pile of stones in three dimensions: gravestones, lanterns, columns."),
-    "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
-    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
-    "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
-    "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
-    "body": ("seisblock.cli.body:body", "The body of a scan: mass, inertia, base, and how easily it turns in each direction."),
-    "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
-    "map": ("seisblock.cli.map:map", "An earthquake's stations, and what it did to a body or a cemetery at each."),
-    "fragility": ("seisblock.cli.fragility:fragility", "How likely an object falls, slides or rocks, against the shaking's intensity."),
-    "risk": ("seisblock.cli.risk:risk", "How often it happens at a site: a fragility and the hazard there."),
-    "fit": ("seisblock.cli.fit:fit", "The block that explains which shakings made it fall, and how well it foretells others."),
-    "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
-    "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
-    "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
-    "schema": ("seisblock.cli.schema:schema", "The keys of a command's JSON document, with meaning and unit, as JSON Schema."),
-    "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
-    "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
+    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic motion."),
+    "stack": ("seisblock.cli.stack:stack", "Pile of stones in three dimensions: gravestones, lanterns, columns."),
+    "criteria": ("seisblock.cli.criteria:criteria", "Closed-form overturning criteria beside the simulated outcome."),
+    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning spectra over size and slenderness."),
+    "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Overturning rate of the gravestones of a cemetery."),
+    "infer": ("seisblock.cli.infer:infer", "Ground motion estimated from fallen gravestones or displaced objects."),
+    "body": ("seisblock.cli.body:body", "Rigid-body properties of a 3-D scan: mass, inertia, base, slenderness."),
+    "batch": ("seisblock.cli.batch:batch", "Table of many records and many bodies, on all cores or a cluster."),
+    "map": ("seisblock.cli.map:map", "Map of an earthquake's stations with the response of a body or a cemetery."),
+    "fragility": ("seisblock.cli.fragility:fragility", "Fragility curves: overturning, sliding or rocking against intensity."),
+    "risk": ("seisblock.cli.risk:risk", "Annual frequency at a site: fragility and seismic hazard."),
+    "fit": ("seisblock.cli.fit:fit", "Block parameters from observed overturning, with cross-validation."),
+    "report": ("seisblock.cli.report:report", "HTML report of a record and the response of bodies."),
+    "validate": ("seisblock.cli.validate:validate", "Numbers printed in the papers beside the computed ones."),
+    "cite": ("seisblock.cli.cite:cite", "References of a command, as text or BibTeX."),
+    "schema": ("seisblock.cli.schema:schema", "JSON Schema of a command's JSON document."),
+    "samples": ("seisblock.cli.samples:samples", "Bundled records and bodies: list or copy."),
+    "completion": ("seisblock.cli.completion:completion", "Shell completion for bash, zsh and fish."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 
@@ -81,7 +81,7 @@ def with_option_names(text: str, ctx: click.Context) -> str:
 
 def _report_interrupt() -> None:
     """Say on stderr that the run was interrupted."""
-    click.echo(f"\nseisblock: {gettext('interrupted; no half-written file is left')}", err=True)
+    click.echo(f"\nseisblock: {gettext('interrupted; no partially written file remains')}", err=True)
 
 
 class SeisblockGroup(click.Group):
@@ -185,13 +185,13 @@ class SeisblockGroup(click.Group):
         except Terminated:
             ctx.exit(TERMINATED)
         except MemoryError:
-            text = gettext("this takes more memory than there is: cut a window out of the record, or ask for less at a time")
+            text = gettext("not enough memory: shorten the record with --window, or reduce the number of samples, levels or bodies")
             click.secho(f"seisblock: {text}", fg="red", err=True)
             ctx.exit(SeisblockError.exit_code)
         except OSError as error:
             discard_stdout()
             write_error = gettext(
-                "cannot write {file}: {error}", file=error.filename or lazy_gettext("the answer"), error=os_error_text(error)
+                "cannot write {file}: {error}", file=error.filename or lazy_gettext("the results"), error=os_error_text(error)
             )
             click.secho(f"seisblock: {write_error}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
@@ -202,10 +202,10 @@ class SeisblockGroup(click.Group):
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(__version__, prog_name="seisblock", help=N_("Show the version and exit."))
 def main() -> None:
-    """Tell what ground motion does to objects that nobody bolted down.
+    """Seismic response of unanchored objects: sliding, rocking, overturning.
 
-    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded bundle), PEER AT2,
-    CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
+    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded archive), PEER AT2, CSMIP,
+    COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or any format that ObsPy reads. Default: a bundled sample record.
     """
 
 

@@ -39,18 +39,18 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
         return
     for record in load_records(replace(source, component=())):
         results = solve(record)
-        info("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
+        info("worst of {count} azimuths: {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
         yield motion_of(record, f"{results[0].azimuth_deg:g}"), results
 
 
 def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
     """Return what draws the directions, None where they were not looked in."""
-    if not any("directions" in extra for extra in extras):
+    if not any("azimuths" in extra for extra in extras):
         return None
 
     def draw() -> Figure:
         from seisblock.report.figures.azimuths import figure
 
-        return figure(responses, [extra["directions"] for extra in extras], gal=gal)
+        return figure(responses, [extra["azimuths"] for extra in extras], gal=gal)
 
     return draw

@@ -35,7 +35,7 @@ class Finite(click.types.FloatParamType):
         if math.isfinite(number):
             return number
         try:
-            return checks.finite(N_("it"), number)
+            return checks.finite(N_("the value"), number)
         except ParameterError as error:
             self.fail(gettext(error.message), param, ctx)
 
@@ -98,9 +98,7 @@ class Command(click.Command):
                 and isinstance(option_given, click.Option)
                 and not (option_given.multiple or option_given.is_flag or option_given.count)
             ):
-                text = gettext(
-                    "{option} takes one value, found {count}: leave one of them", option=max(option_given.opts, key=len), count=count
-                )
+                text = gettext("{option} may be given only once, found {count} times", option=max(option_given.opts, key=len), count=count)
                 raise click.UsageError(text, ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
@@ -130,7 +128,7 @@ class Command(click.Command):
 
 def lang_option() -> click.Option:
     """Return the option that every command has; what it asks for is known before the line is parsed, see ``cli.language``."""
-    text = "Language of all that is said, printed and drawn. [default: of the locale, else en]"
+    text = "Language of messages, tables and figures. [default: of the locale, else en]"
     return Option(["--lang"], type=SuggestingChoice(LANGUAGES), expose_value=False, section="Output", help=text)
 
 

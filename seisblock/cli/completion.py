@@ -54,10 +54,10 @@ add_completion_class(Bash)
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
-@argument("shell", type=SuggestingChoice(INSTALL_HINTS), help="The shell that is to complete.")
+@argument("shell", type=SuggestingChoice(INSTALL_HINTS), help="Name of the shell.")
 @click.pass_context
 def completion(ctx: click.Context, shell: str) -> None:
-    """Print the completion script of a shell; where it belongs is said on stderr."""
+    """Completion script of a shell; stderr shows the line for the shell's start-up file."""
     from click.shell_completion import get_completion_class
 
     from seisblock.cli.console import info

@@ -27,9 +27,9 @@ from seisblock.cli.types import MU
     "--mu",
     type=MU,
     section="Body",
-    help="Static friction under the block, 1, for what it does with all of its motions. [default: the body's own, else feet that hold]",
+    help="Static friction coefficient under the block for the simulated outcome. [default: the body's own, else no sliding]",
 )
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
 @gravity_option
 @output_options(histories=False, film=False)
 def criteria(
@@ -44,11 +44,11 @@ def criteria(
     mu_kinetic: float | None,
     **body: Any,
 ) -> None:
-    """Every closed-form criterion of overturning beside the simulated outcome, for each component.
+    """All closed-form overturning criteria beside the simulated outcome, for each component.
 
-    A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
-    frequency are given the record's equivalent frequency in each of its three definitions. Beside them stands what the block does when
-    it may slide and fly, too, under all components, as respond tells it.
+    A criterion predicts overturning when the demand (PGA or PGV of the record) exceeds its threshold. Criteria that need a frequency
+    take the equivalent frequency of the record in each of its three definitions. The simulated outcome is that of respond: sliding,
+    rocking and flight under all components.
     """
     from seisblock.bodies.factory import table_friction
     from seisblock.bodies.toml import read_body_toml

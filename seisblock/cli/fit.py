@@ -26,7 +26,7 @@ def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
     """Accept the option repeated, and lists with commas; None where it is not there."""
     names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
     if value and not names:
-        raise click.BadParameter(gettext("it is empty: name what is looked for, or none"), ctx, param)
+        raise click.BadParameter(gettext("the list is empty: name the parameters to estimate, or none"), ctx, param)
     return () if names == ("none",) else names or None
 
 
@@ -57,21 +57,22 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     metavar="OUTCOMES",
     section="Record",
     shell_complete=shell_completion.complete_outcomes,
-    help="Table (.csv): record, a file beside it; fell or moved, 0 or 1; where needed weight, component, scale. Bundled: shaken_block.csv.",
+    help="Table (.csv): record, a file in the same folder; fell or moved, 0 or 1; optional weight, component, scale. Bundled: "
+    "shaken_block.csv.",
 )
 @preparation_options
 @option(
     "--outcome",
     type=click.Choice(["fell", "moved"]),
-    help="Which column counts, where there are both. [default: fell]",
+    help="Column of outcomes, where the table has both. [default: fell]",
 )
 @option(
     "--free",
     multiple=True,
     callback=_names,
     metavar="NAME[,NAME...]",
-    help="What is looked for: alpha, p, restitution, inset; or none. [default: what is not given: alpha and p, or a body's inset; and "
-    "the restitution]",
+    help="Parameters to estimate: alpha, p, restitution, inset; or none. [default: those not given: alpha and p, or the inset of a "
+    "body; and the restitution]",
 )
 @block_options
 @option(
@@ -79,53 +80,54 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     type=float,
     metavar="DEG",
     section="Body",
-    help="Of a scanned --block: azimuth along which it was shaken, degrees clockwise from north.",
+    help="Azimuth of the shaking for a scanned --block, degrees clockwise from north.",
 )
 @option(
     "--restitution",
     type=float,
     metavar="E",
     section="Body",
-    help="Angular velocity after an impact over that before, a ratio, 0 to 1, where it is not looked for. [default: 1 - 1.5 sin^2(alpha)]",
+    help="Fixed coefficient of restitution: ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
+    "sin^2(alpha)]",
 )
 @option(
     "--bounds",
     multiple=True,
     callback=_bounds,
     metavar="NAME=LOW:HIGH",
-    help="Bounds of alpha, rad, p, rad/s, restitution, inset or scatter, shares, of 1; may be repeated. "
-    "[default: alpha=0.03:1, p=1:25, restitution=0.3:0.99, inset=0:0.45, scatter=0.01:0.2]",
+    help="Bounds of alpha, rad, p, rad/s, and the ratios restitution, inset and scatter; may be repeated. [default: alpha=0.03:1, "
+    "p=1:25, restitution=0.3:0.99, inset=0:0.45, scatter=0.01:0.2]",
 )
 @option(
     "--scatter",
     type=float,
     metavar="SHARE",
-    help="Half width of the changes from run to run, a share of size, slenderness, restitution and amplitude. [default: looked for]",
+    help="Half width of the variation between runs, a share of size, slenderness, restitution and amplitude. [default: estimated]",
 )
-@option("--lapse", type=float, metavar="SHARE", help="Share of the outcomes that follow no model. [default: looked for]")
-@option("--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]")
+@option("--lapse", type=float, metavar="SHARE", help="Lapse rate: share of outcomes independent of the model. [default: estimated]")
+@option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]")
 @option(
     "--folds",
     type=Count(N_("folds"), "SEISBLOCK_VALUES", minimum=2),
     metavar="K",
-    help="Parts into which the records are dealt, each foretold by the others. [default: 5]",
+    help="Folds of the cross-validation. [default: 5]",
 )
-@option("--confidence", type=float, default=0.9, show_default=True, help="Level of the intervals, 0 to 1.")
+@option("--confidence", type=float, default=0.9, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--runs",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
     default=16,
     show_default=True,
-    help="Versions of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
+    help="Samples of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of what is drawn.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the random numbers.")
 @gravity_option
 @output_options(histories=False, film=False)
 def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
-    """Find the block that explains under which records it fell and under which it stood.
+    """Parameters of a rigid block that explain under which records an object overturned or remained standing.
 
-    Its slenderness alpha, frequency parameter p, restitution and worn edges, whichever are asked for, with their intervals; and how well
-    records are foretold by blocks that were found without them.
+    Estimates slenderness alpha, frequency parameter p, restitution and edge wear (see --free) with their credible intervals.
+    Cross-validation shows how well the fitted block predicts records that were left out.
     """
     from seisblock.cli.progress import progress
     from seisblock.report.json.fit import document
@@ -135,7 +137,7 @@ def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
     observed = _read_outcomes(outcomes, source, params.pop("outcome"))
     block, inset, restitution = _choose_body(params)
     options = {key: params[key] for key in ("free", "bounds", "scatter", "lapse", "vertical", "folds", "runs", "seed", "gravity")}
-    with progress("records followed") as advance:
+    with progress("solving records") as advance:
         result = fit_block(
             observed,
             kind=observed.kind,
@@ -170,7 +172,9 @@ def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
 
     check_single_window(source)
     if len(source.component) > 1:
-        raise ParameterError("one component is shaken, found {names}: name others in a column `component`", names=list(source.component))
+        raise ParameterError(
+            "the shaking is one component, found {names}: name the others in a column `component`", names=list(source.component)
+        )
     with progress("reading {names}", names=[Path(outcomes).name]) as advance:
         return read_outcomes(
             outcomes,

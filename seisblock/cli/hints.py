@@ -63,11 +63,9 @@ def jump_hint(
     words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
     command = respond_command(source, *words, "--tenon", DEPTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
     if tenon is None:
-        text = gettext(
-            "respond follows the same body through all of its motions, once the depth of its tenons is known: {typed}", typed=command
-        )
+        text = gettext("Full response with friction and tenons (depth required): {typed}", typed=command)
     else:
-        text = gettext("respond follows the same body through all of its motions, with its tenons: {typed}", typed=command)
+        text = gettext("Full response with friction and tenons: {typed}", typed=command)
     yield styled_line(text)
 
 
@@ -76,7 +74,7 @@ def rock_hint(source: Source, params: Mapping[str, Any], block: Block, mu: float
     if mu is not None and not suffices:
         side = ["--side", params["side"]] if params.get("side") else []
         body = ["--block", params["block"], *side] if params.get("block") else _size_options(block)
-        yield styled_line(gettext("respond lets it slide and rock: {typed}", typed=respond_command(source, *body, "--mu", f"{mu:g}")))
+        yield styled_line(gettext("Response with sliding and rocking: {typed}", typed=respond_command(source, *body, "--mu", f"{mu:g}")))
 
 
 def slide_hint(source: Source, mu: float, mu_kinetic: float | None, *, slips: bool) -> Iterator[Any]:
@@ -85,7 +83,7 @@ def slide_hint(source: Source, mu: float, mu_kinetic: float | None, *, slips: bo
         kinetic = [] if mu_kinetic is None else ["--mu-kinetic", f"{mu_kinetic:g}"]
         typed = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
         text = gettext(
-            "This holds for what does not rock: b/h, half the base over the height of the centre, above {mu:g}. Others: {typed}",
+            "Valid for objects that do not rock: b/h (half base over height of the centre of gravity) above {mu:g}. Other objects: {typed}",
             mu=mu,
             typed=typed,
         )

@@ -85,7 +85,7 @@ def make_preparation(source: Source, peaks: tuple[str, ...], *, keep_whole: bool
 def check_single_window(source: Source) -> None:
     """Refuse several windows where a command takes one."""
     if len(source.window) > 1:
-        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
+        raise ParameterError("this command accepts one --window, found {count}", count=len(source.window))
 
 
 def selected_components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:
@@ -94,7 +94,7 @@ def selected_components(record: Record, source: Source, *, vertical_counts: bool
     requested = source.component
     if not requested or any(name.lower() == "all" for name in requested):
         if not available:
-            raise ComponentError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+            raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
         return available
     return requested
 

@@ -31,9 +31,7 @@ def reject_with(condition: str, names: Iterable[str]) -> None:
         If one of them was asked for, whatever its value.
     """
     if flags := given_flags(names):
-        raise click.UsageError(
-            gettext("beside {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
-        )
+        raise click.UsageError(gettext("{flags} has no effect with {what}: omit one of them", what=condition, flags=flags))
 
 
 def reject_without(condition: str, names: Iterable[str]) -> None:
@@ -45,6 +43,4 @@ def reject_without(condition: str, names: Iterable[str]) -> None:
         If one of them was asked for, whatever its value.
     """
     if flags := given_flags(names):
-        raise click.UsageError(
-            gettext("without {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
-        )
+        raise click.UsageError(gettext("{flags} has no effect without {what}: omit it, or add {what}", what=condition, flags=flags))

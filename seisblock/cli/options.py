@@ -50,7 +50,7 @@ def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Cont
 
     def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
         try:
-            return None if value is None else check(N_("it"), value)
+            return None if value is None else check(N_("the value"), value)
         except ParameterError as error:
             raise click.BadParameter(gettext(error.message), ctx, param) from None
 
@@ -64,7 +64,7 @@ def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[s
     """Accept the option repeated, and lists with commas; a list of nothing is refused."""
     names = [[part.strip() for part in text.split(",") if part.strip()] for text in value]
     if not all(names):
-        raise click.BadParameter(gettext("it is empty: name a component, or degrees clockwise from north"), ctx, param)
+        raise click.BadParameter(gettext("the list is empty: name a component, or degrees clockwise from north"), ctx, param)
     return tuple(name for group in names for name in group)
 
 
@@ -77,7 +77,7 @@ def _record_argument(help_text: str) -> Callable[[Function], Function]:
 
 _RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
 _REAL_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
-_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: those of --suite]"))
+_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: records of --suite]"))
 _RECORD_OPTIONS = (
     option(
         "--component",
@@ -88,21 +88,21 @@ _RECORD_OPTIONS = (
         section="Record",
         help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",
     ),
-    option("--scale", type=float, callback=_nonzero, section="Record", help="Factor on all components. [default: 1]"),
+    option("--scale", type=float, callback=_nonzero, section="Record", help="Scale factor on all components. [default: 1]"),
     option(
         "--target-pga",
         type=float,
         callback=_positive,
         metavar="GAL",
         section="Record",
-        help="Scale so that the largest PGA of the components solved is this, gal: in the whole record, before --floor and --window.",
+        help="Largest PGA of the components under analysis after scaling, gal; taken over the whole record, before --floor and --window.",
     ),
     option(
         "--window",
         type=WINDOW,
         multiple=True,
         section="Record",
-        help="Use this stretch only, s from the record's first sample; either end may be left out.",
+        help="Time window, s from the first sample of the record; either end may be omitted.",
     ),
     option(
         "--highpass",
@@ -110,38 +110,38 @@ _RECORD_OPTIONS = (
         callback=_positive,
         metavar="HZ",
         section="Record",
-        help="Zero-phase high-pass (4th-order Butterworth), after --demean and before --scale, Hz. [default: none]",
+        help="Corner of a zero-phase high-pass (4th-order Butterworth), Hz; after --demean, before --scale. [default: none]",
     ),
     option(
         "--floor",
         type=STOREY,
         metavar="T=S[,zeta=0.05][,height=0.8]",
         section="Record",
-        help="The object stands in a building over this ground: it feels a linear oscillator of period T (s) and damping zeta (a ratio), "
-        "or the storey at this share of the height, the mode being a straight line. After --scale, before --window; vertical as it is. "
-        "[default: on the ground]",
+        help="Floor motion: response of a linear oscillator of period T, s, and damping ratio zeta, or of the storey at the ratio "
+        "height of the building height (straight mode shape). After --scale, before --window; vertical component unchanged. "
+        "[default: ground motion]",
     ),
     option(
         "--demean/--no-demean",
         default=None,
         section="Record",
-        help="Remove the mean of each component. [default: for K-NET/KiK-net, whose counts carry an offset]",
+        help="Remove the mean of each component. [default: only for K-NET/KiK-net, whose counts carry an offset]",
     ),
-    option("--format", section="Record", help="Format of the file. [default: recognised from its content]"),
-    option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the numbers, where the file does not say."),
-    option(
-        "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
-    ),
+    option("--format", section="Record", help="File format. [default: recognised from the content]"),
+    option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the values, where the file states none."),
+    option("--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file states none, s."),
     option(
         "--station",
         section="Record",
-        help="Station code, in a bundle that holds several, or place in a structure; all takes each for itself.",
+        help="Station code in an archive of several, or location in a structure; all: each station separately.",
     ),
-    option("--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
-    option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
+    option(
+        "--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net station. [default: surface]"
+    ),
+    option("--strict", is_flag=True, section="Record", help="Reject records with quality warnings instead of printing the warnings."),
 )
 
-_JSON = option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
+_JSON = option("--json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
 
 
 def _csv_option(text: str) -> Any:
@@ -149,8 +149,8 @@ def _csv_option(text: str) -> Any:
     return option("--csv", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE", help=text)
 
 
-_CSV_HISTORIES = _csv_option("Write the time history, SI units; - writes it to stdout, and nothing else.")
-_CSV_ROWS = _csv_option("Write what the table holds, SI units; - writes it to stdout, and nothing else.")
+_CSV_HISTORIES = _csv_option("Write the time histories as CSV, SI units; - writes them alone to stdout.")
+_CSV_ROWS = _csv_option("Write the table as CSV, SI units; - writes it alone to stdout.")
 
 _FIGURE_OPTIONS = (
     option(
@@ -158,23 +158,23 @@ _FIGURE_OPTIONS = (
         type=click.Path(path_type=Path, allow_dash=True),
         section="Output",
         metavar="FILE",
-        help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else.",
+        help="Write the figure: .png, .svg or .pdf; - writes a .png alone to stdout.",
     ),
     option(
         "--size",
         type=SIZE,
         metavar="WxH",
         section="Output",
-        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: what it needs]",
+        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: from the content]",
     ),
-    option(
-        "--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Dots per inch of a .png, 1/inch."
-    ),
-    option("--title", section="Output", metavar="TEXT", help="Line above the figure; empty for none. [default: station, time, processing]"),
+    option("--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Resolution of a .png, 1/inch."),
+    option("--title", section="Output", metavar="TEXT", help="Title of the figure; empty for none. [default: station, time, processing]"),
 )
 
 _ANIMATION_OPTIONS = (
-    option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
+    option(
+        "--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the animation: .gif, .mp4 or .html."
+    ),
     option(
         "--slow",
         type=float,
@@ -182,7 +182,7 @@ _ANIMATION_OPTIONS = (
         callback=_positive,
         metavar="FACTOR",
         section="Output",
-        help="Play the animation this many times slower than life. [default: 1]",
+        help="Slow-motion factor of the animation, a ratio to real time. [default: 1]",
     ),
 )
 
@@ -191,10 +191,10 @@ _GAL = option(
     "gal",
     default=True,
     section="Output",
-    help="Units of tables, figures and films: gal, kine and cm, or m/s², m/s and m. [default: gal]",
+    help="Units of tables, figures and animations: gal, kine and cm, or m/s², m/s and m. [default: gal]",
 )
 
-_QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
+_QUIET = option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 
 
 def record_options(function: Function) -> Function:

@@ -42,9 +42,9 @@ def check_output(output: Output) -> None:
         If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure or film to change.
     """
     if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
-        raise OutputError("--size, --dpi and --title are the figure's: give --plot, too")
+        raise OutputError("--size, --dpi and --title require --plot")
     if output.animate is None and output.slow != SLOW:
-        raise OutputError("--slow is the film's: give --animate, too")
+        raise OutputError("--slow requires --animate")
     if output.plot is not None and output.plot != STDOUT:
         check_figure(output.plot)
     if output.animate is not None:
@@ -64,4 +64,4 @@ def _check_stdout(output: Output) -> None:
     first = "--csv" if output.csv == STDOUT else "--plot"
     conflicting = [name for name in requested if name != first and (first == "--csv" or destinations[name] in (STDOUT, True))]
     if conflicting:
-        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=conflicting)
+        raise OutputError("{first} - writes to stdout, which takes one output: omit {others}", first=first, others=conflicting)

@@ -70,7 +70,7 @@ class StatusLine:
 
     def __init__(self) -> None:
         self.works: list[Task] = []
-        self._motion_task = Task(gettext("following the motion"))
+        self._motion_task = Task(gettext("solving"))
         self._last_message_s, self._last_event_s = time.monotonic(), -math.inf
         self._displayed: tuple[str, bool] | None = None
         self._bar: Bar | None = None

@@ -35,10 +35,12 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth
 @option(
     "--vertical/--no-vertical",
     default=None,
-    help="Whether the vertical component acts. [default: where the record has one]",
+    help="Apply or omit the vertical component. [default: applied where the record has one]",
 )
 @version_options(*VARIED_PARAMETERS, runs=200)
-@option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
+@option(
+    "--settle", type=float, default=60.0, show_default=True, metavar="S", help="Duration of the analysis after the end of the record, s."
+)
 @gravity_option
 @output_options()
 def respond(
@@ -52,13 +54,13 @@ def respond(
     settle: float,
     **params: Any,
 ) -> None:
-    """Tell what a free-standing object does: rests, slides, rocks, slides while rocking, flies, falls, whichever comes.
+    """Full response of a free-standing object: rest, sliding, rocking, slide-rocking, flight, overturning.
 
-    Plane motion of one rigid body with Coulomb friction, each horizontal component by itself, the vertical acting where the record has
-    it. After the record's end the object is followed until it rests. Beside the verdict stands the share of plausible
-    versions of the object and the shaking that fall: they vary around what is given, and edges and friction that nobody has measured lie in
-    the ranges of the object's kind, unless --vary-inset or --vary-mu is given. --component all-azimuths looks in every direction and
-    answers for the worst. A scanned --block is another block in each direction.
+    Plane motion of one rigid body with Coulomb friction; each horizontal component is solved separately, with the vertical component
+    where the record has one, until the object is at rest. The overturning probability is the share of samples of body and motion that
+    overturn. Samples vary around the given values; edge wear and friction that are not given are drawn from the ranges of the
+    object's kind (see --vary-inset, --vary-mu). --component all-azimuths sweeps all azimuths and reports the worst. A scanned --block
+    has other dimensions in each azimuth.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
@@ -84,12 +86,12 @@ def respond(
         extra: dict[str, Any] = choice.block_key(block)
         if runs:
             study_options = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
-            with progress("versions {name}", name=motion.name) as advance:
+            with progress("samples {name}", name=motion.name) as advance:
                 extra["probability"] = respond_probability(
                     block.without_ranges(*replaced), motion, versions=ParameterVariation(**widths), progress=advance, **study_options
                 )
         if directions:
-            extra["directions"] = directions
+            extra["azimuths"] = directions
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras),

@@ -39,24 +39,29 @@ DEFAULT_RUNS = 200
 @record_options
 @block_options
 @rocking_options
-@option("--mu", type=MU, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
-@option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
-@option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
+@option(
+    "--mu",
+    type=MU,
+    section="Body",
+    help="Static friction coefficient of the ground: reports whether rocking requires more. [default: not checked]",
+)
+@option("--margin", is_flag=True, help="Compute the scale factor to overturning, and the overturning probability at factor 1.")
+@option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest scale factor of the margin search.")
 @option(
     "--perturb",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
     metavar="N",
-    help="Repeat N times with small changes: probability of overturning.",
+    help="Overturning probability from N samples of body and motion.",
 )
 @option(
     "--spread",
     type=float,
     default=0.05,
     show_default=True,
-    help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg, a known inset "
-    "varies by 10 %, and edges that nobody has measured lie in the range of the body's kind.",
+    help="Half width of the samples, a share of size, slenderness, restitution and amplitude; the azimuth varies by 5 deg, a known "
+    "inset by 10 %, an unknown inset within the range of the body's kind.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
 @gravity_option
 @output_options()
 def rock(
@@ -77,9 +82,9 @@ def rock(
 ) -> None:
     """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
 
-    Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
-    direction. After the record's end the fate is decided by energy. --component all-azimuths looks in every direction, in steps of 5
-    degrees, and answers for the worst. A scanned --block is another block in each direction.
+    Each horizontal component is solved separately. Rotation is positive towards the component's positive direction. After the end of
+    the record, the energy decides whether the block overturns. --component all-azimuths sweeps all azimuths in steps of 5 degrees and
+    reports the worst. A scanned --block has other dimensions in each azimuth.
     """
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.hints import rock_hint
@@ -109,7 +114,7 @@ def rock(
         responses.append(flag_near_flip(solve_rock(block, motion, **options)))
         extra: dict[str, Any] = {"agreement": compare_models(block, motion, **options), **choice.block_key(block)}
         if directions:
-            extra["directions"] = directions
+            extra["azimuths"] = directions
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
@@ -117,7 +122,7 @@ def rock(
                 extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, **options)
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or DEFAULT_RUNS
-            with progress("perturb {name}", name=motion.name) as advance:
+            with progress("samples {name}", name=motion.name) as advance:
                 extra["perturbation"] = perturbed(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
     write_results(
@@ -138,7 +143,7 @@ def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Seq
     def look(record: Record) -> Sequence[Any]:
         from seisblock.studies.rocking.azimuths import rock_directions
 
-        with progress("directions") as advance:
+        with progress("azimuths") as advance:
             return rock_directions(body, record, progress=advance, **options)
 
     return look
@@ -148,7 +153,7 @@ def require_vertical(motion: Motion, vertical: bool) -> None:
     """Refuse ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
-            "{source}: --vertical needs a vertical component; it has {codes}", source=motion.record.source, codes=motion.record.codes
+            "{source}: --vertical requires a vertical component; available: {codes}", source=motion.record.source, codes=motion.record.codes
         )
 
 

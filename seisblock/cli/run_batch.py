@@ -66,7 +66,7 @@ def run_batch(
     _check_target(out, resume=resume, force=force)
     plan, notes = _make_plan(source, request)
     names = source.record or (_default_record(),)
-    with progress("finding the records"):
+    with progress("searching for records"):
         files = expand_names(names, plan.read_options)
         keys = list(dict.fromkeys(recording.key for recording in group_files(files, plan.read_options)))
     _check_files(out)  # once more: now it is known what was read
@@ -74,7 +74,7 @@ def run_batch(
     if resume and out.exists() and not checkpoint_path(out).exists():
         for rows in _finished_rows(out, columns, plan, files, {path for path, _ in keys}):
             tally.add_rows(rows)
-        info("{path} is whole: nothing is left to do; --force makes it anew", path=out)
+        info("{path} is complete: nothing to compute; --force computes it again", path=out)
     else:
         with ExitStack() as stack:
             client = None if cluster is None else stack.enter_context(connect(cluster))
@@ -97,8 +97,8 @@ def run_batch(
         print_tables(shown.tables(tally, reasons))
     if not tally.answers:
         if out.exists():
-            raise RecordError("no row has an answer: {path} is left as it was", path=out)
-        raise RecordError("no row has an answer: {path} is not written", path=out)
+            raise RecordError("no row has a result: {path} is unchanged", path=out)
+        raise RecordError("no row has a result: {path} is not written", path=out)
 
 
 def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
@@ -115,7 +115,7 @@ def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Se
         recomputed = [row_cells(columns, row) for row in record_rows(recording, plan)]
         matches = _cell_texts(recomputed) == _cell_texts([row_cells(columns, row) for row in tables[sample_path]])
     if not matches:
-        raise OutputError("{path} is whole, and of other records, bodies, options or another solver: --force makes it anew", path=out)
+        raise OutputError("{path} is complete, but for other records, bodies, options or another solver: --force replaces it", path=out)
     yield from tables.values()
 
 
@@ -150,7 +150,7 @@ def _solve(
                 journal.append(recording.key, rows)
                 reasons |= {str(row[REASON]): row[REASON] for row in rows if row.get(REASON)}
         except (KeyboardInterrupt, SeisblockError):
-            info("{done} of {count} records are finished and kept: --resume goes on", done=len(journal.places), count=len(keys))
+            info("{done} of {count} records are finished and kept: --resume continues", done=len(journal.places), count=len(keys))
             raise
     return reasons
 
@@ -189,19 +189,19 @@ def _default_record() -> str:
 def _check_target(out: Path, *, resume: bool, force: bool) -> None:
     """Refuse, before anything is read, a table that may not be written there."""
     if resume and force:
-        raise ParameterError("give either --resume or --force, not both")
+        raise ParameterError("--resume and --force exclude each other: give only one of them")
     if out.suffix.lower() not in (CSV, PARQUET):
-        raise OutputError("{path}: a batch writes .csv or .parquet", path=out)
+        raise OutputError("{path}: the table of a batch must end in .csv or .parquet", path=out)
     if out.suffix.lower() == PARQUET:
         check_parquet()
     journal = checkpoint_path(out)
     _check_files(out)
     if resume and any(path.exists() and not path.is_file() for path in (out, journal)):
-        raise OutputError("{path} is no table that was begun: leave --resume out", path=out)
+        raise OutputError("{path} is not an interrupted table: omit --resume", path=out)
     if not (resume or force) and out.exists():
-        raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
+        raise OutputError("{path} exists: give --force to replace it, or another name", path=out)
     if not (resume or force) and journal.exists():
-        raise OutputError("{path} was interrupted: --resume goes on, --force begins anew", path=out)
+        raise OutputError("{path} was interrupted: --resume continues, --force starts again", path=out)
 
 
 def _check_files(out: Path) -> None:
@@ -220,7 +220,7 @@ def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkp
     with lock_checkpoint(path):
         journal = Checkpoint.resume(path, purpose) if is_resumed else Checkpoint.begin(path, purpose)
         if journal.damaged:
-            warning("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
+            warning("{path}: {count} line(s) are damaged; their records are computed again", path=path, count=journal.damaged)
         yield journal
 
 

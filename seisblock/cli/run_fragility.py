@@ -58,7 +58,7 @@ def run_study(
     options = {key: params[key] for key in ("mu", "restitution", "vertical", "gravity") if params[key] is not None}
     specs = list(read_bodies(bodies)) if bodies else [make_body_spec(params, solver)]
     if bodies and any(params[key] is not None for key in (*SIZES, "block")):
-        raise ParameterError("give --bodies, or the sizes of one body, not both")
+        raise ParameterError("--bodies and the sizes of one body exclude each other: give only one of them")
     components = tuple(name for name in source.component if name.lower() != "all")
     records, left_out, suite = _load_suite(source, params)
     report_qc(records, strict=source.strict)
@@ -117,17 +117,17 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
     if source.record:
         for name, value in (("--suite", params["suite"]), ("--suite-out", params["suite_out"])):
             if value is not None:
-                raise ParameterError("give either RECORD or {name}, not both", name=name)
+                raise ParameterError("RECORD and {name} exclude each other: give only one of them", name=name)
         reading = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
         with progress("reading the records"):
             records, left_out = read_suite(source.record, reading, strict=source.strict)
         return records, left_out, None
     suite: str = params["suite"] or DEFAULT_SUITE
-    with progress("making synthetic records"):
+    with progress("generating synthetic records"):
         synthetic = list(parse_suite(suite, seed=params["seed"]))
     if params["suite"] is None:
         info("no RECORD given: using {suite}", suite=suite)
-    info("{count} synthetic records, no recordings: of one source, path and site, they differ less than records do", count=len(synthetic))
+    info("{count} synthetic records of one source, path and site: less variable than recorded motions", count=len(synthetic))
     if params["suite_out"] is not None:
         with progress("writing the records"):
             (write_knet if params["suite_format"] == "knet" else write_records)(params["suite_out"], synthetic)
@@ -140,7 +140,7 @@ def _check_exports(output: Output, params: Mapping[str, Any]) -> None:
     rows, model = params["pelicun"], params["nrml"]
     for path, suffix in ((rows, ".csv"), (model, ".xml")):
         if path is not None and path.suffix.lower() != suffix:
-            raise OutputError("{path}: the name must end in {suffix}", path=path, suffix=suffix)
+            raise OutputError("{path}: the file name must end in {suffix}", path=path, suffix=suffix)
     metadata = None if rows is None else rows.with_suffix(".json")
     output_paths = (None if path == STDOUT else path for path in (output.csv, output.plot))
     check_distinct_outputs(rows, metadata, model, *output_paths)
@@ -158,7 +158,7 @@ def _write_exports(study: FragilityStudy, params: Mapping[str, Any]) -> None:
         write_text(params["nrml"], nrml(study, shape=params["nrml_shape"]))
         with_curve = {curve.limit for curve in study.curves if curve.curve is not None}
         if params["nrml_shape"] == "logncdf" and (without_curve := sorted({curve.limit for curve in study.curves} - with_curve)):
-            info("{path} leaves out {limits}, of which no body has a curve", path=params["nrml"], limits=without_curve)
+            info("{path} omits {limits}: no body has a curve for them", path=params["nrml"], limits=without_curve)
         info("wrote {path}", path=params["nrml"])
 
 
@@ -168,6 +168,6 @@ def _parse_curve(text: str, size: float) -> Lognormal:
         median, beta = (float(part) for part in text.split(","))
     except ValueError:
         raise click.BadParameter(
-            gettext("{value!r} is not a median and a beta such as 50,0.4", value=text[:100]), param_hint="--compare"
+            gettext("{value!r} is not a median and a beta, for example 50,0.4", value=text[:100]), param_hint="--compare"
         ) from None
     return Lognormal(median * size, beta)

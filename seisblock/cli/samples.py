@@ -21,15 +21,15 @@ from seisblock.cli.verbosity import quiet_output
     "target",
     metavar="DIR|NAME",
     section="Output",
-    help="Copy to this directory; or, given a sample's name, copy that sample to the present directory.",
+    help="Folder to copy to; a sample's name copies that sample to the current folder.",
 )
-@option("--overwrite", is_flag=True, section="Output", help="Replace files of other content that are in the way.")
-@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@option("--overwrite", is_flag=True, section="Output", help="Replace existing files of other content.")
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
+@option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
 def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json: bool, quiet: bool) -> None:
-    """List the bundled records, bodies and cemeteries, with their licence and origin, or copy them.
+    """List of the bundled records, bodies and cemeteries with licence and origin, or copies of them.
 
-    NAME is a file name, or its beginning up to the first dot. Any command takes a sample's name in place of a file.
+    NAME is a file name, or its beginning up to the first dot. All commands accept the name of a sample in place of a file.
     """
     from seisblock.report.text import samples as shown
 
@@ -43,7 +43,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
             for path in paths:
                 info("wrote {path}", path=path)
             if not paths:
-                info("{directory} holds them already", directory=directory)
+                info("{directory} already contains these files", directory=directory)
     if as_json:
         from seisblock.report.json.encode import to_json
         from seisblock.report.json.library import samples_document

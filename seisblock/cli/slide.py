@@ -30,8 +30,8 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
             gettext(
-                "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; a list "
-                "0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study"
+                "friction required: give --mu (static coefficient), for example --mu 0.2; a list 0.1,0.2 or a range 0.05:0.20:0.005 "
+                "runs a parameter study"
             ),
             ctx,
         )
@@ -53,29 +53,31 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     callback=_require_mu,
     metavar="MU",
     section="Body",
-    help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
+    help="Static friction coefficient; a list or a range first:last:step runs a parameter study, as do --mu-kinetic, --kappa, --slope "
     "and --vertical-scale.  [required]",
 )
-@option("--mu-kinetic", type=MUS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
-@option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
+@option("--mu-kinetic", type=MUS, metavar="MU", section="Body", help="Kinetic friction coefficient. [default: as --mu]")
+@option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Ratio of kinetic to static friction, instead of --mu-kinetic.")
 @option(
     "--slope",
     type=FLOATS,
     default="0",
     metavar="DEG",
     section="Body",
-    help="Angle of the base, degrees; the component's positive direction points downhill. [default: 0]",
+    help="Slope of the base, degrees; the component's positive direction is downhill. [default: 0]",
 )
 @option(
     "--slope-length",
     type=LENGTH,
     metavar="M",
     section="Body",
-    help="Distance to the foot of the slope, m or with a unit, with level ground beyond. [default: no end]",
+    help="Distance to the foot of the slope, m or with a unit; level ground beyond. [default: infinite slope]",
 )
-@option("--one-way", is_flag=True, section="Body", help="Slide downhill (or in the positive direction) only, as Newmark assumed.")
-@option("--vertical", is_flag=True, help="Let the vertical component act too.")
-@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Factor on the vertical component, 1; implies --vertical. [default: 1]")
+@option(
+    "--one-way", is_flag=True, section="Body", help="Slide only downhill (on level ground: in the positive direction), as Newmark assumed."
+)
+@option("--vertical", is_flag=True, help="Apply the vertical component.")
+@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Scale factor on the vertical component; implies --vertical. [default: 1]")
 @gravity_option
 @output_options()
 def slide(
@@ -91,10 +93,10 @@ def slide(
     vertical_scale: tuple[float, ...] | None,
     gravity: float,
 ) -> None:
-    """Sliding of an object on a level or sloping base (Fujino et al. 1978).
+    """Sliding displacement of an object on a level or sloping base (Fujino et al. 1978).
 
-    Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal
-    component is solved by itself; --component all-azimuths sweeps the directions in steps of 5 degrees and reports the worst.
+    Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal component is
+    solved separately; --component all-azimuths sweeps the azimuths in steps of 5 degrees and reports the worst.
     """
     scales = vertical_scale or ((1.0,) if vertical else (0.0,))
     parameters = {
@@ -139,7 +141,7 @@ def _run_single(
             points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
             worst_azimuth = worst_directions(points)[0].component
-            info("largest slip of {count} directions at azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
+            info("largest slip of {count} azimuths: azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
             selected = [motion_of(record, worst_azimuth)]
         responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in selected]
     write_results(
@@ -172,7 +174,7 @@ def _run_study(
     warnings = (
         [
             lazy_gettext(
-                "{count} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction",
+                "{count} combinations omitted: friction does not hold the object at rest, or kinetic exceeds static friction",
                 count=omitted_count,
             )
         ]

@@ -50,15 +50,14 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     type=SuggestingChoice(KINDS),
     default="rocking",
     show_default=True,
-    help="Largest lean over alpha; overturning alone; the largest slip against friction; or which mode governs, over friction and shape "
-    "or size.",
+    help="Peak tilt over alpha; overturning only; maximum slip against friction; or governing mode over friction and shape or size.",
 )
 @option(
     "--mu",
     type=MUS,
     section="Body",
     metavar="LIST|RANGE",
-    help="Friction, 1, for --kind sliding and modes. [default: 0.02 to 0.8; or what the record can move]",
+    help="Friction coefficients, for --kind sliding and modes. [default: 0.02 to 0.8; modes: range that the record can mobilise]",
 )
 @option(
     "--sizes",
@@ -67,30 +66,40 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     metavar="LIST|RANGE",
     help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric; for modes 1]",
 )
-@option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
+@option(
+    "--frequency-parameter",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Frequency parameter p = sqrt(3g/4R), rad/s, instead of --sizes.",
+)
 @option(
     "--height-over-width",
     type=FLOATS,
     section="Body",
     metavar="LIST|RANGE",
-    help="H/B of the blocks, 1. [default: 1.5 to 10; for modes what the record can move]",
+    help="Ratios H/B of the blocks. [default: 1.5 to 10; modes: range that the record can mobilise]",
 )
 @option(
-    "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
+    "--slenderness-rad",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Slenderness alpha = atan(B/H), rad, instead of --height-over-width.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
     section="Body",
-    help="How far in from each side the blocks' worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
+    help="Inset of worn edges from each side of the blocks: share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
 )
 @option(
     "--steps",
     type=Count(N_("cells"), "SEISBLOCK_CELLS", minimum=2, power=2),
     default=40,
     show_default=True,
-    help="Points of each axis that is left to its default.",
+    help="Number of points on each axis left at its default.",
 )
 @rocking_options
 @gravity_option
@@ -112,16 +121,16 @@ def spectrum(
     vertical: bool,
     azimuth: tuple[str, ...],
 ) -> None:
-    """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
+    """Rocking spectrum: peak tilt of rectangular blocks over alpha, against size and slenderness, for each component.
 
-    Overturning is not monotone: look for islands in the figure. With --component all-azimuths leans are those of the worst of 18
-    directions, and --kind overturning tells in how many of them each block falls. With --kind sliding, the largest slip against
-    friction. With --kind modes, what a free-standing block does, as respond tells it, over its friction and its shape, or over its
-    friction and its size for one shape; the vertical component acts where there is one, and --restitution is Poisson's, 0 unless given.
+    Overturning is not monotone: the figure may show islands. With --component all-azimuths, tilts are those of the worst of 18
+    azimuths; --kind overturning gives the number of azimuths in which each block overturns. --kind sliding: maximum slip against
+    friction. --kind modes: response of a free-standing block as in respond, over friction and shape, or over friction and size for
+    one shape; the vertical component acts where the record has one, and --restitution is Poisson's, default 0.
     """
     source = with_azimuths(source, azimuth)
     if is_azimuth_sweep(source) and kind not in AZIMUTH_KINDS:
-        raise ParameterError("--component {name} goes with --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AZIMUTH_KINDS))
+        raise ParameterError("--component {name} requires --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AZIMUTH_KINDS))
     _check_exclusive(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
     _check_exclusive(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     if kind == "sliding":
@@ -199,7 +208,7 @@ def _reject_options(kind: str, values: dict[str, Any]) -> None:
     """Refuse options that mean nothing to a kind of spectrum."""
     for name, value in values.items():
         if value:
-            raise ParameterError("--{name} means nothing to --kind {kind}: leave it out", name=name, kind=kind)
+            raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
 def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
@@ -274,7 +283,7 @@ def _grid_axes(
         mu = [round(span * (i + 0.5) / steps, 12) for i in range(steps)]
     if alphas is None:
         if diagonals is not None and len(diagonals) > 1:
-            raise ParameterError("--kind modes over several sizes is of one shape: give one --height-over-width or --slenderness-rad")
+            raise ParameterError("--kind modes with several sizes requires one shape: give one --height-over-width or --slenderness-rad")
         alphas = [math.atan(round(span * (i + 1) / steps, 12)) for i in range(steps)]
     return mu, (1.0,) if diagonals is None else diagonals, alphas
 
@@ -289,7 +298,7 @@ def _wear_note(inset: EdgeWear | None) -> str:
 def _check_exclusive(first: Any, name: str, second: Any, second_name: str) -> None:
     """Refuse two ways of saying the same."""
     if first and second:
-        raise ParameterError("give either {name} or {other}, not both", name=name, other=second_name)
+        raise ParameterError("{name} and {other} exclude each other: give only one of them", name=name, other=second_name)
 
 
 def _draw(*data: Any) -> Any:

@@ -59,8 +59,8 @@ class ContactType(click.ParamType):  # type: ignore[type-arg]
             return 2 if value == "edges" else value
         name, _, count = str(value).partition("=")
         if name != "grid":
-            self.fail(gettext("{value!r} is neither edges nor grid=N, as in grid=5", value=value), param, ctx)
-        return Count(N_("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
+            self.fail(gettext("{value!r} is neither edges nor grid=N, for example grid=5", value=value), param, ctx)
+        return Count(N_("contact points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]
@@ -170,7 +170,7 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
             return value
         sides = to_halfwidth(value).lower().replace("×", "x").split("x")
         if len(sides) != 2:
-            self.fail(gettext("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a width and a height, for example 18x12 (cm)", value=value), param, ctx)
         try:
             width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", quantity="size") for side in sides)
         except InputError as error:
@@ -179,7 +179,9 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
         for side in (width, height):
             if not MIN_SIDE <= side <= MAX_SIDE:
                 lower, upper = (f"{limit_m / LENGTH_UNITS[unit]:.4g} {unit}" for limit_m in (MIN_SIDE, MAX_SIDE))
-                text = gettext("{value!r}: a figure is between {least} and {most} wide and high", value=value, least=lower, most=upper)
+                text = gettext(
+                    "{value!r}: width and height of a figure must lie between {least} and {most}", value=value, least=lower, most=upper
+                )
                 self.fail(text, param, ctx)
         return FigureSize(width, height, unit)
 
@@ -196,11 +198,11 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
         try:
             first, last = (float(piece) if piece.strip() else None for piece in value.split(":"))
         except ValueError:
-            self.fail(gettext("{value!r} is not a window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a time window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
         if any(end is not None and not math.isfinite(end) for end in (first, last)):
             self.fail(gettext("{value!r}: both ends must be finite", value=value), param, ctx)
         if first is not None and last is not None and last <= first:
-            self.fail(gettext("{value!r} ends before it begins", value=value), param, ctx)
+            self.fail(gettext("{value!r}: the end of the window must be later than its start", value=value), param, ctx)
         return first, last
 
 

@@ -13,12 +13,12 @@ from seisblock.cli.types import LENGTH, Count
 from seisblock.core.i18n import N_
 
 _SPREAD_OPTIONS = {
-    "size": (0.05, "Versions: half width of width and height, a share of each."),
-    "inset": (0.1, "Versions: half width of a known inset, a share of itself."),
-    "mu": (0.2, "Versions: half width of the friction, a share."),
-    "restitution": (0.1, "Versions: half width of the restitution, 1; below 0 a share that rocking impacts lose."),
-    "amplitude": (0.1, "Versions: half width of the shaking's amplitude, a share."),
-    "azimuth": (10.0, "Versions: half width of the direction of shaking, degrees."),
+    "size": (0.05, "Samples: half width of width and height, a share of each."),
+    "inset": (0.1, "Samples: half width of a known inset, a share of the inset."),
+    "mu": (0.2, "Samples: half width of the friction coefficient, a share."),
+    "restitution": (0.1, "Samples: half width of the coefficient of restitution; values below 0 are extra losses of rocking impacts."),
+    "amplitude": (0.1, "Samples: half width of the amplitude of the motion, a share."),
+    "azimuth": (10.0, "Samples: half width of the azimuth of the motion, degrees."),
 }
 """What versions may differ in: how far, and what is said of it."""
 
@@ -35,17 +35,17 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
     options = [
         option(
             "--runs",
-            type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
+            type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
             default=runs,
             show_default=True,
-            help="Plausible versions behind the probability; 0 for none.",
+            help="Samples of body and motion for the overturning probability; 0 for none.",
         ),
-        option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]"),
+        option("--moved", type=LENGTH, default=0.01, help="Displacement that counts as moved, m or with a unit. [default: 1cm]"),
         *(
             option(f"--vary-{name}", type=float, default=_SPREAD_OPTIONS[name][0], show_default=True, help=_SPREAD_OPTIONS[name][1])
             for name in names
         ),
-        option("--seed", type=int, default=0, show_default=True, help="Seed of the versions."),
+        option("--seed", type=int, default=0, show_default=True, help="Seed of the samples."),
     ]  # fmt: skip
 
     def decorate(function: Any) -> Any:
@@ -80,4 +80,4 @@ def _check_options(*names: str) -> None:
 
     flags = given_flags(names)
     if flags and not click.get_current_context().params["runs"]:
-        raise ParameterError("without versions there is nothing for {flags} to do: give --runs, say --runs 100", flags=flags)
+        raise ParameterError("{flags} has no effect without samples: give --runs, for example --runs 100", flags=flags)

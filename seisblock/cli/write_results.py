@@ -53,16 +53,16 @@ def write_results(
     animation : callable
         Writes the file of ``--animate``; left out, the responses' own film, at the speed, in the language and with the progress it is told.
     """
-    set_task("preparing the answer")
+    set_task("preparing the results")
     if responses:
         figure = figure or (lambda: response_figure(responses, gal=output.gal))
         animation = animation or animation_writer(responses)
     for message in document.warnings:
         warning(message)
     if output.plot is not None and figure is None:
-        raise OutputError("{command} has no figure here: leave --plot out", command=document.command)
+        raise OutputError("{command} has no figure here: omit --plot", command=document.command)
     if output.animate is not None and animation is None:
-        raise OutputError("{command} has no animation here: leave --animate out", command=document.command)
+        raise OutputError("{command} has no animation here: omit --animate", command=document.command)
     check_output(output)
     if output.csv is not None:
         from seisblock.report.io.history_csv import write_histories
@@ -109,7 +109,7 @@ def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) ->
     from seisblock.report.figures.style import save, save_png
 
     if target == STDOUT and sys.stdout.isatty():
-        raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
+        raise OutputError("--plot - writes a .png to stdout, which is a terminal: redirect it, or give a file name")
     if drawable_locale() != get_locale():
         info(NO_FONT)
     with progress("drawing"):

@@ -53,7 +53,7 @@ class Stone:
 
     def __post_init__(self) -> None:
         checks.positive("height over width of a gravestone", self.height_over_width, error=BodyError)
-        checks.positive("count of a gravestone", self.count, error=BodyError)
+        checks.positive("number of gravestones (count)", self.count, error=BodyError)
         if self.width is not None:
             checks.positive("width of a gravestone", self.width, "m", error=BodyError)
         if self.azimuth_deg is not None:
@@ -100,7 +100,7 @@ class Cemetery:
     def __post_init__(self) -> None:
         object.__setattr__(self, "stones", tuple(self.stones))
         if not self.stones:
-            raise BodyError("{source}: there is no gravestone in it", source=self.source or self.name)
+            raise BodyError("{source} contains no gravestones", source=self.source or self.name)
 
     @property
     def size(self) -> int:

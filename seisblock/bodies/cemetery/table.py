@@ -102,12 +102,12 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
     data_rows = data_lines(text)
     if not data_rows:
-        raise BodyError("{source}: there is no gravestone in it, only {count} empty lines and comments", source=source, count=len(lines))
+        raise BodyError("{source} contains no gravestones, only {count} empty lines and comments", source=source, count=len(lines))
     (header_line, header), rows = data_rows[0], data_rows[1:]
     separator = find_separator(header)
     columns, units = _parse_header(split_cells(header, separator), source, header_line)
     if not rows:
-        template = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
+        template = "{source}, line {line}: no gravestone below the header; add one line per stone"
         raise BodyError(template, source=source, line=header_line)
     stones, bad_rows = [], []
     for number, line in rows:
@@ -128,11 +128,11 @@ def _resolve_path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled cemetery."""
     path = Path(checks.path(name))
     if path.is_dir():
-        raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
+        raise BodyError("{name} is a folder: give the CSV file of a cemetery", name=name)
     resolved = resolve_file_or_sample(path, "cemetery")
     if resolved is None:
         raise BodyError(
-            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}", name=name, known=sample_names("cemetery")
+            "no cemetery file {name}, and no bundled cemetery of that name; bundled: {known}", name=name, known=sample_names("cemetery")
         )
     return resolved
 
@@ -150,7 +150,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
     if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
         columns_found = cells or lazy_gettext("none")
         raise BodyError(
-            "{source}, line {line}: expected a column height_over_width, or height and width; found {found}",
+            "{source}, line {line}: columns required: height_over_width, or height and width; found {found}",
             source=source,
             line=line,
             found=columns_found,
@@ -170,7 +170,7 @@ def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) ->
         ratio = height / width if ratio is None else ratio
     elif ratio is None:
         missing_names = [name for name, value in (("height", height), ("width", width)) if value is None]
-        raise BodyError("there is neither height over width nor height and width: {missing} empty", missing=missing_names)
+        raise BodyError("dimensions missing: height over width, or height and width, required; empty: {missing}", missing=missing_names)
     elif height is not None:
         width = height / ratio
     return Stone(
@@ -195,11 +195,11 @@ def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> f
         raise BodyError("{key} must be positive, found {text}", key=key, text=text)
     if value > MAX_SIZE:
         remedy = (
-            lazy_gettext(" (without a unit it means metres: name the column for example {key} (cm))", key=key)
+            lazy_gettext(" (read as metres without a unit: name the column, for example, {key} (cm))", key=key)
             if has_no_unit and not unit
             else ""
         )
-        raise BodyError("{key} of {value:g} m is no gravestone{remedy}", key=key, value=value, remedy=remedy)
+        raise BodyError("{key} of {value:g} m is not plausible for a gravestone{remedy}", key=key, value=value, remedy=remedy)
     return value
 
 
@@ -215,7 +215,7 @@ def _parse_count(row: Mapping[str, str]) -> int:
     if value is None:
         return 1
     if not (1 <= value < math.inf and value == int(value)):
-        raise BodyError("count must be a whole number of stones, 1 or more, found {count}", count=row["count"])
+        raise BodyError("count must be an integer, 1 or more; found {count}", count=row["count"])
     check_limit(N_("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
     return int(value)
 

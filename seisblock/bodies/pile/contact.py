@@ -50,7 +50,7 @@ class PileContact:
         for name in ("normal_damping", "shear_damping", "damping_ratio"):
             checks.non_negative("{name} of the contact", getattr(self, name), name=name)
         if self.young is not None and self.stiffness is not None:
-            raise ParameterError("the contact takes Young's modulus or the stiffness per area, not both")
+            raise ParameterError("Young's modulus and the stiffness per area exclude each other: give only one of them")
 
     def point_coefficients(self, mass: float, area: float, length: float, points: int) -> tuple[float, float, float, float]:
         """Return normal spring and dashpot, shear spring and dashpot of one point of a joint, N/m and N s/m.

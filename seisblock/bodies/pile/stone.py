@@ -90,7 +90,7 @@ class PileStone:
             checks.non_negative("kinetic friction under the stone {name}", self.mu_kinetic, error=BodyError, name=self.name)
         if len(self.offset) != 2 or not all(math.isfinite(part) for part in self.offset):
             raise BodyError(
-                "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
+                "offset of the stone {name} requires two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
             )
         if self.shape not in (RECTANGULAR, ROUND):
             raise BodyError(
@@ -102,7 +102,7 @@ class PileStone:
             )
         if self.is_round and self.width != self.depth:
             raise BodyError(
-                "the stone {name} is round, so that it is as deep as it is wide: found {width:g} m and {depth:g} m",
+                "the cylinder {name} must have equal width and depth: found {width:g} m and {depth:g} m",
                 name=self.name,
                 width=self.width,
                 depth=self.depth,

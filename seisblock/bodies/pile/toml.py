@@ -67,7 +67,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     check_keys(table, _PILE_KEYS)
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
-        raise BodyError("{source}: a pile needs at least one [[stone]] table", source=source)
+        raise BodyError("{source}: a pile requires at least one [[stone]] table", source=source)
     check_limit(N_("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", source=source, error=BodyError)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
@@ -79,7 +79,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         stones = [replace(stone, mu=None, mu_kinetic=None) for stone in stones]
     dowels = get_text_groups(table, "reinforced")
     if reinforced and not dowels:
-        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
+        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or omit `reinforced`", source=source)
     file_mu = get_number(table, "mu")
     friction = mu if mu is not None else Pile.mu if file_mu is None else file_mu
     pile_name, fixed, kinetic = get_text(table, "name", Path(source).stem), get_texts(table, "fixed"), get_number(table, "mu_kinetic")

@@ -70,7 +70,7 @@ def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, grav
     """
     checks.instance(body, ScannedBody)
     checks.positive("`step_deg`", step_deg, "degrees")
-    check_limit(N_("directions"), math.ceil(360.0 / step_deg), "SEISBLOCK_RUNS")
+    check_limit(N_("azimuths"), math.ceil(360.0 / step_deg), "SEISBLOCK_RUNS")
     return [_at_azimuth(body, azimuth, gravity) for azimuth in np.arange(0.0, 360.0, step_deg).tolist()]
 
 

@@ -74,21 +74,21 @@ class ScannedBody:
         checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=lazy_gettext("azimuth of +x"))
         tensor, corners = np.array(self.inertia, dtype=np.float64), self.corners
         if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
-            raise BodyError("{name}: the inertia must be three rows of three numbers, the same across its diagonal", name=self.name)
+            raise BodyError("{name}: the inertia must be a symmetric 3 x 3 matrix", name=self.name)
         smallest, middle, largest = np.linalg.eigvalsh(tensor)
         if not (smallest > 0.0 and largest <= (smallest + middle) * (1.0 + 1e-9)):
             raise BodyError(
-                "{name}: no body has principal moments of inertia of {moments} kg m^2",
+                "{name}: principal moments of inertia of {moments} kg m^2 are not physically possible",
                 name=self.name,
                 moments=[f"{moment:.4g}" for moment in (smallest, middle, largest)],
             )
         if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) < 3 or not np.isfinite(corners).all():
-            raise BodyError("{name}: the base must be three corners or more, each an x and a y", name=self.name)
+            raise BodyError("{name}: the base must have three corners or more, each with x and y", name=self.name)
         sides = np.roll(corners, -1, axis=0) - corners
         cross_products = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
         area = 0.5 * float(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - np.roll(corners[:, 0], -1) * corners[:, 1]))
         if not (area > 0.0 and cross_products.min() >= -1e-9 * area):
-            raise BodyError("{name}: the corners of the base must go round a convex polygon, counter-clockwise", name=self.name)
+            raise BodyError("{name}: the corners of the base must form a convex polygon, counter-clockwise", name=self.name)
         if not (len(self.centre) == 3 and 0.0 < self.centre[2] < self.height):
             raise BodyError(
                 "{name}: the centre of gravity must lie between the ground and the top, {height:g} m; found {centre}",
@@ -100,7 +100,7 @@ class ScannedBody:
             raise BodyError("{name}: the centre of gravity does not lie above the base", name=self.name)
         if not interior_distance(self.support_polygon, self.centre[:2]) > 0.0:
             raise BodyError(
-                "{name}: an inset of {inset:.4g} m leaves nothing of the base under the centre of gravity, which lies {depth:.4g} m inside",
+                "{name}: an inset of {inset:.4g} m exceeds the distance of the centre of gravity from the edge of the base, {depth:.4g} m",
                 name=self.name,
                 inset=self.inset_m,
                 depth=interior_distance(corners, self.centre[:2]),
@@ -174,7 +174,7 @@ class ScannedBody:
         azimuth = motion.azimuth_deg
         if azimuth is None:
             raise ComponentError(
-                "{name} is another block in each direction, and nobody knows the azimuth of {component}: give a record that tells it",
+                "{name} has other dimensions in each azimuth, and the azimuth of {component} is unknown: give a record with azimuths",
                 name=self.name,
                 component=motion.name or "+x",
             )

@@ -73,11 +73,11 @@ def mass_properties(mesh: Mesh) -> MassProperties:
     size = float(np.ptp(mesh.vertices, axis=0).max())
     if volume < 0.0:
         raise BodyError(
-            "{source} is inside out: its triangles run clockwise seen from outside; turn its normals round and export it again",
+            "{source} is inside out: its triangles are clockwise seen from outside; reverse the normals and export the mesh again",
             source=mesh.source,
         )
     if not volume > MIN_VOLUME_SHARE * size**3:
-        raise BodyError("{source} encloses nothing: its volume is {volume:.3g} m^3", source=mesh.source, volume=volume)
+        raise BodyError("{source} encloses no volume: {volume:.3g} m^3", source=mesh.source, volume=volume)
     centre = first_moment / volume
     second_central_moment = second_moment / volume - np.outer(centre, centre)
     return MassProperties(
@@ -104,14 +104,14 @@ def _check_closed(source: str, edges: IntArray) -> None:
     open_ends, shared_edges = int((face_counts == 1).sum()), int((face_counts > 2).sum())
     if open_ends:
         raise BodyError(
-            "{source} is open: {count} edges belong to one triangle alone, so that it encloses nothing; close its holes, the base above "
-            "all, and export it again",
+            "{source} is open: {count} edges belong to only one triangle; close the holes, above all in the base, and export the "
+            "mesh again",
             source=source,
             count=open_ends,
         )
     if shared_edges:
         raise BodyError(
-            "{source} meets itself: {count} edges belong to more than two triangles; repair it in the scanner's program",
+            "{source} is not manifold: {count} edges belong to more than two triangles; repair the mesh in the scan software",
             source=source,
             count=shared_edges,
         )
@@ -119,8 +119,8 @@ def _check_closed(source: str, edges: IntArray) -> None:
     flipped_edges = int((forward[group_starts] == forward[group_starts + 1]).sum())
     if flipped_edges:
         raise BodyError(
-            "{source} is inside out in part: along {count} edges two triangles look to opposite sides; make its normals consistent and "
-            "export it again",
+            "{source} has inconsistent normals: two triangles with opposite orientation at {count} edges; unify the normals and "
+            "export the mesh again",
             source=source,
             count=flipped_edges,
         )

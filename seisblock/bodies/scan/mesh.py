@@ -88,20 +88,18 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     (3, True)
     """
     if unit not in LENGTH_UNITS:
-        raise BodyError("unknown unit {unit!r} of a mesh; known are {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
+        raise BodyError("unknown unit {unit!r} of a mesh; known: {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
     if up not in AXIS_ROTATIONS:
-        raise BodyError(
-            "{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS)
-        )
+        raise BodyError("unknown upward axis {up!r} of a mesh; known: {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS))
     data = _read_mesh_file(name)
     suffix = Path(name).suffix.lower()
     check_limit(N_("triangles"), _declared_triangles(data, suffix), "SEISBLOCK_TRIANGLES", source=str(name), error=BodyError)
     vertices, faces = _load_triangles(io.BytesIO(data), suffix, str(name))
     if faces.size == 0:
-        raise BodyError("{name} holds no triangles: expected a surface, as a scanner's program exports it", name=str(name))
+        raise BodyError("{name} contains no triangles: export a surface from the scan software", name=str(name))
     is_finite = np.isfinite(vertices[:, 0]) & np.isfinite(vertices[:, 1]) & np.isfinite(vertices[:, 2])
     if not is_finite[faces].all():
-        raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
+        raise BodyError("{name} has vertices that are not finite numbers: fill the holes and export the mesh again", name=str(name))
     vertices, faces = _merge_vertices(vertices * LENGTH_UNITS[unit], faces)
     rotated = np.column_stack([sign * vertices[:, axis] for axis, sign in AXIS_ROTATIONS[up]])
     return Mesh(rotated, faces, str(name), hashlib.sha256(data).hexdigest())
@@ -113,7 +111,7 @@ def _read_mesh_file(name: str | Path) -> bytes:
     bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
     path = path if bundled is None else bundled
     if path.suffix.lower() not in SUFFIXES:
-        raise BodyError("{name} is no mesh by its name: expected {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
+        raise BodyError("{name}: the file name of a mesh must end in {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty", name=str(name))
@@ -135,7 +133,7 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
     try:
         import trimesh
     except ImportError as error:
-        raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
+        raise BodyError("reading a mesh requires trimesh: pip install 'seisblock[scan]'") from error
     try:
         with np.errstate(all="ignore"):  # what is no number is told below
             mesh: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
@@ -145,9 +143,9 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
     except MemoryError:
         raise
     except Exception as error:
-        raise BodyError("{name} is damaged, or no mesh: export it again", name=name) from error
+        raise BodyError("{name} is damaged or not a mesh: export it again", name=name) from error
     if not indices_valid:
-        raise BodyError("{name} is damaged: a triangle names a vertex that is not there", name=name)
+        raise BodyError("{name} is damaged: a triangle refers to a vertex that does not exist", name=name)
     return vertices, faces
 
 

@@ -150,7 +150,7 @@ def _parse_row(value: Any, table: Mapping[str, Any], key: str, count: int) -> tu
     """Return so many numbers."""
     if not isinstance(value, list) or len(value) != count:
         raise BodyError(
-            "{source}: expected {count} numbers in {key}, found {found}",
+            "{source}: {key} must have {count} numbers, found {found}",
             source=source_name(table),
             key=key,
             count=count,

@@ -27,13 +27,13 @@ class BodyChoice:
     def block(self) -> Block:
         """The block, where it is the same one in each direction."""
         if isinstance(self.body, ScannedBody):
-            raise BodyError("{name} is a scan, which is another block in each direction: say towards which azimuth", name=self.body.name)
+            raise BodyError("{name} is a scan, whose dimensions depend on the azimuth: give the azimuth", name=self.body.name)
         return self.body
 
     def towards(self, azimuth: float) -> Block:
         """Return the block that a scan is towards an azimuth, degrees clockwise from north."""
         if not isinstance(self.body, ScannedBody):
-            raise BodyError("{name} is the same block in each direction: leave the azimuth out", name=lazy_gettext(self.body.name))
+            raise BodyError("{name} has the same dimensions in all azimuths: omit the azimuth", name=lazy_gettext(self.body.name))
         return self.body.block_toward(azimuth)
 
     def block_for_motion(self, motion: Motion) -> Block:
@@ -74,7 +74,10 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     restitution = params.get("restitution")
     if params.get("block"):
         if sizes:
-            raise BodyError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+            raise BodyError(
+                "--block and sizes ({sizes}) exclude each other: give only one of them",
+                sizes=["--" + key.replace("_", "-") for key in sizes],
+            )
         refuse_kind(params)
         table = read_body_toml(params["block"])
         if restitution is None:
@@ -87,7 +90,8 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
-                "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+                "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)",
+                missing=missing,
             )
         body = of_kind(Block(**sizes), params.get("kind") or "block")
         origin = lazy_gettext("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
@@ -103,10 +107,10 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
 def refuse_kind(asked: Mapping[str, Any]) -> None:
     """Refuse the kind of a body that comes from a file, which tells its own ranges."""
     if asked.get("kind") is not None:
-        raise BodyError("--kind has no effect with --block: give it with --width and --height")
+        raise BodyError("--kind has no effect with --block: use --kind with --width and --height")
 
 
 def check_side(params: Mapping[str, Any], kind: str | None) -> None:
     """Refuse the side of a body that has but one."""
     if params.get("side") is not None and kind != "two-layer":
-        raise BodyError("--side is of a two-layer --block: leave it out")
+        raise BodyError("--side has no effect: this body is not a two-layer --block; omit --side")

@@ -46,7 +46,10 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     if params.get("block"):
         sizes = [key for key in values if key not in ("inset", "kind") and key in SIZES]
         if sizes:
-            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+            raise ParameterError(
+                "--block and sizes ({sizes}) exclude each other: give only one of them",
+                sizes=["--" + key.replace("_", "-") for key in sizes],
+            )
         refuse_kind(params)
         side = {} if params.get("side") is None else {"side": params["side"]}
         table = read_body_toml(params["block"])
@@ -58,7 +61,7 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     missing = [f"--{key}" for key in ("width", "height") if key not in values]
     if missing:
         raise ParameterError(
-            "which body? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+            "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)", missing=missing
         )
     name = lazy_gettext("block {width:g} x {height:g} m", width=values["width"], height=values["height"])
     return BodySpec(name, values, None, lazy_gettext("the block"))

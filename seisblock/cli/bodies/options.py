@@ -17,10 +17,15 @@ _SIZES = (
 )
 
 _OPTIONAL_SIZES = (
-    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; only the mass depends on it."),
-    option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; the motion depends on it only with --inertia."),
+    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; affects only the mass."),
+    option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; affects the motion only with --inertia."),
     option("--centroid-height", type=LENGTH, section="Body", help="Height of the centre of gravity, m. [default: half the height]"),
-    option("--centroid-offset", type=LENGTH, section="Body", help="Its distance to +x from the middle of the base, m. [default: 0]"),
+    option(
+        "--centroid-offset",
+        type=LENGTH,
+        section="Body",
+        help="Offset of the centre of gravity to +x from the middle of the base, m. [default: 0]",
+    ),
     option(
         "--inertia",
         "centroid_inertia",
@@ -34,8 +39,8 @@ _OPTIONAL_SIZES = (
         type=INSET,
         metavar="SHARE|M",
         section="Body",
-        help="How far in from each side its worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). "
-        "[default: the body's own, 0.05 for gravestones, else 0]",
+        help="Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: the body's own, "
+        "0.05 for gravestones, else 0]",
     ),
     option(
         "--kind",
@@ -100,18 +105,17 @@ def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
                 "--restitution",
                 type=float,
                 metavar="E",
-                help="Angular velocity after an impact over that before, 0 to 1. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
+                help="Coefficient of restitution, ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
+                "sin^2(alpha), or the body's own]",
             ),
-            option("--linear", is_flag=True, help="The linearised equation of slender blocks. [default: the exact one]"),
-            option(
-                "--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]"
-            ),
+            option("--linear", is_flag=True, help="Use the linearised equation of slender blocks. [default: exact equation]"),
+            option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]"),
             option(
                 "--azimuth",
                 multiple=True,
                 metavar="DEG[,DEG...]",
                 section="Record",
-                help="Direction of +x, degrees clockwise from north; as --component DEG.",
+                help="Azimuth of +x, degrees clockwise from north; same as --component DEG.",
             ),
         )
     ):
