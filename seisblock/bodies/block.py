@@ -1,4 +1,4 @@
-"""The rigid block that stands on its base: what rocking needs to know of a gravestone, a cabinet or a statue."""
+"""Rigid block on a flat base: geometry, inertia, slenderness, restitution and rocking threshold."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from seisblock.core.typing import FloatArray
 
 DENSITY = 2650.0
-"""Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
+"""Density of granite, kg/m^3; without effect on the motion of a rigid block."""
 
 RIGHT, LEFT = range(2)
-"""The lower corners: that towards +x, about which a block turns that leans to +x, and the other one."""
+"""Lower corners: RIGHT towards +x, pivot of a block with positive tilt, and LEFT."""
 
 Length = TypeVar("Length", float, "FloatArray")
-"""A number, or one for each of many blocks."""
+"""Scalar or array of lengths."""
 
 _POSITIVE_FIELDS = {
     "width": (lazy_gettext("width"), "m"),
@@ -38,7 +38,7 @@ _POSITIVE_FIELDS = {
 
 @dataclass(frozen=True)
 class Block:
-    """A rigid block with a flat base, rectangular and homogeneous unless more is said.
+    """Rigid block with a flat base; rectangular and homogeneous by default.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class Block:
 
     @property
     def total_mass(self) -> float:
-        """Mass, given or from the volume, kg."""
+        """Mass, given or from volume and density, kg."""
         if self.mass is not None:
             return self.mass
         return self.density * self.width * self.height * (self.width if self.depth is None else self.depth)
@@ -138,7 +138,7 @@ class Block:
 
     @property
     def arms(self) -> tuple[float, float]:
-        """Horizontal distances from the right and the left lower corner, worn as they are, to the centre of gravity, m."""
+        """Horizontal distances from the right and the left lower corner (with edge wear) to the centre of gravity, m."""
         half = self.width / 2 - self.inset
         return half - self.centroid_offset, half + self.centroid_offset
 
@@ -156,12 +156,12 @@ class Block:
 
     @property
     def slenderness(self) -> float:
-        """The smaller of the two alphas, rad: that of the side to which the block falls more easily."""
+        """Smaller of the two angles alpha, rad."""
         return min(self.slendernesses)
 
     @property
     def radius(self) -> float:
-        """R of that side, m."""
+        """Smaller of the two radii R, m."""
         return min(self.radii)
 
     @property
@@ -172,7 +172,7 @@ class Block:
 
     @property
     def restitutions(self) -> tuple[float, float]:
-        """Angular velocity after an impact over that before, onto the right and onto the left corner.
+        """Ratios of angular velocities after and before an impact on the right and the left corner.
 
         As of :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
         """
@@ -181,22 +181,22 @@ class Block:
 
     @property
     def restitution(self) -> float:
-        """The larger of the two restitutions."""
+        """Larger of the two coefficients of restitution."""
         return max(self.restitutions)
 
     @property
     def lever_ratios(self) -> tuple[float, float]:
-        """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
+        """Lever ratio m R/I_O at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
         right, left = (lever_ratio(radius, self.gyration_squared) for radius in self.radii)
         return right, left
 
     def frequency_parameter(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return p = sqrt(m g R/I_O) of the side of the smaller alpha, rad/s ([Furukawa2009]_ eq. (3))."""
+        """Return p = sqrt(m g R/I_O) of the side with the smaller alpha, rad/s ([Furukawa2009]_ eq. (3))."""
         side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
         return math.sqrt(gravity * self.lever_ratios[side])
 
     def with_wear(self, inset: EdgeWear | float) -> Block:
-        """Return the block with worn edges: a share of its width per side, or an :class:`~seisblock.bodies.edge_wear.EdgeWear`.
+        """Return the block with worn edges: a share of the width per side, or an ``EdgeWear``.
 
         Examples
         --------
@@ -207,21 +207,21 @@ class Block:
         return replace(self.without_ranges("inset_m"), inset=depth)
 
     def without_ranges(self, *names: str) -> Block:
-        """Return the block as one of which some sizes are known: without the ranges of these."""
+        """Return the block without the ranges of the given parameters, whose values are known."""
         return self if self.ranges is None else replace(self, ranges=self.ranges.without(*names))
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
+        """Return the ground acceleration at which rocking starts, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
         return gravity * min(self.arms) / self.centre
 
 
 def lever_ratio(radius: Length, gyration_squared: Length) -> Length:
-    """Return mass times R over I_O of a corner, 1/m ([Furukawa2009]_ eq. (3)), from R, m, and the squared radius of gyration, m^2."""
+    """Return m R/I_O of a corner, 1/m ([Furukawa2009]_ eq. (3)), from R, m, and gyration radius squared, m^2."""
     return radius / (gyration_squared + radius * radius)
 
 
 def corner_restitution(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
-    """Return angular velocity after an impact onto a corner over that before.
+    """Return the ratio of angular velocities after and before an impact on a corner.
 
     Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here). Zero where the block is so wide that it would
     not turn on.
@@ -241,11 +241,11 @@ def corner_restitution(radius: Length, gyration_squared: Length, centre: Length,
 
 
 Restitution = float | tuple[float, float] | None
-"""One ratio for both corners, one onto the right and one onto the left corner, or None for those of the angular momentum."""
+"""One ratio for both corners, (right, left) ratios, or None for conserved angular momentum."""
 
 
 def resolve_restitutions(block: Block, restitution: Restitution) -> tuple[float, float]:
-    """Return the restitutions of impacts onto the right and onto the left corner."""
+    """Return the coefficients of restitution of the right and the left corner."""
     if restitution is None:
         return block.restitutions
     return restitution if isinstance(restitution, tuple) else (restitution, restitution)
@@ -276,7 +276,7 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 
 
 def scale_block(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
-    """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness`.
+    """Return a block with all lengths times `size`, and those along the motion also times `slenderness`.
 
     A mass that was given stays, else it follows from the volume; a given inertia keeps its radius of gyration, times `size`.
     """

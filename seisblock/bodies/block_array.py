@@ -1,4 +1,4 @@
-"""Many blocks at once, as arrays: what studies vary, without an object for each."""
+"""Arrays of rigid blocks for parameter studies."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from seisblock.bodies.uncertainty import Range
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray
 
 MOST_WORN = 0.8
-"""Of the smaller arm of a block whose two sides differ, that its edges may be worn by."""
+"""Largest edge wear of an asymmetric block, a share of its smaller arm."""
 
 
 @dataclass(frozen=True, eq=False)
 class BlockArray:
-    """What the motion of each of many rigid blocks depends on; bit by bit what :class:`~seisblock.bodies.block.Block` says of one.
+    """Parameters of the motion of m rigid blocks; bitwise equal to those of ``Block``.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ class BlockArray:
 
     @property
     def columns(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """The four arrays, in their order."""
+        """The four arrays in their order."""
         return self.right, self.left, self.centre, self.gyration_squared
 
     def __getitem__(self, index: slice | IntArray) -> BlockArray:
-        """Return some of them."""
+        """Return the selected blocks."""
         return BlockArray(*(column[index] for column in self.columns))
 
     @property
@@ -60,23 +60,23 @@ class BlockArray:
 
     @property
     def lever_ratios(self) -> FloatArray:
-        """Mass times R over I_O, at the right and the left corner, (m, 2), 1/m."""
+        """Lever ratio m R/I_O at the right and the left corner, (m, 2), 1/m."""
         return lever_ratio(self.radii, self.gyration_squared[:, None])
 
     @property
     def restitutions(self) -> FloatArray:
-        """Angular velocity after an impact over that before, onto the right and onto the left corner, (m, 2)."""
+        """Ratios of angular velocities after and before an impact on the right and the left corner, (m, 2)."""
         arms = self.right[:, None], self.left[:, None]
         return corner_restitution(self.radii, self.gyration_squared[:, None], self.centre[:, None], arms)
 
 
 def elementwise(function: Callable[..., float], *columns: FloatArray) -> FloatArray:
-    """Return a function of :mod:`math` of every element: numpy's own differ from it in the last digit, from machine to machine."""
+    """Return an elementwise :mod:`math` function: numpy's differ in the last digit between machines."""
     return np.fromiter(map(function, *(column.ravel().tolist() for column in columns)), np.float64, columns[0].size)
 
 
 def rectangular_blocks(widths: ArrayLike, heights: ArrayLike, inset: EdgeWear = SHARP_EDGES) -> BlockArray:
-    """Return homogeneous rectangular blocks of some widths and heights, (m,) each, m, with edges worn alike.
+    """Return homogeneous rectangular blocks of given widths and heights, (m,), m, with the same edge wear.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def rectangular_blocks(widths: ArrayLike, heights: ArrayLike, inset: EdgeWear = 
 
 
 def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_share: ArrayLike | None = None) -> BlockArray:
-    """Return a block with its lengths multiplied, as :func:`~seisblock.bodies.block.scale_block` does, by each of some factors.
+    """Return a block scaled by arrays of factors, see :func:`~seisblock.bodies.block.scale_block`.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
 
 
 def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
-    """Return samples of a range whose median is a body's own value, for uniform draws in [-1, 1].
+    """Map uniform draws in [-1, 1] to samples of a range whose median is the body's own value.
 
     The lower half of the draws lies evenly between the least and the own value, the upper half between that and the largest.
 
@@ -152,7 +152,7 @@ def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
 
 
 def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArray, worn: FloatArray) -> BlockArray:
-    """Return samples of a block: its widths and heights multiplied by factors, its edges drawn from their prior or about their own inset.
+    """Return samples of a block: scaled widths and heights, edge wear from its prior or around its own inset.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArra
 
 
 def wear_within(block: Block, share: float) -> float:
-    """Return the inset of a block whose edges nobody has measured, a share of its width per side.
+    """Return the default edge wear of a block, a share of its width per side.
 
     Less than the share of its kind where its two sides differ so much that hardly anything would be left under its centre of gravity:
     what stands is not worn like that.
@@ -187,7 +187,7 @@ def wear_within(block: Block, share: float) -> float:
 
 
 def wear_range(block: Block, tolerance: float) -> Range:
-    """Return the least and the largest inset of the samples of a block, shares of its width per side.
+    """Return the smallest and the largest inset of the samples of a block, shares of its width per side.
 
     A known inset varies by a share of itself, so that sharp edges stay sharp; one that is not known has the range of its kind. Neither
     leaves less than a fifth of what the block stands on. A tolerance of 0 means that the inset is known exactly.
@@ -211,7 +211,7 @@ def wear_range(block: Block, tolerance: float) -> Range:
 
 
 def to_block_array(blocks: Sequence[Block]) -> BlockArray:
-    """Return some blocks as arrays."""
+    """Return the blocks as one array."""
     rows = [(*block.arms, block.centre, block.gyration_squared) for block in blocks]
     right, left, centre, gyration = np.array(rows, dtype=np.float64).reshape(-1, 4).T
     return BlockArray(right, left, centre, gyration)

@@ -1,4 +1,4 @@
-"""How far in from the sides of its base a block turns: real edges are worn, and sharp ones are the unsafe end."""
+"""Edge wear: inset of the pivot edges from the sides of a base."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.units import parse_length, to_halfwidth
 
 MAX_SHARE = 0.5
-"""At this share of the width per side nothing is left to stand on."""
+"""Share of the width per side at which no base is left."""
 
 MIN_SHARE = 1e-9
-"""Below this share of the width per side an edge is sharp: of a gravestone, a third of an atom."""
+"""Share of the width per side below which an edge counts as sharp (smaller than an atom)."""
 
 _SHARE_PATTERN = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(%?)\s*+\Z")
 
 
 @dataclass(frozen=True)
 class EdgeWear:
-    """How far the edges about which a block turns lie inside the drawing, at each side of its base.
+    """Inset of the worn pivot edges from each side of a base.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class EdgeWear:
             checks.non_negative("the inset of the worn edges", value)
 
     def inset(self, width: float) -> float:
-        """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on.
+        """Return the inset per side of a base of the given width (m), m.
 
         Less than a billionth of the width is none.
         """
@@ -63,10 +63,10 @@ class EdgeWear:
 
 
 SHARP_EDGES = EdgeWear()
-"""A block that turns about the edges of its drawing."""
+"""No edge wear."""
 
 DEFAULT_WEAR = EdgeWear(share=0.05)
-"""Gravestones whose edges nobody has measured: the median of their prior, :data:`WORN_RANGE`."""
+"""Edge wear of gravestones without measurement: the median of their prior, :data:`WORN_RANGE`."""
 
 WORN_RANGE = (0.0, 0.1)
 """Prior of the worn edges of gravestones, uniform, shares of the width per side.
@@ -77,7 +77,7 @@ falls when it falls under either horizontal. Edges worn by 0.1 throughout meet t
 
 
 def parse_edge_wear(text: str | float) -> EdgeWear:
-    """Return the inset that a text means: a length with its unit (``1cm``), or a share of the width per side (``0.1`` or ``10%``).
+    """Return the edge wear of a text: length with unit (``1cm``), or share of the width (``0.1``, ``10%``).
 
     Raises
     ------

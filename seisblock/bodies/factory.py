@@ -1,4 +1,4 @@
-"""Which block the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+"""Bodies from TOML files and bundled names."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _KEYS = {"kind", "name", "mass", "restitution", "inset", "ranges", *_FRICTION_KE
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
-    """Return the block of a TOML file, or of a bundled body such as ``gravestone``.
+    """Return the block of a TOML file or of a bundled body such as ``gravestone``.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
 
 
 def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
-    """Return the block that a TOML table describes; see :func:`load_block`."""
+    """Return the block described by a TOML table, see :func:`load_block`."""
     source = source_name(table)
     kind = table.get("kind")
     if kind == "two-layer":
@@ -87,7 +87,7 @@ def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
 
 
 def body_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block | ScannedBody:
-    """Return the body that a TOML table describes: one block, or a scan, which is another one in each direction.
+    """Return the body described by a TOML table: a block or a scan.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def body_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block |
 
 
 def block_for_motion(body: AnyBody, motion: Motion) -> AnyBody | Block:
-    """Return a body as it follows a motion: a scan as the block that it is towards its azimuth, any other as it is.
+    """Return the block for a motion: of a scan, the block of the motion's azimuth.
 
     Examples
     --------
@@ -110,12 +110,12 @@ def block_for_motion(body: AnyBody, motion: Motion) -> AnyBody | Block:
 
 
 def table_restitution(table: Mapping[str, Any], name: str) -> float | None:
-    """Return the restitution that a body's file brings along, or None."""
+    """Return the coefficient of restitution in a body's file, or None."""
     return get_number({**table, "source": name}, "restitution")
 
 
 def table_friction(table: Mapping[str, Any], name: str) -> tuple[float | None, float | None]:
-    """Return the static and the kinetic friction that a body's file brings along, None where it is silent."""
+    """Return static and kinetic friction in a body's file, None where missing."""
     entries: Mapping[str, Any] = contact_from_table(table) if table.get("kind") == "two-layer" else table
     mu, kinetic = (get_number({**entries, "source": name}, key) for key in _FRICTION_KEYS)
     return mu, kinetic

@@ -1,4 +1,4 @@
-"""How rough two surfaces are: a few pairs with their source, for want of a measurement at the object itself."""
+"""Friction coefficients of pairs of surfaces, with sources."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from seisblock.core.i18n import N_
 
 @dataclass(frozen=True)
 class Surface:
-    """Friction of one pair of surfaces.
+    """Friction of a pair of surfaces.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ SURFACES = {
     "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", N_("dry")),
     "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
 }
-"""Pairs in either order; real values scatter by a third, so that a probability varies them."""
+"""Friction by pair, in either order; measured values scatter by a third, which probabilities include."""
 
 
 def surface(pair: str) -> Surface:

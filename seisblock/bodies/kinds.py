@@ -1,4 +1,4 @@
-"""Kinds of bodies, and what is assumed of the edges of one whose edges nobody has measured."""
+"""Kinds of bodies and the default edge wear of each."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ JMA's table of furniture is met by sharp furniture, no survey tells of worn base
 
 
 def of_kind(block: Block, kind: str) -> Block:
-    """Return a block with the edges of its kind: the median of their prior, and their range for samples.
+    """Return a block with the edge wear of its kind: median and range of the prior.
 
     Parameters
     ----------

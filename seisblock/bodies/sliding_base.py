@@ -1,4 +1,4 @@
-"""What an object slides on: two friction coefficients and a slope."""
+"""Sliding base: static and kinetic friction, slope."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.core.errors import ParameterError
 
 @dataclass(frozen=True)
 class SlidingBase:
-    """A rigid base with Coulomb friction, level or sloping.
+    """Rigid base with Coulomb friction, level or sloping.
 
     Parameters
     ----------
@@ -80,12 +80,12 @@ class SlidingBase:
 
     @property
     def never_stops(self) -> bool:
-        """Whether an object that slides downhill on still ground is never stopped by the slope itself ([Fujino1978]_ eq. (14))."""
+        """Whether kinetic friction never stops downhill sliding on the slope ([Fujino1978]_ eq. (14))."""
         return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
 
 def holds_at_rest(mu: float, slope_deg: float) -> bool:
-    """Whether static friction holds an object on a slope while nothing shakes ([Fujino1978]_ eq. (10)); equality holds."""
+    """Return whether static friction holds an object on a slope at rest ([Fujino1978]_ eq. (10)); equality holds."""
     return mu >= abs(math.tan(math.radians(slope_deg))) * (1.0 - 1e-15)
 
 
@@ -98,7 +98,7 @@ def sliding_base(
     slope_length: float | None = None,
     one_way: bool = False,
 ) -> SlidingBase:
-    """Return a base whose kinetic friction is given, or is `kappa` times the static one, or equals it.
+    """Return a base whose kinetic friction is given, `kappa` times the static one, or equal to it.
 
     Raises
     ------

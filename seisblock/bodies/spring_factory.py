@@ -1,4 +1,4 @@
-"""A block on corner springs from what a user says of it, complete and without contradiction."""
+"""Block on corner springs from user parameters, with completeness checks."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def spring_block(
     beta: float | None = None,
     damping: float | None = None,
 ) -> SpringBlock:
-    """Return the block that sizes, and either stiffnesses or frequencies, describe.
+    """Return the block of given sizes and either stiffnesses or frequencies.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A list of bodies: a table with a row for each, or files that describe one each; what a museum or a cemetery keeps of its objects."""
+"""Tables of bodies (CSV), and body files, as specifications for solvers."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ NUMBER_COLUMNS = (
 TEXT_COLUMNS = ("name", "body", "surface", "side", "kind")
 POSITIVE_COLUMNS = ("width", "height", "depth", "centroid_height", "slope_length", "mass", "density", "frequency_vertical")
 SIGNED_COLUMNS = ("centroid_offset", "slope_deg")
-"""What may be negative: an offset has a side, a slope a direction. All other numbers are zero or more."""
+"""Columns that may be negative; all others are zero or more."""
 
 _JAPANESE_NAMES = {
     "width": ("幅",),
@@ -71,15 +71,15 @@ _UNITS = {
     "frequency_vertical": ("hz",),
     "slope_deg": ("deg", "degrees", "°"),
 }
-"""Units that may stand in the headings of numbers that have no other."""
+"""Units accepted in the headings of columns without other units."""
 
 MAX_LENGTH = 100.0
-"""A size beyond this, m, is taken for a number whose unit was forgotten."""
+"""Largest plausible size, m; larger numbers probably lack their unit."""
 
 
 @dataclass(frozen=True)
 class BodySpec:
-    """One body of a list: what was said of it, from which a solver takes what it needs.
+    """Specification of one body: parameters from which each solver takes those it needs.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class BodySpec:
 
 
 def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...]:
-    """Return the bodies of some lists and files.
+    """Return the bodies of tables, body files and bundled names.
 
     A table (.csv) has a header that names its columns: ``name``; ``width``, ``height``, ``depth``, ``centroid_height``,
     ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in the cell, ``24cm``);
@@ -138,18 +138,17 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
 
 
 def _is_table(name: str | Path) -> bool:
-    """Return whether a file is a table by its suffix."""
+    """Return whether a file is a table, by its suffix."""
     return Path(name).suffix.lower() in (".csv", ".tsv", ".txt")
 
 
 def _read_body_file(name: str) -> BodySpec:
-    """Return the body that a file describes, or a bundled one."""
+    """Return the body of a file or a bundled one."""
     table = read_body_toml(name)
     return BodySpec(Path(name).stem if Path(name).suffix else name, description=table, source=name)
 
 
 def _read_body_table(name: str) -> list[BodySpec]:
-    """Return the bodies of a table."""
     path = Path(name)
     if path.is_dir():
         raise BodyError("{name} is a folder: give a CSV file with one body on each line", name=name)
@@ -176,7 +175,7 @@ def _read_body_table(name: str) -> list[BodySpec]:
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the meaning of each column, and the units in their names; a column that means nothing is a slip of the pen."""
+    """Return the meaning of each column and the units in the headings; unknown columns raise an error."""
     columns, units = [], {}
     for cell in cells:
         name, unit = parse_heading(cell, _COLUMNS)
@@ -207,7 +206,6 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
 
 
 def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) -> BodySpec:
-    """Return the body of one row."""
     name = row["name"]
     if not name:
         raise BodyError("the name of a body is empty: fill the cell")
@@ -220,7 +218,7 @@ def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) ->
 
 
 def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
-    """Return what a cell says, SI."""
+    """Return the value of a cell, SI."""
     if key in TEXT_COLUMNS:
         return cell
     if key == "inset":
@@ -236,6 +234,6 @@ def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
 
 
 def _check_range(key: str, value: float, unit: str = "") -> float:
-    """Return a number that is not below what its column may hold, whichever solver reads it."""
+    """Return a number after the range check of its column."""
     check = checks.finite if key in SIGNED_COLUMNS else checks.positive if key in POSITIVE_COLUMNS else checks.non_negative
     return check("{key}", value, unit, key=key, error=BodyError)

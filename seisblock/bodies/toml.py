@@ -1,4 +1,4 @@
-"""Body descriptions as TOML: found by path, or by name among the bundled ones."""
+"""TOML body descriptions: files and bundled bodies, typed access to their entries."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from seisblock.core.units import parse_length, parse_mass
 from seisblock.samples import sample_directory
 
 MAX_QUOTED_LENGTH = 200
-"""How much of what stands in a file a message shows at most."""
+"""Largest number of quoted characters of a file in a message."""
 
 
 def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, Any]:
@@ -60,12 +60,11 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
 
 
 def _kind(path: Path) -> str:
-    """Return the kind of a bundled body."""
     return str(tomllib.loads(path.read_text(encoding="utf-8"))["kind"])
 
 
 def _exists(path: Path) -> bool:
-    """Return whether there is a file of that name, whatever stands in the name."""
+    """Return whether a file exists; False for names that the system rejects."""
     try:
         return path.exists()
     except OSError:  # too long for a name
@@ -73,34 +72,34 @@ def _exists(path: Path) -> bool:
 
 
 def source_name(table: Mapping[str, Any]) -> str:
-    """Return what messages call a table."""
+    """Return the name of a table in messages."""
     source = table.get("source") or lazy_gettext("body")
     return source if isinstance(source, str) else str(source)
 
 
 def get_number(table: Mapping[str, Any], key: str) -> float | None:
-    """Return an optional finite number, None where the table is silent."""
+    """Return an optional finite number, None if missing."""
     value = table.get(key)
     return None if value is None else checks.finite("{source}: {key}", value, error=BodyError, source=source_name(table), key=key)
 
 
 def get_text(table: Mapping[str, Any], key: str, default: str) -> str:
-    """Return an optional text."""
+    """Return an optional string."""
     return _check_text(table.get(key, default), table, key)
 
 
 def get_texts(table: Mapping[str, Any], key: str) -> tuple[str, ...]:
-    """Return an optional list of texts, empty where the table is silent."""
+    """Return an optional list of strings, empty if missing."""
     return tuple(_check_text(value, table, key) for value in _check_list(table.get(key, []), table, key))
 
 
 def get_text_groups(table: Mapping[str, Any], key: str) -> tuple[tuple[str, ...], ...]:
-    """Return an optional list of lists of texts, empty where the table is silent."""
+    """Return an optional list of lists of strings, empty if missing."""
     return tuple(get_texts({**table, key: group}, key) for group in _check_list(table.get(key, []), table, key))
 
 
 def get_subtable(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    """Return an optional table within a table, which goes by the name of both in messages."""
+    """Return an optional subtable, named by both in messages."""
     value = table.get(key, {})
     if not isinstance(value, Mapping):
         raise BodyError("{source}: {key} must be a table, found {found}", source=source_name(table), key=key, found=quote_value(value))
@@ -108,7 +107,7 @@ def get_subtable(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 
 def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
-    """Refuse a key that means nothing, which is a slip of the pen."""
+    """Raise an error for unknown keys."""
     unknown_keys = sorted(set(table) - {*allowed, "source"})
     if unknown_keys:
         raise BodyError(
@@ -120,30 +119,30 @@ def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
 
 
 def quote_value(value: Any) -> str:
-    """Return a value as a message shows it."""
+    """Return a value as shown in a message."""
     return repr(value)[:MAX_QUOTED_LENGTH]
 
 
 def check_kind(table: Mapping[str, Any], kind: str) -> None:
-    """Refuse a table that describes another kind of body."""
+    """Raise an error for a table of another kind of body."""
     actual = table.get("kind")
     if actual != kind:
         raise BodyError('{source}: kind must be "{kind}", found {found}', source=source_name(table), kind=kind, found=quote_value(actual))
 
 
 def get_length(table: Mapping[str, Any], key: str) -> float:
-    """Return a required length in metres; a text may carry a unit."""
+    """Return a required length, m; a string may carry a unit."""
     return parse_length(_require(table, key), quantity=lazy_gettext("{source}: {key}", source=source_name(table), key=key))
 
 
 def get_lengths(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
-    """Return a required list of lengths in metres."""
+    """Return a required list of lengths, m."""
     label = lazy_gettext("{source}: {key}", source=source_name(table), key=key)
     return tuple(parse_length(entry, quantity=label) for entry in entries(table, key, count))
 
 
 def get_edge_wear(table: Mapping[str, Any]) -> EdgeWear:
-    """Return the inset of a table: a text with a length or a share, or a share of the width per side; sharp where there is none.
+    """Return the edge wear of a table: string with length or share, or number as share; sharp if missing.
 
     Examples
     --------
@@ -155,18 +154,17 @@ def get_edge_wear(table: Mapping[str, Any]) -> EdgeWear:
 
 
 def get_mass(table: Mapping[str, Any], key: str) -> float:
-    """Return a required mass in kilograms; a text may carry a unit."""
+    """Return a required mass, kg; a string may carry a unit."""
     return parse_mass(_require(table, key), quantity=lazy_gettext("{source}: {key}", source=source_name(table), key=key))
 
 
 def get_masses(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
-    """Return a required list of masses in kilograms."""
+    """Return a required list of masses, kg."""
     label = lazy_gettext("{source}: {key}", source=source_name(table), key=key)
     return tuple(parse_mass(entry, quantity=label) for entry in entries(table, key, count))
 
 
 def _require(table: Mapping[str, Any], key: str) -> Any:
-    """Return an entry that must be there."""
     if key not in table:
         raise BodyError(
             "{source}: {key} is missing; entries: {known}", source=source_name(table), key=key, known=[k for k in table if k != "source"]
@@ -189,14 +187,12 @@ def entries(table: Mapping[str, Any], key: str, count: int) -> Sequence[Any]:
 
 
 def _check_list(value: Any, table: Mapping[str, Any], key: str) -> Sequence[Any]:
-    """Return what must be a list."""
     if not isinstance(value, list):
         raise BodyError("{source}: {key} must be a list, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value
 
 
 def _check_text(value: Any, table: Mapping[str, Any], key: str) -> str:
-    """Return what must be a text."""
     if not isinstance(value, str):
         raise BodyError("{source}: {key} must be a string, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value

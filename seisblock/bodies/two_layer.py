@@ -1,4 +1,4 @@
-"""The two-layer rigid block: a light lower layer that carries a heavy upper one."""
+"""Two-layer rigid block: a light lower layer below a heavy upper layer."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ class TwoLayerBlock:
         return self.upper_mass * upper + self.lower_mass * lower
 
     def as_block(self) -> Block:
-        """Return it as one rigid block: same base, mass, centre and inertia."""
+        """Return the block as one homogeneous rigid block with the same base, mass, centre and inertia."""
         return Block(
             self.width,
             self.height,
@@ -139,13 +139,13 @@ class TwoLayerBlock:
         )
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Horizontal ground acceleration above which it rocks, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""
+        """Return the ground acceleration at which rocking starts, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""
         return gravity * (self.width / 2) / self.centroid_height
 
 
 @dataclass(frozen=True)
 class Contact:
-    """Friction and restitution between a block and what it stands on.
+    """Friction and restitution between a block and the ground.
 
     Parameters
     ----------
@@ -185,12 +185,12 @@ class Contact:
 
     @property
     def kinetic(self) -> float:
-        """Coefficient of kinetic friction, given or the static one."""
+        """Kinetic friction coefficient, given or the static one."""
         return self.mu if self.mu_kinetic is None else self.mu_kinetic
 
 
 def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:
-    """Return the block that a TOML table describes, moving along one of its sides.
+    """Return the block described by a TOML table, moving along one of its sides.
 
     Parameters
     ----------
@@ -225,14 +225,14 @@ def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLa
 
 
 def contact_from_table(table: Mapping[str, Any]) -> Mapping[str, float]:
-    """Return the friction and restitution that a preset brings along, empty when it brings none."""
+    """Return friction and restitution of a preset, empty if it has none."""
     values = get_subtable(table, "contact")
     check_keys(values, _CONTACT_KEYS)
     return {key: value for key in _CONTACT_KEYS if (value := get_number(values, key)) is not None}
 
 
 def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
-    """Return the two-layer block of a TOML file, or a bundled one such as ``chozusha``.
+    """Return the two-layer block of a TOML file or a bundled one such as ``chozusha``.
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
 
 
 def load_contact(name: str | Path) -> Contact:
-    """Return the friction and restitution of a two-layer block that a TOML file, or a bundled body, brings along.
+    """Return friction and restitution of a two-layer block in a TOML file or a bundled body.
 
     Parameters
     ----------

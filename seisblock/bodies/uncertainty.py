@@ -1,4 +1,4 @@
-"""Ranges of a kind of body: priors of worn edges and friction, and the sizes that are usual."""
+"""Parameter ranges of a kind of body: priors of edge wear and friction, usual sizes."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.units import parse_length
 
 Range = tuple[float, float]
-"""Least and largest."""
+"""Smallest and largest value."""
 
 
 @dataclass(frozen=True)
 class ParameterRanges:
-    """Limits of the bodies of a kind; None where they are not known.
+    """Parameter ranges of a kind of body; None where unknown.
 
     Samples of a body are drawn from the ranges of its edges and its friction, values that nobody has measured on this one. Its width and
     height are known, and vary by their own tolerance, whatever the sizes of its kind are.
@@ -65,39 +65,38 @@ class ParameterRanges:
 
     @property
     def description(self) -> Message:
-        """The ranges in words."""
+        """The ranges as text."""
         width = _format_range(self.width_m, N_("width {low:.4g} to {high:.4g} m"))
         height = _format_range(self.height_m, N_("height {low:.4g} to {high:.4g} m"))
         return lazy_gettext("{parts}", parts=[part for part in (width, height, self.edges_text, self.friction_text) if part is not None])
 
     @property
     def priors(self) -> ParameterRanges | None:
-        """The ranges that samples are drawn from, edges and friction; None where there is neither."""
+        """The ranges from which samples are drawn (edges and friction); None without them."""
         return self.without("width_m", "height_m")
 
     @property
     def edges_text(self) -> Message | None:
-        """The range of the worn edges, in words."""
+        """The range of the edge wear as text."""
         return _format_range(self.inset_m, N_("edges worn by {low:.4g} to {high:.4g} m"))
 
     @property
     def friction_text(self) -> Message | None:
-        """The range of the friction, in words."""
+        """The range of the friction as text."""
         return _format_range(self.mu, N_("mu {low:g} to {high:g}"))
 
     def without(self, *names: str) -> ParameterRanges | None:
-        """Return the ranges but for some, which are known; None where none is left."""
+        """Return the ranges without those of known parameters; None if none is left."""
         remaining_ranges = replace(self, **dict.fromkeys(names))
         return remaining_ranges if remaining_ranges != ParameterRanges() else None
 
 
 def _format_range(limits: Range | None, text: str) -> Message | None:
-    """Return a range in words, None where there is none."""
     return None if limits is None else lazy_gettext(text, low=limits[0], high=limits[1])
 
 
 def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | None]) -> ParameterRanges | None:
-    """Return the ranges of a body's file, None where it tells none.
+    """Return the ranges in a body's table, None without ``[ranges]``.
 
     Parameters
     ----------
@@ -139,14 +138,13 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
 
 
 def _inset(told: Mapping[str, Any], end: Any, width: float | None) -> float:
-    """Return one end of the range of the edges, m: per cent are of the body's width."""
+    """Return one end of the inset range, m; percentages refer to the body's width."""
     if width is not None and isinstance(end, str) and "%" in end:
         return parse_edge_wear(end).inset(width)
     return parse_length(end, quantity=lazy_gettext("{source}: {key}", source=source_name(told), key="inset"))
 
 
 def _parse_pair(range_table: Mapping[str, Any]) -> list[Any]:
-    """Return the two numbers of the friction."""
     value = range_table["mu"]
     if not isinstance(value, list) or len(value) != 2:
         raise BodyError("{source}: mu must be a list of 2 numbers, found {found}", source=source_name(range_table), found=repr(value)[:40])

@@ -1,4 +1,4 @@
-"""The command line: a thin shell whose one job is to be polite.
+"""Command-line entry point: a click group with lazily imported commands.
 
 ``main`` is a click group that imports a command's module only when that command is asked for, so that
 ``seisblock --help`` loads nothing heavy. It is also the only place that catches :class:`SeisblockError`.
@@ -57,35 +57,34 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "samples": ("seisblock.cli.samples:samples", "Bundled records and bodies: list or copy."),
     "completion": ("seisblock.cli.completion:completion", "Shell completion for bash, zsh and fish."),
 }
-"""Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
+"""Command name: (module:attribute, one-line help). Kept here so that ``--help`` imports no command."""
 
 EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
-"""Two lines to begin with, at the end of the help."""
+"""Example lines at the end of the help."""
 
 PARAMETER = re.compile(r"`(\w+)`")
-"""A parameter's name in a sentence of the library."""
+"""Parameter name in a message of the library."""
 
 COMPLETION_VARIABLE = "_SEISBLOCK_COMPLETE"
-"""What a shell sets that asks for completions."""
+"""Environment variable that a shell sets to request completions."""
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 
 
 def with_option_names(text: str, ctx: click.Context) -> str:
-    """Return a sentence in which the library names its parameters, `` `dt` ``, with the names of the command's options, ``--dt``."""
+    """Return a message with parameter names (`` `dt` ``) replaced by the command's option names (``--dt``)."""
     command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
     names = {parameter.name: parameter.opts[0] for parameter in command.params if isinstance(parameter, click.Option)} if command else {}
     return PARAMETER.sub(lambda match: names.get(match[1], match[1]), text)
 
 
 def _report_interrupt() -> None:
-    """Say on stderr that the run was interrupted."""
     click.echo(f"\nseisblock: {gettext('interrupted; no partially written file remains')}", err=True)
 
 
 class SeisblockGroup(click.Group):
-    """A group that loads commands lazily and turns errors into one sentence and an exit code."""
+    """Click group that imports commands lazily and maps errors to a message and an exit code."""
 
     context_class = Context
 
@@ -100,11 +99,11 @@ class SeisblockGroup(click.Group):
         self.format_commands(ctx, formatter)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names in the order in which a user meets them."""
+        """Return the command names in the order of the help."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import the module of one command."""
+        """Import the module of a command and return the command."""
         if cmd_name not in COMMANDS:
             return None
         module, attribute = COMMANDS[cmd_name][0].split(":")
@@ -112,19 +111,19 @@ class SeisblockGroup(click.Group):
         return command
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the line apart."""
+        """Parse the arguments; unknown options get a suggestion."""
         with suggest_options(self, ctx):
             return super().parse_args(ctx, args)
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that is named; of one that is not there, ask for the nearest."""
+        """Return the command of a line; an unknown name gets a suggestion."""
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
             raise click.UsageError(did_you_mean(error.message, closest_name(args[0], COMMANDS)), ctx) from None
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Complete the names of commands without importing them."""
+        """Complete command names without importing the commands."""
         names = [CompletionItem(name, help=gettext(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
         return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
@@ -137,7 +136,7 @@ class SeisblockGroup(click.Group):
                 formatter.write(f"  {line}\n")
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
-        """Run the command; errors of the user become a message on stderr and an exit code."""
+        """Run the command; user errors become a message on stderr and an exit code."""
         # the largest matrix here is of twelve rows: threads of the linear algebra would only wait for one another
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
@@ -154,7 +153,7 @@ class SeisblockGroup(click.Group):
                 raise
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Take the line apart; Ctrl-C meanwhile ends as it does later, where click would say that it aborted."""
+        """Parse the arguments; an interrupt during parsing exits as one during the run (click would print "Aborted!")."""
         try:
             return super().make_context(*args, **extra)
         except KeyboardInterrupt:
@@ -162,7 +161,7 @@ class SeisblockGroup(click.Group):
             raise click.exceptions.Exit(INTERRUPTED) from None
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Invoke the command and report what the user can mend."""
+        """Invoke the command and report user errors."""
         translate = bind_locale()  # kernels are compiled in other threads, too
         _jit.on_message, _jit.on_compile = lambda message: info(translate(message)), lambda task: progress(translate(task))
         reset_warnings()

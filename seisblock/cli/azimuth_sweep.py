@@ -1,4 +1,4 @@
-"""``--component all-azimuths``: every direction of a record, and the worst of them."""
+"""Azimuth sweep (``--component all-azimuths``): all azimuths of a record and the worst of them."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 def is_azimuth_sweep(source: Source) -> bool:
-    """Return whether every direction is asked for."""
+    """Return whether ``--component all-azimuths`` was given."""
     return [name.lower() for name in source.component] == [ALL_AZIMUTHS]
 
 
 def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> Iterator[tuple[Motion, Sequence[Any]]]:
-    """Yield each motion asked for; the worst direction, with all of them, where they are all asked for.
+    """Yield each selected motion; in a sweep, the motion of the worst azimuth with the results of all azimuths.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
 
 
 def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
-    """Return what draws the directions, None where they were not looked in."""
+    """Return a function that draws the azimuth sweep, None without a sweep."""
     if not any("azimuths" in extra for extra in extras):
         return None
 

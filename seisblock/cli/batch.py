@@ -1,4 +1,4 @@
-"""``seisblock batch``: many records, many bodies, one table."""
+"""``seisblock batch``: one table of many records and many bodies."""
 
 from __future__ import annotations
 

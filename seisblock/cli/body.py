@@ -1,4 +1,4 @@
-"""``seisblock body``: the body of a scan, and how easily it turns in each direction."""
+"""``seisblock body``: rigid-body properties of a 3-D scan."""
 
 from __future__ import annotations
 
@@ -149,7 +149,6 @@ def body(
 
 
 def _draw(scan_result: Any) -> Any:
-    """Return the figure of a scanned body; matplotlib is loaded only for it."""
     from seisblock.report.figures.body import figure
 
     return figure(scan_result)

@@ -1,4 +1,4 @@
-"""``seisblock cite``: the papers an answer relies on."""
+"""``seisblock cite``: references of a command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``seisblock criteria``: every closed-form criterion of overturning beside the simulated truth."""
+"""``seisblock criteria``: closed-form overturning criteria beside the simulated outcome."""
 
 from __future__ import annotations
 
@@ -87,7 +87,6 @@ def criteria(
 
 
 def _draw(cards: Any, *, gal: bool) -> Any:
-    """Return the figure of the cards; matplotlib is loaded only for it."""
     from seisblock.report.figures.criteria import figure
 
     return figure(cards, gal=gal)

@@ -1,4 +1,4 @@
-"""``seisblock fit``: the block that explains what fell under which shaking."""
+"""``seisblock fit``: block parameters from observed overturning."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset
 
 
 def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Accept the option repeated, and lists with commas; None where it is not there."""
+    """Split repeated and comma-separated names; None without the option."""
     names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
     if value and not names:
         raise click.BadParameter(gettext("the list is empty: name the parameters to estimate, or none"), ctx, param)
@@ -31,7 +31,7 @@ def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -
 
 
 def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, tuple[float, float]]:
-    """Accept ``NAME=LOW:HIGH``, repeated."""
+    """Parse repeated ``NAME=LOW:HIGH``."""
     bounds = {}
     for text in value:
         name, _, ends = text.partition("=")
@@ -164,7 +164,6 @@ def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
 
 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
-    """Return the outcomes of the table with their records."""
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
     from seisblock.readers.dispatch import ReadOptions
@@ -188,7 +187,7 @@ def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
 
 
 def _choose_body(params: dict[str, Any]) -> tuple[Any, Any, float | None]:
-    """Return the block that is described, if any, the inset where it is given, and the restitution that is given or that a file brings."""
+    """Return block, inset and restitution of the options or the body's file; None where not given."""
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.console import info
 

@@ -1,4 +1,4 @@
-"""``seisblock fragility``: how likely an object falls, slides or rocks, against the intensity of the shaking."""
+"""``seisblock fragility``: fragility curves of overturning, sliding or rocking."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``seisblock infer``: what fallen stones or a displaced object say of the shaking."""
+"""``seisblock infer``: ground motion estimated from fallen gravestones or displaced objects."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ JUMPED_OPTIONS = (
     *("block", "side", "mu", "mu_kinetic", "restitution_x", "restitution_y", "drop", "flight_only", "first", "repeat", "landing", "spin"),
     *("limit", "steps", "gravity"),
 )
-"""Options that each form reads."""
+"""Options of each form of the command."""
 
 
 @click.command(
@@ -151,14 +151,13 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
 
 
 def _foreign_options(form: str, *, rigid: bool) -> list[str]:
-    """Return the options that belong to other forms than that which was given; with rigid stones gravity has a say."""
+    """Return the options of the other forms; gravity acts on rigid stones."""
     own_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
     of_forms = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
     return [name for name in of_forms if name not in own_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
 def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
-    """Answer from fallen stones."""
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.infer import StonesParameters, stones_document
     from seisblock.studies.survey.consistency import consistency_warning
@@ -223,7 +222,7 @@ def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | No
 
 
 def _assumptions(params: dict[str, Any]) -> Any:
-    """Return what an estimate rests on: the criterion, and how far it and the stones are to be trusted."""
+    """Return the assumptions of an estimate: criterion, bias and standard deviations."""
     from functools import partial
 
     from seisblock.studies.survey.assumptions import make_assumptions
@@ -238,7 +237,6 @@ def _assumptions(params: dict[str, Any]) -> Any:
 
 
 def _infer_from_displacement(source: Source, output: Output, params: dict[str, Any]) -> None:
-    """Answer from a displacement: every factor on each record."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.studies.survey.scale_search import scale_factors
@@ -277,7 +275,7 @@ def _infer_from_displacement(source: Source, output: Output, params: dict[str, A
 
 
 def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
-    """Return what gives the displacement under a motion, and what makes a document of the factors."""
+    """Return the displacement function of a motion and the document builder of the factors."""
     from functools import partial
 
     from seisblock.bodies.sliding_base import SlidingBase

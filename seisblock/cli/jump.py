@@ -1,4 +1,4 @@
-"""``seisblock jump``: does a two-layer block jump, when and how far."""
+"""``seisblock jump``: jump of a two-layer block."""
 
 from __future__ import annotations
 

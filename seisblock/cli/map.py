@@ -1,4 +1,4 @@
-"""``seisblock map``: an earthquake's stations, and what it did to what stands there."""
+"""``seisblock map``: table and map of an earthquake's stations."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
 
 SOLVERS = ("respond", "rock", "slide", "jump", "uplift")
 SIZES = ("block", "width", "height")
-"""Options of which any names a body."""
+"""Options that select a body."""
 
 BODY_OPTIONS = (
     *("depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side", "mu", "mu_kinetic", "surface"),
     *("restitution", "rocking_restitution", "tenon", "frequency_vertical", "vertical", "runs", "seed"),
 )
-"""Options that say more of a body, or of how it is followed."""
+"""Further options of the body and the solver."""
 
 DEFAULT_RUNS = 50
-"""Plausible versions behind a probability, where nothing else is asked for."""
+"""Default number of samples for an overturning probability."""
 
 
 @click.command(
@@ -184,7 +184,7 @@ def map(  # noqa: A001 - the command's name
 def _station_model(
     cemetery: str | None, params: dict[str, Any], solver: str | None, *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> StationModel | None:
-    """Return what stands at each station: a cemetery, a body, or nothing."""
+    """Return the model at each station: cemetery, body or None."""
     from seisblock.studies.map.station_response import StationBody, StationCemetery
 
     has_body = solver is not None or any(params.get(name) is not None for name in SIZES)
@@ -212,7 +212,7 @@ def _station_model(
 def _station_body(
     solver: str, params: dict[str, Any], *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> StationModel:
-    """Return a body that another solver than ``respond`` follows; what that solver does not have is refused by name."""
+    """Return a body for a solver other than ``respond``; options that the solver lacks raise an error."""
     from dataclasses import replace
 
     from seisblock.cli.bodies.body_spec import OWN_OPTIONS, make_body_spec

@@ -1,4 +1,4 @@
-"""``seisblock measure``: what a record is, in numbers."""
+"""``seisblock measure``: intensity measures of a record."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 
 THRESHOLD_SIDES: dict[str, Side] = {"+": "positive", "-": "negative", "both": "both"}
-"""Which side of the threshold each value of ``--direction`` means."""
+"""Side of the threshold for each value of ``--direction``."""
 
 
 def _parse_acceleration(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    """Accept an acceleration with its unit."""
+    """Parse an acceleration with its unit."""
     if value is None:
         return None
     try:
@@ -38,7 +38,7 @@ def _parse_acceleration(ctx: click.Context, param: click.Parameter, value: str |
 
 
 def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
-    """Refuse a negative corner; 0 is none."""
+    """Return the corner frequency, None for 0; raise an error for negative values."""
     if not 0.0 <= value < float("inf"):
         raise click.BadParameter(gettext("must be 0 (none) or a positive frequency in Hz, found {value}", value=value), ctx, param)
     return value or None
@@ -125,7 +125,7 @@ def measure(
 def _threshold(
     *, threshold: float | None, width: float | None, height: float | None, block: str | None, side: str, gravity: float
 ) -> tuple[float, str]:
-    """Return the threshold, m/s^2, and where it comes from, from whichever of its forms was given."""
+    """Return the threshold, m/s^2, and its origin."""
     sizes = width is not None or height is not None
     if (threshold is not None) + sizes + (block is not None) > 1:
         raise click.UsageError(gettext("--threshold, --width with --height, and --block exclude each other: give only one of them"))
@@ -151,7 +151,6 @@ def _threshold(
 
 
 def _write_histories(path: Path, records: list[Any], answers: list[Any]) -> None:
-    """Write the histories behind the numbers."""
     from seisblock.report.io.atomic import write_table
     from seisblock.report.text.measure import history_table
 

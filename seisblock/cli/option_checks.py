@@ -1,4 +1,4 @@
-"""Options that say nothing in a call are refused: whoever gives one believes that it acts."""
+"""Rejection of options that have no effect in the chosen mode."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from seisblock.cli.options import Source
 from seisblock.core.i18n import gettext
 
 RECORD_OPTIONS = tuple(field.name for field in fields(Source) if field.name != "record")
-"""What is said of a record beside its name."""
+"""Names of all record options."""
 
 
 def given_flags(names: Iterable[str]) -> list[str]:
-    """Return those of the options of the command under way, by their parameters, that were asked for, as they are written."""
+    """Return the flags of those options, by parameter name, that the user gave."""
     context = click.get_current_context()
     flags = {parameter.name: parameter.opts[0] for parameter in context.command.params}
     return [flags[name] for name in names if name in flags and context.get_parameter_source(name) is not ParameterSource.DEFAULT]
 
 
 def reject_with(condition: str, names: Iterable[str]) -> None:
-    """Refuse options, by their parameters, that have nothing to do beside what was chosen.
+    """Raise an error for options that have no effect with `condition`.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def reject_with(condition: str, names: Iterable[str]) -> None:
 
 
 def reject_without(condition: str, names: Iterable[str]) -> None:
-    """Refuse options, by their parameters, that have nothing to do without what was not chosen.
+    """Raise an error for options that have no effect without `condition`.
 
     Raises
     ------

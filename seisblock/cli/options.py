@@ -1,4 +1,4 @@
-"""Options that mean the same everywhere: one decorator for the record, one for the output."""
+"""Options shared by all commands: records, output and gravity."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Function = Callable[..., Any]
 
 @dataclass(frozen=True)
 class Source:
-    """Which record, and what is done to it before it is used."""
+    """Record and its preparation, from the record options."""
 
     record: tuple[str, ...]
     component: tuple[str, ...]
@@ -46,7 +46,7 @@ class Source:
 
 
 def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
-    """Return a callback that refuses what a check of :mod:`seisblock.core.checks` does."""
+    """Return a click callback for a check of :mod:`seisblock.core.checks`."""
 
     def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
         try:
@@ -61,7 +61,7 @@ _positive, _nonzero = check_callback(checks.positive), check_callback(checks.non
 
 
 def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
-    """Accept the option repeated, and lists with commas; a list of nothing is refused."""
+    """Split repeated and comma-separated components; raise an error for an empty list."""
     names = [[part.strip() for part in text.split(",") if part.strip()] for text in value]
     if not all(names):
         raise click.BadParameter(gettext("the list is empty: name a component, or degrees clockwise from north"), ctx, param)
@@ -69,7 +69,7 @@ def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[s
 
 
 def _record_argument(help_text: str) -> Callable[[Function], Function]:
-    """Return the argument RECORD, of which the help says what stands for none."""
+    """Return the argument RECORD with its help text."""
     return argument(
         "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
     )
@@ -145,7 +145,7 @@ _JSON = option("--json", is_flag=True, section="Output", help="Print one JSON do
 
 
 def _csv_option(text: str) -> Any:
-    """Return ``--csv``, with what it writes."""
+    """Return ``--csv`` with its help text."""
     return option("--csv", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE", help=text)
 
 
@@ -198,27 +198,27 @@ _QUIET = option("--quiet", is_flag=True, section="Output", help="Print only erro
 
 
 def record_options(function: Function) -> Function:
-    """Give a command RECORD and the options that select and prepare it; it receives one ``source``."""
+    """Add RECORD and the options of its selection and preparation to a command, as one ``source``."""
     return _collect_options(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def real_record_options(function: Function) -> Function:
-    """Give a command the same, where a recording stands for none."""
+    """Add the record options with a recorded motion as default."""
     return _collect_options(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def suite_record_options(function: Function) -> Function:
-    """Give a command the same, where a suite stands for none."""
+    """Add the record options with a synthetic suite as default."""
     return _collect_options(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def preparation_options(function: Function) -> Function:
-    """Give a command the options that prepare records that it is told of otherwise; it receives one ``source``, of no record."""
+    """Add only the preparation options to a command, as one ``source`` without record."""
     return _collect_options(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
 def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
-    """Return what gives a command the options that say where the answer goes; it receives one ``output``.
+    """Return a decorator that adds the output options to a command, as one ``output``.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
 
 
 def _with_output_check(function: Function) -> Function:
-    """Let a command look at where its answer goes before it computes it."""
+    """Check the output options before the command runs."""
 
     @functools.wraps(function)
     def looking(*args: Any, output: Output, **kwargs: Any) -> Any:
@@ -246,7 +246,7 @@ def _with_output_check(function: Function) -> Function:
 
 
 def gravity_option(function: Function) -> Function:
-    """Give a command ``--gravity``."""
+    """Add ``--gravity`` to a command."""
     return option(
         "--gravity",
         type=float,
@@ -259,7 +259,7 @@ def gravity_option(function: Function) -> Function:
 
 
 def _collect_options(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **constants: Any) -> Function:
-    """Gather a family of options, and what is known beside them, into one argument."""
+    """Collect a family of options and fixed values into one argument."""
     names = [field.name for field in fields(kind)]
 
     @functools.wraps(function)

@@ -1,4 +1,4 @@
-"""Where an answer goes, and whether it can: looked at before anything is computed."""
+"""Output options and their check before the computation."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from seisblock.report.io.atomic import check_animation, check_distinct_outputs, 
 from seisblock.report.io.suffix import check_text_suffix
 
 STDOUT = Path("-")
-"""The name that stands for stdout."""
+"""Path that stands for stdout."""
 
 DPI, SLOW = 200, 1.0
-"""Dots per inch of a figure, and how many times slower than it was a film runs, of which nothing else is said."""
+"""Default resolution of a figure, 1/inch, and default slow-motion factor of an animation."""
 
 
 @dataclass(frozen=True)
 class Output:
-    """Where the answer goes, and in which form."""
+    """Values of the output options."""
 
     json: bool
     csv: Path | None
@@ -34,7 +34,7 @@ class Output:
 
 
 def check_output(output: Output) -> None:
-    """Refuse what cannot be written: before anything is read, and again when it is known what was read.
+    """Raise an error for outputs that cannot be written.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def check_output(output: Output) -> None:
 
 
 def _check_stdout(output: Output) -> None:
-    """Refuse two things that both go to stdout, and a name beside ``-`` that would be left unwritten."""
+    """Raise an error for two outputs on stdout."""
     if STDOUT not in (output.csv, output.plot):
         return
     destinations = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}

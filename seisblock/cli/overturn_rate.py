@@ -1,4 +1,4 @@
-"""``seisblock overturn-rate``: which share of a cemetery falls."""
+"""``seisblock overturn-rate``: overturning rate of the gravestones of a cemetery."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from seisblock.studies.survey.shaking import FrequencyKind
 
 FREQUENCY_KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
-"""Definitions of the equivalent frequency, as they are spelled here and in the library."""
+"""Definitions of the equivalent frequency: option value and library name."""
 
 FITTED_EDGES = lazy_gettext(
     "--inset has no effect on criteria (9), (10), which were fitted to gravestones with worn edges; it acts with --criterion rigid "
@@ -36,7 +36,7 @@ FITTED_EDGES = lazy_gettext(
 
 
 def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[float, float, float] | None:
-    """Accept P,Q,R in gal, Hz and 1."""
+    """Parse P,Q,R in gal, Hz and 1."""
     if value is None:
         return None
     try:
@@ -201,7 +201,7 @@ def overturn_rate(
 
 
 def _check_options(source: Source, params: dict[str, Any]) -> None:
-    """Refuse what says nothing of this kind of shaking, or by this criterion."""
+    """Raise an error for options without effect on this motion or criterion."""
     if not source.record:
         reject_without("RECORD", [*RECORD_OPTIONS, "equivalent"])
     elif params["frequency"]:
@@ -213,7 +213,6 @@ def _check_options(source: Source, params: dict[str, Any]) -> None:
 
 
 def _make_method(params: dict[str, Any]) -> Any:
-    """Return how stones are judged."""
     from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
     from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
     from seisblock.studies.survey.assessment import AssessmentMethod
@@ -227,7 +226,7 @@ def _make_method(params: dict[str, Any]) -> Any:
 
 
 def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, list[str]]:
-    """Return the inset that is meant, and what must be said of how it was understood."""
+    """Return the inset and the warnings about its interpretation."""
     if inset is None:
         if criterion != "furukawa":
             info(
@@ -249,7 +248,7 @@ def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, li
 
 
 def _shaking_groups(source: Source, params: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
-    """Return the shakings to judge, under the record they belong to, or None."""
+    """Return the ground motions, grouped by record; None without record."""
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
     from seisblock.studies.survey.shaking import Shaking, component_shakings
 

@@ -1,4 +1,4 @@
-"""``seisblock report``: one page about a record and what it does to some bodies."""
+"""``seisblock report``: HTML report of a record and the response of bodies."""
 
 from __future__ import annotations
 

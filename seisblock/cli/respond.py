@@ -1,4 +1,4 @@
-"""``seisblock respond``: what a free-standing object does, whichever comes."""
+"""``seisblock respond``: full response of a free-standing object."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def respond(
 
 
 def _azimuth_study(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[RespondAzimuth]]:
-    """Return what looks in every direction of a record."""
+    """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[RespondAzimuth]:
         from seisblock.studies.respond.azimuths import respond_directions

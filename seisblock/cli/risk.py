@@ -1,4 +1,4 @@
-"""``seisblock risk``: how often it happens at a site, from a fragility and the hazard there."""
+"""``seisblock risk``: annual frequency at a site from fragility and hazard."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ def risk(output: Output, hazard: Path, years: float, stood: float | None, **para
 
 
 def _load_inputs(path: Path, params: dict[str, Any]) -> tuple[Hazard, tuple[FragilityCurve, ...]]:
-    """Return the hazard, and the curves that belong to it."""
+    """Return the hazard and the fragility curves of its intensity measure."""
     from seisblock.core.units import is_unitless
     from seisblock.studies.fragility.io import check_measure, fragility_from_median, read_fragility
     from seisblock.studies.hazard.table import read_hazard

@@ -1,4 +1,4 @@
-"""``seisblock rock``: does a block rock, does it overturn, and how close was it."""
+"""``seisblock rock``: rocking, overturning and margin of one block."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from seisblock.records import Motion, Record
 
 DEFAULT_RUNS = 200
-"""Versions of body and shaking that a margin is accompanied by, where no number is asked for."""
+"""Default number of samples of body and motion with ``--margin``."""
 
 
 @click.command(
@@ -138,7 +138,7 @@ def rock(
 
 
 def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
-    """Return what looks in every direction of a record."""
+    """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[Any]:
         from seisblock.studies.rocking.azimuths import rock_directions
@@ -150,7 +150,7 @@ def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Seq
 
 
 def require_vertical(motion: Motion, vertical: bool) -> None:
-    """Refuse ``--vertical`` where the record has no vertical component."""
+    """Raise an error for ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
             "{source}: --vertical requires a vertical component; available: {codes}", source=motion.record.source, codes=motion.record.codes
@@ -158,7 +158,7 @@ def require_vertical(motion: Motion, vertical: bool) -> None:
 
 
 def with_azimuths(source: Source, azimuth: tuple[str, ...]) -> Source:
-    """Return the record options with azimuths taken for components."""
+    """Return the record options with azimuths added to the components."""
     if not azimuth:
         return source
     names = tuple(part.strip() for text in azimuth for part in text.split(","))

@@ -1,4 +1,4 @@
-"""How ``seisblock batch`` goes about it: what is finished is kept in a journal, and the table is written from that."""
+"""Batch run: checkpoint journal of finished records, then the table."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ CSV, PARQUET = ".csv", ".parquet"
 
 @dataclass(frozen=True)
 class BatchRequest:
-    """What a batch is of, as the command line says it."""
+    """Options of a batch."""
 
     bodies: tuple[str, ...]
     solver: str
@@ -62,7 +62,7 @@ def run_batch(
     cluster: str | None,
     as_json: bool,
 ) -> None:
-    """Run a batch, write its table, and say what it comes to."""
+    """Run a batch, write its table and print a summary."""
     _check_target(out, resume=resume, force=force)
     plan, notes = _make_plan(source, request)
     names = source.record or (_default_record(),)
@@ -102,7 +102,7 @@ def run_batch(
 
 
 def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
-    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies, solver and options.
+    """Yield the rows of a complete table, record by record, if it matches records, bodies, solver and options.
 
     What was done to the records a table does not say: the record under which most happened is followed anew.
     """
@@ -120,19 +120,18 @@ def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Se
 
 
 def _row_information(row: Row, plan: Plan) -> int:
-    """Return how much a row tells: nothing without an answer, more where what is asked about happened."""
+    """Return a score of the information in a row: 0 without result, 2 where the limit state occurred."""
     return 0 if row.get(REASON) else 1 + bool(row[plan.model.happens])
 
 
 def _cell_texts(rows: Iterable[Sequence[Any]]) -> list[list[str]]:
-    """Return rows as their cells are written."""
     return [["" if cell is None else str(cell) for cell in row] for row in rows]
 
 
 def _solve(
     files: Sequence[str], plan: Plan, journal: Checkpoint, keys: Sequence[Key], *, workers: int | None, client: Client | None
 ) -> dict[str, str]:
-    """Follow the bodies through the records that are missing, and write each record's rows down as soon as they are there.
+    """Solve the missing records and append each record's rows to the journal.
 
     The journal keeps reasons in English; what is returned can be told in any language.
     """
@@ -156,7 +155,7 @@ def _solve(
 
 
 def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, ...]]:
-    """Return what is done with each record, and say what is to be known of it."""
+    """Return the plan of a batch and its notes, which are also printed."""
     check_single_window(source)
     components = tuple(name for name in source.component if name.lower() != "all")
     plan, notes = make_plan(
@@ -176,18 +175,17 @@ def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, 
 
 
 def _columns(plan: Plan) -> dict[str, type]:
-    """Return the columns of the table."""
     return batch_columns(plan.model, runs=plan.runs, all_azimuths=is_all_azimuths(plan.components))
 
 
 def _default_record() -> str:
-    """Return the bundled record that stands for none, and say so."""
+    """Return the default record and print its name."""
     info("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
     return DEFAULT_SAMPLE
 
 
 def _check_target(out: Path, *, resume: bool, force: bool) -> None:
-    """Refuse, before anything is read, a table that may not be written there."""
+    """Raise an error, before any record is read, for a table that must not be written."""
     if resume and force:
         raise ParameterError("--resume and --force exclude each other: give only one of them")
     if out.suffix.lower() not in (CSV, PARQUET):
@@ -205,14 +203,14 @@ def _check_target(out: Path, *, resume: bool, force: bool) -> None:
 
 
 def _check_files(out: Path) -> None:
-    """Refuse a table, or a journal beside it, that may not be written there."""
+    """Raise an error for a table or journal that cannot be written."""
     check_target(out)
     check_target(checkpoint_path(out))
 
 
 @contextmanager
 def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkpoint]:
-    """Give the journal of a batch, which no other run writes meanwhile: the one that was interrupted, or a new one."""
+    """Open the journal of a batch under a file lock: a resumed or a new one."""
     identity = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
     reading = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
     purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + reading).encode(errors="surrogatepass")).hexdigest()}
@@ -225,5 +223,4 @@ def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkp
 
 
 def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows as CSV."""
     write_table(path, list(columns), rows)

@@ -1,4 +1,4 @@
-"""How ``seisblock fragility`` goes about it: records, bodies, the study, and where its answer goes."""
+"""Fragility run: records, bodies, study and outputs."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def run_study(
     compare: str | None,
     params: Mapping[str, Any],
 ) -> None:
-    """Run the study, and say what it comes to."""
+    """Run the study and write its results."""
     check_single_window(source)
     _check_options(source, params, bodies=bodies)
     _check_exports(output, params)
@@ -101,7 +101,7 @@ def run_study(
 
 
 def _check_options(source: Source, params: Mapping[str, Any], *, bodies: tuple[str, ...]) -> None:
-    """Refuse what says nothing of these records and bodies, or of files that are not written."""
+    """Raise an error for options without effect on these records, bodies or outputs."""
     if not source.record:
         reject_with(lazy_gettext("synthetic records"), ["format", "units", "dt", "station", "level", "strict"])
     if params["suite_out"] is None:
@@ -113,7 +113,7 @@ def _check_options(source: Source, params: Mapping[str, Any], *, bodies: tuple[s
 
 
 def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record], tuple[str, ...], str | None]:
-    """Return the records, a sentence for each file that could not be read, and the synthetic suite that they are, if they are one."""
+    """Return the records, a message per unreadable file, and the name of the synthetic suite or None."""
     if source.record:
         for name, value in (("--suite", params["suite"]), ("--suite-out", params["suite_out"])):
             if value is not None:
@@ -136,7 +136,7 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
 
 
 def _check_exports(output: Output, params: Mapping[str, Any]) -> None:
-    """Refuse, before anything is read, files for other programs that cannot be written."""
+    """Raise an error, before any record is read, for export files that cannot be written."""
     rows, model = params["pelicun"], params["nrml"]
     for path, suffix in ((rows, ".csv"), (model, ".xml")):
         if path is not None and path.suffix.lower() != suffix:
@@ -147,7 +147,6 @@ def _check_exports(output: Output, params: Mapping[str, Any]) -> None:
 
 
 def _write_exports(study: FragilityStudy, params: Mapping[str, Any]) -> None:
-    """Write the files for other programs."""
     if params["pelicun"] is not None:
         rows: Path = params["pelicun"]
         write_table(rows, *pelicun_rows(study))
@@ -163,7 +162,7 @@ def _write_exports(study: FragilityStudy, params: Mapping[str, Any]) -> None:
 
 
 def _parse_curve(text: str, size: float) -> Lognormal:
-    """Return the curve that a median, in the unit shown, and a beta describe."""
+    """Return the curve of a median, in the displayed unit, and a beta."""
     try:
         median, beta = (float(part) for part in text.split(","))
     except ValueError:

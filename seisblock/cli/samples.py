@@ -1,4 +1,4 @@
-"""``seisblock samples``: the bundled files, listed and copied."""
+"""``seisblock samples``: list or copy of the bundled files."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:
-    """Return the directory and the names: a sample's name in place of a directory means here, unless a directory is called so."""
+    """Return folder and names; a sample's name means the current folder, unless a folder has that name."""
     from seisblock.samples import find_sample
 
     if not names and not Path(target).is_dir() and find_sample(target) is not None:

@@ -1,4 +1,4 @@
-"""``seisblock schema``: the keys of a command's ``--json`` document, as JSON Schema."""
+"""``seisblock schema``: JSON Schema of a command's ``--json`` document."""
 
 from __future__ import annotations
 

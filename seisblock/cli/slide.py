@@ -1,4 +1,4 @@
-"""``seisblock slide``: how far an object slides on a level or sloping base."""
+"""``seisblock slide``: sliding displacement on a level or sloping base."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ AZIMUTH_STEP = 5
 
 
 def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Say what --mu is when it is missing."""
+    """Raise an error with an explanation of ``--mu`` where it is missing."""
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
             gettext(
@@ -121,7 +121,7 @@ def slide(
 def _run_single(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
 ) -> None:
-    """Solve one set of parameters for each direction, or for the worst one."""
+    """Solve one set of parameters for each direction or for the worst azimuth."""
     from seisblock.bodies.sliding_base import sliding_base
     from seisblock.cli.hints import slide_hint
     from seisblock.models.slide.solve import solve_slide
@@ -158,7 +158,7 @@ def _run_single(
 def _run_study(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
 ) -> None:
-    """Compute every combination of parameters."""
+    """Solve all combinations of parameters."""
     from seisblock.report.io.atomic import write_table
     from seisblock.report.json.slide import study_document
     from seisblock.report.text import slide_study as shown
@@ -192,7 +192,7 @@ def _run_study(
 
 
 def _motions(record: Record, source: Source, directions: list[str] | None) -> Iterator[Motion]:
-    """Yield the motions along the directions, or along the components asked for."""
+    """Yield the motions of the azimuths or of the selected components."""
     from seisblock.records import motion_of
 
     if directions is None:
@@ -203,19 +203,18 @@ def _motions(record: Record, source: Source, directions: list[str] | None) -> It
 
 
 def _sweep_azimuths(*, full_circle: bool) -> list[str]:
-    """Return the azimuths of a sweep: half the circle, all of it where the two senses of a direction differ."""
+    """Return the azimuths of a sweep: half a circle, or the full circle for direction-dependent sliding."""
     return [str(azimuth) for azimuth in range(0, 360 if full_circle else 180, AZIMUTH_STEP)]
 
 
 def _without_azimuths(source: Source) -> Source:
-    """Return the record options with every horizontal component instead of the sweep."""
+    """Return the record options with all horizontal components instead of the sweep."""
     from dataclasses import replace
 
     return replace(source, component=())
 
 
 def _draw(*data: Any, **fixed: Any) -> Any:
-    """Return the figure of a study; matplotlib is loaded only for it."""
     from seisblock.report.figures.slide_study import figure
 
     return figure(*data, **fixed)

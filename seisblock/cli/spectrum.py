@@ -1,4 +1,4 @@
-"""``seisblock spectrum``: one record, and blocks of all sizes, slendernesses and frictions."""
+"""``seisblock spectrum``: response of blocks of all sizes, slendernesses and frictions to one record."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 
 KINDS = ("rocking", "overturning", "sliding", "modes")
 AZIMUTH_KINDS = KINDS[:2]
-"""Kinds that look in every direction when they are asked to."""
+"""Kinds that accept ``--component all-azimuths``."""
 
 MIN_SPAN, MAX_SPAN = 0.2, 1.5
-"""Friction and b/h to which a map reaches that is not told how far, at least and at most."""
+"""Smallest and largest default range of friction and b/h."""
 
 
 @click.command(
@@ -182,7 +182,7 @@ def spectrum(
 
 
 def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -> Iterator[tuple[Motion, RockingSpectrum]]:
-    """Yield the spectrum of each motion asked for; that of all directions, with the motion of the largest PGA, where they are."""
+    """Yield the spectrum of each selected motion; in a sweep, with the motion of the largest PGA."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.records import motion_of
@@ -205,14 +205,14 @@ def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -
 
 
 def _reject_options(kind: str, values: dict[str, Any]) -> None:
-    """Refuse options that mean nothing to a kind of spectrum."""
+    """Raise an error for options without effect on a kind of spectrum."""
     for name, value in values.items():
         if value:
             raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
 def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
-    """Answer ``--kind sliding``."""
+    """Run ``--kind sliding``."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
@@ -244,7 +244,7 @@ def _run_modes(
     inset: EdgeWear,
     vertical: bool | None,
 ) -> None:
-    """Answer ``--kind modes``; `grid` holds frictions, diagonals and slendernesses, None where not given, and the steps of an axis."""
+    """Run ``--kind modes``; `grid` holds frictions, diagonals and slendernesses (None: default) and steps."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
@@ -273,7 +273,7 @@ def _run_modes(
 def _grid_axes(
     all_motions: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float, *, vertical: bool | None
 ) -> tuple[Any, Any, Any]:
-    """Return frictions, diagonals and slendernesses; those not given reach to what the motions can move, no two of them equal."""
+    """Return frictions, diagonals and slendernesses; defaults cover the range that the motions can mobilise."""
     from seisblock.criteria.initiation import peak_loading_ratio
 
     mu, diagonals, alphas, steps = grid
@@ -289,34 +289,31 @@ def _grid_axes(
 
 
 def _wear_note(inset: EdgeWear | None) -> str:
-    """Return a remark on worn edges, empty where there are none."""
+    """Return a note on worn edges, empty for sharp edges."""
     if not inset or inset == SHARP_EDGES:
         return ""
     return lazy_gettext("; edges worn by {share:g} B + {length:g} m per side", share=inset.share, length=inset.length_m)
 
 
 def _check_exclusive(first: Any, name: str, second: Any, second_name: str) -> None:
-    """Refuse two ways of saying the same."""
+    """Raise an error for two mutually exclusive options."""
     if first and second:
         raise ParameterError("{name} and {other} exclude each other: give only one of them", name=name, other=second_name)
 
 
 def _draw(*data: Any) -> Any:
-    """Return the figure of rocking spectra; matplotlib is loaded only for it."""
     from seisblock.report.figures.spectrum import figure
 
     return figure(*data)
 
 
 def _draw_modes(maps: Any) -> Any:
-    """Return the figure of maps of modes; matplotlib is loaded only for it."""
     from seisblock.report.figures.mode_map import figure
 
     return figure(maps)
 
 
 def _draw_sliding(curves: Any) -> Any:
-    """Return the figure of sliding spectra; matplotlib is loaded only for it."""
     from seisblock.report.figures.sliding_spectrum import figure
 
     return figure(curves)

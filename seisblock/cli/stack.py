@@ -1,4 +1,4 @@
-"""``seisblock stack``: how a pile of stones stands, slides and falls."""
+"""``seisblock stack``: response of a pile of stones in three dimensions."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ DEFAULT_PILE = "wagata"
 
 RIGID, SPRINGS = "rigid", "springs"
 EDGES, GRID = 2, 5
-"""Points along each side of a joint: on its edges, and as in Furukawa2009."""
+"""Contact points along each side of a joint: on the edges, and as in Furukawa2009."""
 
 VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
-"""What versions of a pile differ in."""
+"""Parameters that vary between the samples of a pile."""
 
 MAX_GRID = 29
-"""Of the heights of the study one is left."""
+"""Coarsest grid of the criterion study: one height is left."""
 
 
 @click.command(
@@ -204,7 +204,7 @@ def stack(
 
 
 def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
-    """Return the pile that the options of the body describe."""
+    """Return the pile described by the options."""
     from dataclasses import replace
 
     from seisblock.bodies.pile.toml import load_pile
@@ -221,7 +221,7 @@ def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[s
 
 
 def _run_records(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
-    """Follow the pile through the records."""
+    """Solve the pile under each record."""
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
     from seisblock.models.stack.solve import solve_stack
@@ -270,7 +270,6 @@ def _run_study(
     gravity: float,
     reinforced: bool,
 ) -> None:
-    """Run the criterion study."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.stack import study_document
     from seisblock.report.text import stack_criterion as shown
@@ -311,7 +310,6 @@ def _run_study(
 
 
 def _draw(*data: Any, **choice: Any) -> Any:
-    """Return the figure of the study; matplotlib is loaded only for it."""
     from seisblock.report.figures.stack_criterion import figure
 
     return figure(*data, **choice)

@@ -1,4 +1,4 @@
-"""What an option's text may be: lengths with units, ranges, windows."""
+"""Click parameter types: lengths with units, lists, ranges, time windows."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_m
 from seisblock.records.floor_motion import Storey, parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
-"""Of a figure, m."""
+"""Smallest and largest side of a figure, m."""
 
 
 class Count(click.ParamType):  # type: ignore[type-arg]
-    """How many of something: a whole number within a limit of :mod:`seisblock.core.limits`.
+    """Integer parameter with an upper limit from :mod:`seisblock.core.limits`.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Count(click.ParamType):  # type: ignore[type-arg]
 
 
 class ContactType(click.ParamType):  # type: ignore[type-arg]
-    """Where stones touch: on their edges, or at n x n points, as the number of points along each side."""
+    """Contact points of a joint: ``edges``, or ``grid=N`` for N x N points."""
 
     name = "contact"
 
@@ -69,7 +69,7 @@ class Length(click.ParamType):  # type: ignore[type-arg]
     name = "length"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return metres."""
+        """Return the length, m."""
         if isinstance(value, float):
             return value  # a default, or converted already
         try:
@@ -84,7 +84,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
     name = "mass"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return kilograms."""
+        """Return the mass, kg."""
         try:
             return parse_mass(value)
         except InputError as error:
@@ -92,7 +92,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
 
 
 class InsetType(click.ParamType):  # type: ignore[type-arg]
-    """How far in from each side a block turns: a share of the width (``0.1``, ``10%``), or a length with its unit (``1cm``)."""
+    """Inset of worn edges per side: a share of the width (``0.1``, ``10%``), or a length with unit (``1cm``)."""
 
     name = "inset"
 
@@ -105,7 +105,7 @@ class InsetType(click.ParamType):  # type: ignore[type-arg]
 
 
 class ShareType(Finite):
-    """A number, or per cent: ``0.2``, ``20%``."""
+    """Number or percentage: ``0.2``, ``20%``."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
@@ -160,7 +160,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
 
 
 class SizeType(click.ParamType):  # type: ignore[type-arg]
-    """Width and height of a picture, ``18x12``: cm, or with a unit (``7inx5in``, ``180mmx120mm``)."""
+    """Width and height of a figure, ``18x12``: cm, or with units (``7inx5in``, ``180mmx120mm``)."""
 
     name = "size"
 
@@ -187,12 +187,12 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
 
 
 class WindowType(click.ParamType):  # type: ignore[type-arg]
-    """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
+    """Time window ``T0:T1``, s from the record's first sample; either end may be omitted."""
 
     name = "t0:t1"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float | None, float | None]:
-        """Return both ends, None where left out."""
+        """Return both ends, s; None where omitted."""
         if isinstance(value, tuple):
             return value
         try:
@@ -207,7 +207,7 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
 
 
 class StoreyType(click.ParamType):  # type: ignore[type-arg]
-    """A storey ``T=0.6,zeta=0.05,height=0.8``: period in s, damping and height as shares; all but the period may be left out."""
+    """Storey ``T=0.6,zeta=0.05,height=0.8``: period, s, damping ratio and height ratio; only T is required."""
 
     name = "storey"
 
@@ -220,7 +220,7 @@ class StoreyType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _share(text: str) -> float:
-    """Return a share, 0.2 or 20%."""
+    """Return a share given as 0.2 or 20%."""
     return float(MU.convert(text, None, None)) if to_halfwidth(text).strip().endswith("%") else float(text)
 
 

@@ -1,4 +1,4 @@
-"""``seisblock uplift``: does a block on corner springs lift off, under a record or under harmonic shaking."""
+"""``seisblock uplift``: uplift of a block on corner springs under a record or harmonic motion."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ SHAKING = ("alpha", "gamma", "phi", "rho")
 RATIOS = (*SHAKING, "beta", "damping")
 DIMENSIONS = ("width", "depth", "height", "stiffness")
 SIZES = (*DIMENSIONS, "mass", "frequency_vertical")
-"""Names of the options that go together."""
+"""Groups of option names."""
 
 
 def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[tuple[float, ...], bool] | None:
-    """Return the frequency ratios, and whether they were given as a range."""
+    """Return the frequency ratios and whether they were given as a range."""
     return None if value is None else (FLOATS.convert(value, param, ctx), ":" in value)
 
 
@@ -107,7 +107,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
 
 
 def _run_harmonic(source: Source, output: Output, figure: int | None, params: dict[str, Any]) -> None:
-    """Answer for harmonic shaking."""
+    """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.uplift import harmonic_document
     from seisblock.report.text import uplift_harmonic as shown
@@ -141,14 +141,13 @@ def _run_harmonic(source: Source, output: Output, figure: int | None, params: di
 
 
 def _draw(regions: Any, figure: int | None) -> Any:
-    """Return the figure of harmonic regions; matplotlib is loaded only for it."""
     from seisblock.report.figures.uplift_harmonic import harmonic_figure
 
     return harmonic_figure(regions, figure)
 
 
 def _single_value(name: str, value: Any) -> Any:
-    """Return the one number of an option that takes a list only with --harmonic."""
+    """Return the single number of an option that accepts lists only with ``--harmonic``."""
     if name not in RATIOS or value is None:
         return value
     if len(value) != 1:
@@ -159,5 +158,4 @@ def _single_value(name: str, value: Any) -> Any:
 
 
 def _option_flag(name: str) -> str:
-    """Return how an option is written."""
     return "--" + name.replace("_", "-")

@@ -1,4 +1,4 @@
-"""``seisblock validate``: what the papers print, and what this machine computes."""
+"""``seisblock validate``: numbers printed in the papers beside the computed ones."""
 
 from __future__ import annotations
 

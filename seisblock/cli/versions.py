@@ -1,4 +1,4 @@
-"""Plausible versions behind a probability: how many, and how far they differ."""
+"""Options of the samples behind an overturning probability: number, variation, seed."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _SPREAD_OPTIONS = {
     "amplitude": (0.1, "Samples: half width of the amplitude of the motion, a share."),
     "azimuth": (10.0, "Samples: half width of the azimuth of the motion, degrees."),
 }
-"""What versions may differ in: how far, and what is said of it."""
+"""Default half width of each parameter's variation, and its help text."""
 
 
 def version_options(*names: str, runs: int) -> Callable[..., Any]:
-    """Return a decorator that adds --runs with its default, --moved, one option for all that versions differ in, and --seed.
+    """Return a decorator that adds ``--runs``, ``--moved``, a ``--vary-...`` option per name, and ``--seed``.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
 
 
 def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
-    """Return how far versions differ, taken out of what was given, by the names of their fields.
+    """Remove the variation widths from `params` and return them by field name.
 
     Raises
     ------
@@ -70,12 +70,12 @@ def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
 
 
 def ranges_replaced() -> list[str]:
-    """Return the ranges of a body's kind that a width given on the command line replaces, by the names of their fields."""
+    """Return the fields of the ranges that variation widths on the command line replace."""
     return [name for option, name in (("vary_inset", "inset_m"), ("vary_mu", "mu")) if given_flags([option])]
 
 
 def _check_options(*names: str) -> None:
-    """Refuse what is said of versions where there are none."""
+    """Raise an error for variation options without samples."""
     from seisblock.core.errors import ParameterError
 
     flags = given_flags(names)

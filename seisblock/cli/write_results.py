@@ -1,4 +1,4 @@
-"""From a document to stdout and files, as the output options ask."""
+"""Output of a document to stdout and files."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def write_results(
     figure: Callable[[], Figure] | None = None,
     animation: Callable[[Path, AnimationOptions], None] | None = None,
 ) -> None:
-    """Show an answer, or print its document, and write the files asked for.
+    """Print the results as tables or JSON and write the requested files.
 
     Parameters
     ----------
@@ -90,7 +90,6 @@ def write_results(
 
 
 def _to_stdout(write: Callable[[Path], None]) -> None:
-    """Write a table to stdout."""
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
         path = Path(directory) / "table.csv"
         write(path)
@@ -103,7 +102,7 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
 
 
 def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) -> None:
-    """Write a figure to a file, or its .png to stdout, of the size and under the title asked for."""
+    """Write the figure to a file, or as .png to stdout."""
     from seisblock.report.figures.fit_size import fit_figure_size
     from seisblock.report.figures.fonts import MISSING_GLYPHS, NO_FONT, build_localized, drawable_locale, has_missing_glyphs
     from seisblock.report.figures.style import save, save_png
@@ -124,7 +123,6 @@ def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) ->
 
 
 def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: Output) -> None:
-    """Write an animation, with a bar while its pictures are drawn."""
     from seisblock.report.animation.render import AnimationOptions
     from seisblock.report.figures.fonts import NO_FONT, drawable_locale
 

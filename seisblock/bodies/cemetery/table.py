@@ -1,4 +1,4 @@
-"""Reading a cemetery from a table: the columns that survey teams write, in English or Japanese."""
+"""CSV tables of cemeteries, with English or Japanese column names."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _COLUMN_NAMES = {
     "azimuth_deg": ("azimuthdeg", "azimuth", "方位", "方位角", "向き"),
     "count": ("count", "number", "個数", "基数", "数"),
 }
-"""Column names accepted, without case, blanks and underscores."""
+"""Accepted column names, without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _COLUMN_NAMES.items() for spelling in spellings}
 _BOOLEAN_WORDS = {
@@ -64,14 +64,14 @@ _BOOLEAN_WORDS = {
 }
 
 MAX_SIZE = 20.0
-"""A stone beyond this, m, is taken for a number whose unit was forgotten."""
+"""Largest plausible size of a stone, m; larger numbers probably lack their unit."""
 
 RATIO_TOLERANCE = 0.05
-"""Largest relative difference between a ratio written down and that of the sizes beside it."""
+"""Largest relative difference between a given ratio and that of height and width."""
 
 
 def read_cemetery(name: str | Path) -> Cemetery:
-    """Return a cemetery from a CSV file, or a bundled one by its name.
+    """Return a cemetery from a CSV file or a bundled one.
 
     The header names the columns: ``height_over_width``, or ``height`` and ``width`` (a unit in the name, ``height (cm)``,
     or in the cell, ``8sun``; metres without); and, where known, ``reinforced``, ``fallen``, ``azimuth_deg``, ``count``. Japanese
@@ -125,7 +125,7 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
 
 
 def _resolve_path(name: str | Path) -> Path:
-    """Return the file that a name means: a path, else a bundled cemetery."""
+    """Return the path of a file, or of a bundled cemetery."""
     path = Path(checks.path(name))
     if path.is_dir():
         raise BodyError("{name} is a folder: give the CSV file of a cemetery", name=name)
@@ -138,7 +138,7 @@ def _resolve_path(name: str | Path) -> Path:
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the meaning of each column, empty for those passed over, and the units that stand in their names."""
+    """Return the meaning of each column (empty if ignored) and the units in the column names."""
     columns, units = [], {}
     for cell in cells:
         name, unit = parse_heading(cell, _COLUMNS)
@@ -159,7 +159,6 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
 
 
 def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
-    """Return the stone of one row."""
     width, height = (_parse_size(row, key, units) for key in ("width", "height"))
     ratio = _parse_number(row, "height_over_width")
     if ratio is not None:
@@ -185,7 +184,7 @@ def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) ->
 
 
 def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float | None:
-    """Return a length in metres, None where the cell is empty."""
+    """Return a length, m; None for an empty cell."""
     text = row.get(key, "")
     if not text:
         return None
@@ -204,13 +203,13 @@ def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> f
 
 
 def _parse_number(row: Mapping[str, str], key: str) -> float | None:
-    """Return a number, None where the cell is empty."""
+    """Return a number; None for an empty cell."""
     text = row.get(key, "")
     return parse_number_cell(text, key) if text else None
 
 
 def _parse_count(row: Mapping[str, str]) -> int:
-    """Return how many stones a row stands for, one where the cell is empty."""
+    """Return the number of stones of a row; 1 for an empty cell."""
     value = _parse_number(row, "count")
     if value is None:
         return 1
@@ -221,7 +220,7 @@ def _parse_count(row: Mapping[str, str]) -> int:
 
 
 def _parse_bool(row: Mapping[str, str], key: str) -> bool | None:
-    """Return yes, no, or None where the cell is empty."""
+    """Return a bool; None for an empty cell."""
     text = row.get(key, "")
     true_words, false_words, expected = _BOOLEAN_WORDS[key]
     if not text:

@@ -1,4 +1,4 @@
-"""Whether a pile can stand: what is wrong with it, in one sentence that names the stone."""
+"""Consistency checks of a pile of stones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.core.i18n import N_, lazy_gettext
 
 
 class PileLike(Protocol):
-    """What the checks look at: a pile, or one about to be."""
+    """Interface of the checks: a pile, or one under construction."""
 
     @property
     def name(self) -> str: ...  # noqa: D102
@@ -35,7 +35,7 @@ class PileLike(Protocol):
 
 
 def check_pile(pile: PileLike) -> None:
-    """Refuse a pile that cannot be what is meant.
+    """Raise an error for an inconsistent or unstable pile.
 
     Raises
     ------
@@ -52,7 +52,7 @@ def check_pile(pile: PileLike) -> None:
 
 
 def _check_names(pile: PileLike) -> None:
-    """Refuse a pile whose names do not say what stands on what."""
+    """Raise an error for duplicate or unknown names."""
     if not pile.stones:
         raise BodyError("the pile {name} has no stones: give at least one", name=pile.name)
     names_below: set[str] = set()
@@ -82,7 +82,7 @@ def _check_names(pile: PileLike) -> None:
 
 
 def _check_friction(pile: PileLike) -> None:
-    """Refuse friction that is none, or more of it once a stone slides than before."""
+    """Raise an error for negative friction, or kinetic above static friction."""
     if not pile.mu >= 0.0:
         raise BodyError("the friction coefficient of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
     static, kinetic = pile.friction()
@@ -101,7 +101,7 @@ def _check_friction(pile: PileLike) -> None:
 
 
 def _check_overlaps(pile: PileLike) -> None:
-    """Refuse stones in each other or in the ground."""
+    """Raise an error for stones that overlap each other or the ground."""
     centres = pile.centres()
     for i, (centre, stone) in enumerate(zip(centres, pile.stones, strict=True)):
         if centre[2] - 0.5 * stone.height < -CONTACT_TOLERANCE:
@@ -123,14 +123,14 @@ def _check_overlaps(pile: PileLike) -> None:
 
 
 def _check_floating(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a stone under which there is nothing."""
+    """Raise an error for a stone without support."""
     for i, stone in enumerate(pile.stones):
         if stone.name not in pile.fixed and not any(joint.upper == i for joint in joints):
             raise BodyError("the stone {name} has no support: neither a stone nor the ground touches its base", name=stone.name)
 
 
 def _check_dowels(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a dowel between stones that do not touch."""
+    """Raise an error for a dowel between stones that do not touch."""
     touching = {frozenset((joint.upper, joint.lower)) for joint in joints}
     dowelled_names: set[str] = set()
     for group in pile.dowels:
@@ -146,7 +146,7 @@ def _check_dowels(pile: PileLike, joints: list[Joint]) -> None:
 
 
 def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a pile of which some part would tip over at rest."""
+    """Raise an error for a pile that is unstable at rest."""
     centres = pile.centres()
     group_of_stone = {i: group for group in pile.bodies() for i in group}
     for body in dict.fromkeys(group_of_stone.values()):
@@ -170,7 +170,7 @@ def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
 
 
 def _supported_stones(body: tuple[int, ...], group_of_stone: dict[int, tuple[int, ...]], joints: list[Joint]) -> set[int]:
-    """Return the stones of a body and all that stand on it alone."""
+    """Return the stones of a body and all stones supported by it alone."""
     supported_stones = set(body)
     changed = True
     while changed:

@@ -1,4 +1,4 @@
-"""How the stones of a pile press on each other."""
+"""Contact law of a pile: springs, dashpots and sliders."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class PileContact:
             raise ParameterError("Young's modulus and the stiffness per area exclude each other: give only one of them")
 
     def point_coefficients(self, mass: float, area: float, length: float, points: int) -> tuple[float, float, float, float]:
-        """Return normal spring and dashpot, shear spring and dashpot of one point of a joint, N/m and N s/m.
+        """Return normal spring and dashpot, shear spring and dashpot of one contact point, N/m and N s/m.
 
         Parameters
         ----------

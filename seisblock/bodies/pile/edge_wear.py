@@ -1,4 +1,4 @@
-"""Samples of a pile with worn edges."""
+"""Edge wear of the samples of a pile."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.errors import BodyError
 
 CLOSE = 1e-3
-"""Tolerances this near are one."""
+"""Tolerance of the bisection for the half width."""
 
 
 def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
-    """Return a sample of a pile whose insets differ from their own by one share of themselves; sharp stones stay sharp.
+    """Return a sample of a pile whose insets differ by one common share; sharp stones stay sharp.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
 
 
 def _worn(stone: PileStone, tolerance: float, draw: float) -> PileStone:
-    """Return one stone of a sample; an inset that is a length stays one."""
+    """Return the sample of one stone; an inset given as a length stays a length."""
     own = worn_share(stone)
     if own == 0.0:
         return stone
@@ -47,7 +47,7 @@ def _worn(stone: PileStone, tolerance: float, draw: float) -> PileStone:
 
 
 def worn_share(stone: PileStone) -> float:
-    """Return how far in from the sides of its base a stone turns, a share of the side of which that is more."""
+    """Return the inset of a stone, the larger share of its two sides."""
     along, across = stone.insets()
     return max(along / stone.width, across / stone.depth)
 
@@ -74,7 +74,7 @@ def widest_wear(body: Pile, tolerance: float) -> float:
 
 
 def _stands(body: Pile, tolerance: float) -> bool:
-    """Return whether the most worn sample of a pile stands at rest."""
+    """Return whether the most worn sample of a pile is stable at rest."""
     try:
         worn_to(body, tolerance, 1.0)
     except BodyError:

@@ -1,4 +1,4 @@
-"""One stone of a pile, rectangular or round, and the joint between two."""
+"""Stone of a pile (cuboid or cylinder) and joint between two stones."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import warn_large_lengths
 
 GROUND = "ground"
-"""What the lowest stones stand on."""
+"""Name of the support of the lowest stones."""
 GRANITE_DENSITY = 2650.0
-"""Density of granite, kg/m^3; the motion of a pile of one stone does not depend on it."""
+"""Density of granite, kg/m^3; without effect on the motion of a single stone."""
 CONTACT_TOLERANCE = 1e-6
-"""Faces this close, m, touch."""
+"""Largest gap between touching surfaces, m."""
 RECTANGULAR, ROUND = "rectangular", "round"
 """Shapes in plan."""
 
 
 @dataclass(frozen=True)
 class PileStone:
-    """One stone of a pile: a cuboid, or an upright cylinder.
+    """One stone of a pile: a cuboid or an upright cylinder.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ class PileStone:
 
     @property
     def is_round(self) -> bool:
-        """Whether it is a cylinder."""
+        """Whether the stone is a cylinder."""
         return self.shape == ROUND
 
     @property
@@ -129,18 +129,18 @@ class PileStone:
 
     @property
     def gyration_squared(self) -> FloatArray:
-        """Squared radii of gyration about x, y and z through its centre, (3,), m^2, homogeneous as it is."""
+        """Squared radii of gyration about x, y and z through the centre, (3,), m^2 (homogeneous)."""
         w, d, h = (side * side for side in self.size)
         return np.array([d / 16 + h / 12, w / 16 + h / 12, w / 8]) if self.is_round else np.array([d + h, w + h, w + d]) / 12.0
 
     def insets(self) -> tuple[float, float]:
-        """Return how far in from the sides of its base it turns, along x and along y, m."""
+        """Return the insets of the worn edges along x and along y, m."""
         return self.inset.inset(self.width), self.inset.inset(self.depth)
 
 
 @dataclass(frozen=True)
 class Joint:
-    """Two stones, face on face.
+    """Contact area of two stones, or of a stone and the ground.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ class Joint:
 def bearing_rectangle(
     joint: Joint, stones: Sequence[PileStone], centres: Sequence[tuple[float, float, float]]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the part of a joint that carries, its ends along x and along y, m: its smaller face turns about worn edges.
+    """Return the load-bearing rectangle of a joint within worn edges: its ends along x and along y, m.
 
     Examples
     --------
@@ -187,7 +187,7 @@ def bearing_rectangle(
 def overlaps_in_plan(
     centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other_stone: PileStone
 ) -> bool:
-    """Return whether two stones share more than a touch in plan, m.
+    """Return whether two stones overlap in plan by more than the contact tolerance.
 
     Examples
     --------
@@ -206,10 +206,10 @@ def overlaps_in_plan(
 
 
 def span(centre: float, size: float) -> tuple[float, float]:
-    """Return the ends of a side."""
+    """Return the ends of a side, m."""
     return centre - 0.5 * size, centre + 0.5 * size
 
 
 def interval_overlap(a: float, size_a: float, b: float, size_b: float) -> tuple[float, float]:
-    """Return the part that two sides share; its ends are in the wrong order where there is none."""
+    """Return the common interval of two sides; its ends are reversed where there is none."""
     return max(a - 0.5 * size_a, b - 0.5 * size_b), min(a + 0.5 * size_a, b + 0.5 * size_b)

@@ -1,4 +1,4 @@
-"""Piles as TOML files, the bundled ones among them."""
+"""TOML files of piles, bundled ones included."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "m
 
 
 def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
-    """Return a pile of stones from a TOML file, or a bundled one by its name (``wagata``, ``lantern``, ``column``).
+    """Return a pile from a TOML file or a bundled one (``wagata``, ``lantern``, ``column``).
 
     Parameters
     ----------
@@ -90,7 +90,6 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
 
 
 def _parse_stone(entry: Mapping[str, Any], default_support: str, table: Mapping[str, Any]) -> PileStone:
-    """Return one stone of a file."""
     check_keys(entry, _STONE_KEYS)
     if not isinstance(entry.get("name"), str):
         raise BodyError("{source}: name is missing", source=entry["source"])
@@ -117,7 +116,7 @@ def _parse_stone(entry: Mapping[str, Any], default_support: str, table: Mapping[
 
 @contextmanager
 def _prefix_errors(source: str) -> Iterator[None]:
-    """Have what is wrong with a pile, or with a stone of it, said with the file in front."""
+    """Prefix the errors of a pile with the name of its file."""
     try:
         yield
     except BodyError as error:

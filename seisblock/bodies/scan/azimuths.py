@@ -1,4 +1,4 @@
-"""A scanned body in all directions: the arm, the slenderness and the frequency parameter with which it turns towards each azimuth."""
+"""Arm, slenderness and frequency parameter of a scanned body for each azimuth."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from seisblock.core.limits import check_limit
 from seisblock.core.units import STANDARD_GRAVITY
 
 DEFAULT_STEP_DEG = 10.0
-"""Between azimuths, unless told otherwise."""
+"""Default azimuth step, degrees."""
 
 
 @dataclass(frozen=True)
 class ScanAzimuth:
-    """How a body turns towards an azimuth.
+    """Rocking parameters of a body towards an azimuth.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class ScanAzimuth:
 
 
 def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, gravity: float = STANDARD_GRAVITY) -> list[ScanAzimuth]:
-    """Return how a body turns towards azimuths all around, p = sqrt(m g R/I_O) ([Furukawa2009]_ eq. (3)) and g b/h (eq. (2)) among it.
+    """Return the rocking parameters for azimuths all around ([Furukawa2009]_ eqs. (2), (3)).
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, grav
 
 
 def _at_azimuth(body: ScannedBody, azimuth: float, gravity: float) -> ScanAzimuth:
-    """Return how a body turns towards one azimuth."""
+    """Return the rocking parameters for one azimuth."""
     block = body.block_toward(azimuth)
     return ScanAzimuth(
         azimuth,

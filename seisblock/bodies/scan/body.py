@@ -1,4 +1,4 @@
-"""A scanned body: not the same to all sides, so that in each direction it is another block."""
+"""Scanned body: mass properties and support polygon, with a block for each azimuth."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from seisblock.core.typing import FloatArray
 from seisblock.records import Motion
 
 EAST = 90.0
-"""Azimuth of +x where nothing is said: x to the east and y to the north, as on a map."""
+"""Default azimuth of +x, degrees: x east, y north."""
 
 Triple = tuple[float, float, float]
 Pair = tuple[float, float]
@@ -26,7 +26,7 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class ScannedBody:
-    """A rigid body of any shape that stands on level ground on some of its points.
+    """Rigid body of any shape on level ground, with a convex support polygon.
 
     Parameters
     ----------
@@ -108,12 +108,12 @@ class ScannedBody:
 
     @cached_property
     def corners(self) -> FloatArray:
-        """The sharp base, (n, 2), m."""
+        """Support polygon with sharp edges, (n, 2), m."""
         return np.array(self.base, dtype=np.float64)
 
     @cached_property
     def inset_m(self) -> float:
-        """How far in from each side of its base it turns, m."""
+        """Inset of the worn edges from each side of the base, m."""
         if self.inset == SHARP_EDGES:
             return 0.0
         width = min_width(self.corners)
@@ -122,15 +122,15 @@ class ScannedBody:
 
     @cached_property
     def support_polygon(self) -> FloatArray:
-        """The base within its worn edges, (n, 2), m."""
+        """Support polygon within the worn edges, (n, 2), m."""
         return offset_polygon(self.corners, self.inset_m)
 
     def with_wear(self, inset: EdgeWear | float) -> ScannedBody:
-        """Return the body with other worn edges: a share of its base's least width per side, or an :class:`EdgeWear`."""
+        """Return the body with other edge wear: a share of the smallest base width per side, or an ``EdgeWear``."""
         return replace(self, inset=inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
 
     def block_toward(self, azimuth: float) -> Block:
-        """Return the block as which it rocks, slides and flies in a vertical plane whose +x has an azimuth.
+        """Return the equivalent block in the vertical plane whose +x has an azimuth.
 
         The plane is that of the motion: it turns about the level line across it that touches its base, and its inertia is that about the
         line's direction; turning aside, about the corner where line and base meet, is left out (ours). Its two sides differ.
@@ -164,7 +164,7 @@ class ScannedBody:
         )
 
     def block_for_motion(self, motion: Motion) -> Block:
-        """Return the block as which it follows a motion, towards its azimuth.
+        """Return the equivalent block for a motion, from the azimuth of its +x.
 
         Raises
         ------
@@ -182,7 +182,7 @@ class ScannedBody:
 
 
 def min_slenderness(body: ScannedBody) -> tuple[float, float]:
-    """Return the least alpha of a body, rad, and towards which azimuth, degrees: that of the nearest side of its base (derived here).
+    """Return the smallest alpha, rad, and its azimuth, degrees: the nearest side of the base (derived here).
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a closed surface encloses: its volume, centre and inertia; and whether it encloses anything."""
+"""Mass properties of a closed triangle mesh: volume, centre and inertia, with closure checks."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from seisblock.core.errors import BodyError
 from seisblock.core.typing import FloatArray, IntArray
 
 CHUNK_SIZE = 2**17
-"""Triangles that are worked on at a time."""
+"""Triangles per chunk."""
 
 
 MIN_VOLUME_SHARE = 1e-9
-"""Share of the cube of its largest extent below which a surface encloses nothing."""
+"""Smallest volume, a share of the cube of the largest extent."""
 
 
 @dataclass(frozen=True, eq=False)
 class MassProperties:
-    """The inside of a surface, filled evenly.
+    """Mass properties of the homogeneous solid inside a surface.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class MassProperties:
 
 
 def mass_properties(mesh: Mesh) -> MassProperties:
-    """Return what a mesh encloses.
+    """Return volume, centre and inertia of a mesh.
 
     Each triangle (a, b, c) and the middle o of the vertices span a tetrahedron of 6 V = (a - o) . (b - o) x (c - o), positive where o lies
     inside; over it the integral of x x' is V/20 (s s' + the sum of the corners' own), s their sum (derived here).
@@ -94,7 +94,7 @@ def _edges(mesh: Mesh) -> IntArray:
 
 
 def _check_closed(source: str, edges: IntArray) -> None:
-    """Refuse a surface that is not closed: each edge has one triangle at its left and one at its right."""
+    """Raise an error for an open surface: each edge needs one triangle on either side."""
     count = int(edges.max()) + 1
     low, high = edges.min(axis=1), edges.max(axis=1)
     order = np.argsort(low * count + high, kind="stable")
@@ -127,7 +127,7 @@ def _check_closed(source: str, edges: IntArray) -> None:
 
 
 def _count_pieces(edges: IntArray, vertices: int) -> int:
-    """Return how many surfaces there are that do not touch each other."""
+    """Return the number of connected components of the surface."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 

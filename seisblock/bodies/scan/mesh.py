@@ -1,4 +1,4 @@
-"""A surface of triangles from a scanner's file: read within a budget, its vertices shared, closed, and turned outside out."""
+"""Triangle meshes from STL, PLY and OBJ files, with merged vertices."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.core.units import LENGTH_UNITS
 from seisblock.samples import find_sample
 
 SUFFIXES = (".stl", ".ply", ".obj")
-"""Formats of meshes that are read."""
+"""Mesh formats."""
 
 AXIS_ROTATIONS = {
     "x": ((2, -1), (1, 1), (0, 1)),
@@ -31,21 +31,21 @@ AXIS_ROTATIONS = {
     "-y": ((0, 1), (2, 1), (1, -1)),
     "-z": ((0, 1), (1, -1), (2, -1)),
 }
-"""For each axis of a file that may point upwards: which of its axes, with what sign, become x, y and z.
+"""Axis and sign of the file that become x, y and z, for each upward axis.
 
 The body is turned about the file's x, which stays x; where x itself points up or down, about y.
 """
 
 HEADER_BYTES = 2**14
-"""Bytes in which a file says what it holds."""
+"""Largest size of a file header, bytes."""
 
 _HASH_MULTIPLIERS = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
-"""Odd numbers that spread the bits of three coordinates over one."""
+"""Odd multipliers of the coordinate hash."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A surface of triangles.
+    """Triangle mesh.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class Mesh:
 
 
 def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
-    """Return the mesh of an STL, PLY or OBJ file, or of a bundled one, its equal vertices shared.
+    """Return the mesh of an STL, PLY or OBJ file or of a bundled one, with equal vertices merged.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
 
 
 def _read_mesh_file(name: str | Path) -> bytes:
-    """Return what a file of a mesh holds, if it is one by its name and not too large."""
+    """Return the bytes of a mesh file after checks of name and size."""
     path = Path(checks.path(name))
     bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
     path = path if bundled is None else bundled
@@ -119,7 +119,7 @@ def _read_mesh_file(name: str | Path) -> bytes:
 
 
 def _declared_triangles(data: bytes, suffix: str) -> int:
-    """Return how many triangles a file says that it holds, or has room for, before any of them is made."""
+    """Return the number of triangles that a file declares or has room for, before parsing."""
     if suffix == ".obj":
         return data.count(b"\nf ") + data.startswith(b"f ")
     if suffix == ".ply":
@@ -129,7 +129,7 @@ def _declared_triangles(data: bytes, suffix: str) -> int:
 
 
 def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, IntArray]:
-    """Return vertices and faces as a file has them; no other file is opened that it may name."""
+    """Return vertices and faces of a file; files that it references are not opened."""
     try:
         import trimesh
     except ImportError as error:
@@ -150,7 +150,7 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
 
 
 def _merge_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
-    """Return a mesh in which equal vertices are one, without triangles that have two corners in one, and vertices that have none."""
+    """Return a mesh with equal vertices merged, without degenerate triangles and unused vertices."""
     vertex_ids, faces = np.unique(faces, return_inverse=True)
     points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # of the two zeros one
     bits = points.view(np.uint64)

@@ -1,4 +1,4 @@
-"""What a careful reader of a scan notices before he believes it."""
+"""Quality checks of a scan."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import Message, lazy_gettext
 
 MIN_EXTENT, MAX_EXTENT = 0.02, 20.0
-"""Extents, m, beyond which no object is shaken that anybody asks about: the unit was another."""
+"""Range of plausible extents, m; outside it the unit is probably wrong."""
 
 MAX_UNREPORTED_TILT = math.radians(0.5)
-"""A turn beyond which a scan was not level."""
+"""Largest levelling rotation that is not reported, rad."""
 
 SLENDERNESS_TOLERANCE = 0.1
-"""Change of the least alpha, as a share, by half or twice the tolerance, from which on the base is a matter of taste."""
+"""Relative change of the smallest alpha, by half or twice the tolerance, that is reported."""
 
 
 def scan_qc_messages(scan: Scan) -> Iterator[Message]:
-    """Yield what is doubtful about a scan, in sentences.
+    """Yield the quality warnings of a scan.
 
     Examples
     --------
@@ -69,5 +69,5 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
 
 
 def _format_degrees(alpha: float) -> str:
-    """Return an angle, or that there is none."""
+    """Return an angle as text, or "none"."""
     return lazy_gettext("none (overturns)") if math.isnan(alpha) else f"{math.degrees(alpha):.3g}"

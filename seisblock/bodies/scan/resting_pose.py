@@ -1,4 +1,4 @@
-"""How a scanned body rests: the plane that carries it, and the polygon of the points that touch it."""
+"""Resting pose of a scanned body: support plane and support polygon."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from seisblock.core.errors import BodyError
 from seisblock.core.typing import FloatArray
 
 MAX_TILT = math.radians(10.0)
-"""A scan that would have to be turned further than this, so that it rests, does not stand as it was given."""
+"""Largest levelling rotation of a scan, rad."""
 
 MAX_ITERATIONS = 60
-"""Planes that are tried at most; each meets the points better than the one before."""
+"""Largest number of trial planes; each improves on the one before."""
 
 PLANE_TOLERANCE = 1e-9
-"""Share of a body's size below which a point lies on a plane."""
+"""Largest distance of a point on a plane, a share of the body's size."""
 
 
 @dataclass(frozen=True, eq=False)
 class RestingPose:
-    """A body on level ground.
+    """Body on level ground.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class RestingPose:
 
 
 def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: float, source: str) -> RestingPose:
-    """Return how a body rests on level ground, near the position in which it was scanned.
+    """Return the resting pose of a body on level ground nearest to its scanned position.
 
     It rests on the plane below all of its points that meets the vertical through its centre of gravity highest: the side of its convex
     hull below the centre (derived here). What carries are the points within a tolerance of that plane.
@@ -92,7 +92,7 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
 
 
 def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArray:
-    """Return the slopes along x and y of the plane on which a body rests, within what it may be turned.
+    """Return the slopes along x and y of the support plane, within the largest rotation.
 
     A plane t + p x + q y below every point, highest at the centre: a linear programme with as many conditions as there are points, of
     which few matter; those that the last plane breaks are added until none is.
@@ -119,7 +119,7 @@ def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArra
 
 
 def _levelling_rotation(slopes: FloatArray) -> tuple[FloatArray, float]:
-    """Return the least turn that makes a plane of these slopes level, and its angle, rad."""
+    """Return the smallest rotation that levels a plane of these slopes, and its angle, rad."""
     normal_vector = np.array([-slopes[0], -slopes[1], 1.0])
     normal = normal_vector / np.linalg.norm(normal_vector)
     tilt = math.atan2(math.hypot(normal[0], normal[1]), normal[2])

@@ -1,4 +1,4 @@
-"""From a scanner's file to the body that stands there."""
+"""Scanned body from a mesh file."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from seisblock.core import checks
 from seisblock.core.errors import BodyError
 
 DEFAULT_TOLERANCE_SHARE = 0.002
-"""How far above the ground a point may lie that carries, a share of the body's largest extent: what scanners leave of a plane."""
+"""Default support tolerance, a share of the body's largest extent: typical roughness of a scanned plane."""
 
 
 ROUND_OFF_SHARE = 1e-12
-"""A product of inertia below this share of the trace is what sums over triangles leave of zero."""
+"""Products of inertia below this share of the trace are round-off."""
 
 
 @dataclass(frozen=True)
 class Scan:
-    """A body from a scan, and what the scan was like.
+    """Scanned body with the properties of its scan.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def scan_body(
     facing: float = EAST,
     body_name: str | None = None,
 ) -> Scan:
-    """Return the body of a scan: mass, centre and inertia of what its surface encloses, on the polygon of the points that carry it.
+    """Return the body of a scan: mass properties of the enclosed solid and support polygon.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def scan_body(
     mass = density * properties.volume
 
     def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
-        """Return the body on the points within a tolerance, by how much it was turned, and how many points they are."""
+        """Return the body for a tolerance, its levelling rotation and its number of support points."""
         pose = find_resting_pose(mesh.vertices, properties.centre, tolerance=tolerance_m, source=mesh.source)
         centre = pose.rotation @ properties.centre
         tensor = mass * pose.rotation @ properties.gyration @ pose.rotation.T
@@ -151,7 +151,7 @@ def scan_body(
         return body, pose.tilt, pose.touching
 
     def slenderness_at_tolerance(tolerance_m: float) -> float:
-        """Return the least alpha with another tolerance."""
+        """Return the smallest alpha for another tolerance."""
         try:
             return min_slenderness(body_at_tolerance(tolerance_m, SHARP_EDGES)[0])[0]
         except BodyError:

@@ -1,4 +1,4 @@
-"""Which body the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+"""Body from command-line options: sizes, TOML file or bundled name."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from seisblock.report.describe_wear import describe_edges
 
 @dataclass(frozen=True)
 class BodyChoice:
-    """A body, which may be another block in each direction."""
+    """Body selected by options: a block, or a scan whose block depends on the azimuth."""
 
     body: Block | ScannedBody
 
     @property
     def block(self) -> Block:
-        """The block, where it is the same one in each direction."""
+        """The block; an error for a scan, whose block depends on the azimuth."""
         if isinstance(self.body, ScannedBody):
             raise BodyError("{name} is a scan, whose dimensions depend on the azimuth: give the azimuth", name=self.body.name)
         return self.body
 
     def towards(self, azimuth: float) -> Block:
-        """Return the block that a scan is towards an azimuth, degrees clockwise from north."""
+        """Return the block of a scan for an azimuth, degrees clockwise from north."""
         if not isinstance(self.body, ScannedBody):
             raise BodyError("{name} has the same dimensions in all azimuths: omit the azimuth", name=lazy_gettext(self.body.name))
         return self.body.block_toward(azimuth)
 
     def block_for_motion(self, motion: Motion) -> Block:
-        """Return the block that follows a motion: of a scan that towards its azimuth."""
+        """Return the block for a motion; for a scan, the block of the motion's azimuth."""
         return self.body.block_for_motion(motion) if isinstance(self.body, ScannedBody) else self.body
 
     def block_key(self, block: Block) -> dict[str, Any]:
-        """Return what is told beside an answer of the block that it is of, nothing where all answers are of one."""
+        """Return the JSON entry of the block of a scan, empty for other bodies."""
         from seisblock.report.json.bodies import block_entry
 
         return {"block": block_entry(block)} if isinstance(self.body, ScannedBody) else {}
@@ -49,14 +49,14 @@ class BodyChoice:
 
 @dataclass(frozen=True)
 class BlockChoice(BodyChoice):
-    """A body, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
+    """Body with the restitution from its file (None: from angular momentum) and a one-line description."""
 
     restitution: float | None
     description: str
 
 
 def choose_block(params: Mapping[str, Any]) -> BlockChoice:
-    """Return the body that a set of options describes.
+    """Return the body described by a set of options.
 
     Parameters
     ----------
@@ -105,12 +105,12 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
 
 
 def refuse_kind(asked: Mapping[str, Any]) -> None:
-    """Refuse the kind of a body that comes from a file, which tells its own ranges."""
+    """Raise an error for ``--kind`` with a body from a file, which has its own ranges."""
     if asked.get("kind") is not None:
         raise BodyError("--kind has no effect with --block: use --kind with --width and --height")
 
 
 def check_side(params: Mapping[str, Any], kind: str | None) -> None:
-    """Refuse the side of a body that has but one."""
+    """Raise an error for ``--side`` unless the body is a two-layer block."""
     if params.get("side") is not None and kind != "two-layer":
         raise BodyError("--side has no effect: this body is not a two-layer --block; omit --side")

@@ -1,4 +1,4 @@
-"""The one body that options describe, as a list of bodies would hold it: what each solver of a batch takes of it is its own affair."""
+"""Body options converted to a :class:`~seisblock.bodies.table.BodySpec`, as in a table of bodies."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import lazy_gettext
 
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "kind")
-"""Options that describe a body which has no name."""
+"""Options that describe a body by its sizes."""
 
 OWN_OPTIONS = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
-"""Options of a body that one solver has and another has not; what is asked for goes before what the body's file says."""
+"""Body options that only some solvers have; they override the values of the body's file."""
 
 
 def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
-    """Return the one body that sizes or a name describe.
+    """Return the specification of one body given by sizes or by name.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A free-standing body and what it stands on: one rigid block with its friction, from options, a file or a bundled name."""
+"""Free-standing body and friction from options, a file or a bundled name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.core.i18n import lazy_gettext
 
 @dataclass(frozen=True)
 class FreeStandingChoice(BodyChoice):
-    """A body, its friction, and one line on where they come from."""
+    """Body with its friction and a one-line description."""
 
     mu: float
     mu_kinetic: float | None
@@ -65,14 +65,14 @@ _FRICTION = (
 
 
 def free_standing_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of a free-standing body; it receives them by name, for :func:`choose_free_standing`."""
+    """Add the options of a free-standing body to a command, for :func:`choose_free_standing`."""
     for declare in reversed(_FRICTION):
         function = declare(function)
     return block_options(function)
 
 
 def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:
-    """Return the body and its friction that a set of options describes; taken out of what is left for the solver.
+    """Return the body and the friction described by a set of options.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The options that say which block is meant, for every command about one rigid block."""
+"""Options that describe one rigid block, shared by several commands."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ _OPTIONAL_SIZES = (
 
 
 def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--block`` of a two-layer block; one text says what it is there for."""
+    """Return ``--block`` for a two-layer block, with the given help text."""
     return option(
         "--block",
         "--body",
@@ -81,24 +81,24 @@ def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., 
 
 
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--side`` of a two-layer block, short unless another is asked for."""
+    """Return ``--side`` for a two-layer block, default short."""
     return option("--side", type=SuggestingChoice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
 
 
 def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--landing`` of a two-layer block, the paper's unless friction's is asked for."""
+    """Return ``--landing`` for a two-layer block, default paper."""
     return option("--landing", type=SuggestingChoice(["paper", "friction"]), default="paper", show_default=True, help=text)
 
 
 def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of one rigid block; it receives them by name, for ``choose_block``."""
+    """Add the options of one rigid block to a command, for ``choose_block``."""
     for declare in reversed((*_SIZES, *_OPTIONAL_SIZES)):
         function = declare(function)
     return function
 
 
 def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth``."""
+    """Add ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth`` to a command."""
     for declare in reversed(
         (
             option(

@@ -1,4 +1,4 @@
-"""Which two-layer block the user means: a bundled one, a file, or sizes given one by one."""
+"""Two-layer block from command-line options: bundled name, TOML file or sizes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 @dataclass(frozen=True)
 class TwoLayerChoice:
-    """A block with its contact, and one line on where they come from."""
+    """Two-layer block with its contact and a one-line description."""
 
     block: TwoLayerBlock
     contact: Contact
@@ -24,7 +24,7 @@ class TwoLayerChoice:
 
 
 def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
-    """Return the block and contact that a set of options describes.
+    """Return the two-layer block and the contact described by a set of options.
 
     Parameters
     ----------
@@ -69,7 +69,6 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
 
 
 def _from_sizes(params: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
-    """Return a block from sizes given one by one."""
     missing = [f"--{key}" for key, value in sizes.items() if value is None]
     if missing:
         raise BodyError("a two-layer block given by its sizes requires also {missing}", missing=missing)
