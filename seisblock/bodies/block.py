@@ -47,31 +47,31 @@ class Block:
     height : float, m
         Overall height, 2h.
     depth : float, m
-        Base across the motion; as the width when left out. It matters to the mass alone.
+        Base across the motion, default the width; affects only the mass.
     mass : float, kg
-        From the volume and the density when left out.
+        Default: volume times density.
     density : float, kg/m^3
     centroid_height : float, m
-        Height of the centre of gravity; half the height when left out.
+        Height of the centre of gravity, default half the height.
     centroid_offset : float, m
-        How far the centre of gravity lies to +x of the middle of the base.
+        Offset of the centre of gravity to +x from the middle of the base.
     centroid_inertia : float, kg m^2
-        Moment of inertia about the centre of gravity; of the homogeneous rectangle when left out.
+        Moment of inertia about the centre of gravity, default that of the homogeneous rectangle.
     inset : float, m
-        How far in from each side of its base the worn block turns, see :meth:`with_wear`; its mass, centre and inertia stay as they are.
+        Distance of the worn pivot edges from each side of the base, see :meth:`with_wear`; mass, centre and inertia are unchanged.
     name : str
-    ranges : Ranges or None
-        Within which limits bodies of its kind lie: its plausible versions do, instead of differing by shares.
+    ranges : ParameterRanges or None
+        Ranges of the block's kind; samples are drawn from them instead of varying by shares.
 
     Raises
     ------
     BodyError
-        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
+        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above the base within its worn edges.
 
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------
@@ -102,7 +102,9 @@ class Block:
             or self.height > MAX_UNITLESS_LENGTH
             or (self.depth is not None and self.depth > MAX_UNITLESS_LENGTH)
         ):
-            warn_large_lengths(self.name, width=self.width, height=self.height, depth=self.depth)  # blocks are built in inner loops
+            warn_large_lengths(
+                self.name, width=self.width, height=self.height, depth=self.depth
+            )  # cheap test first: blocks are built in inner loops
         if self.ranges is not None:
             checks.instance(self.ranges, ParameterRanges)
         half = self.width / 2
@@ -174,7 +176,7 @@ class Block:
     def restitutions(self) -> tuple[float, float]:
         """Ratios of angular velocities after and before an impact on the right and the left corner.
 
-        As of :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
+        See :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
         """
         onto_right, onto_left = (corner_restitution(radius, self.gyration_squared, self.centre, self.arms) for radius in self.radii)
         return onto_right, onto_left
@@ -223,17 +225,17 @@ def lever_ratio(radius: Length, gyration_squared: Length) -> Length:
 def corner_restitution(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
     """Return the ratio of angular velocities after and before an impact on a corner.
 
-    Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here). Zero where the block is so wide that it would
-    not turn on.
+    Angular momentum about the struck corner is conserved ([Housner1963]_; derived here). Zero where the block is so wide that rocking
+    stops.
 
     Parameters
     ----------
     radius : float or array, m
-        R of the corner that is struck.
+        R of the struck corner.
     gyration_squared, centre : float or array, m^2 and m
-        About the centre of gravity, and its height.
+        Squared radius of gyration about the centre of gravity, and its height.
     arms : two floats or arrays, m
-        Horizontal distances from both corners to it.
+        Horizontal distances from the right and the left corner to the centre of gravity.
     """
     right, left = arms
     momentum = gyration_squared + centre * centre - right * left
@@ -278,7 +280,8 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 def scale_block(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
     """Return a block with all lengths times `size`, and those along the motion also times `slenderness`.
 
-    A mass that was given stays, else it follows from the volume; a given inertia keeps its radius of gyration, times `size`.
+    A given mass is unchanged, otherwise it follows from the volume; a given inertia scales with the squared radius of gyration times
+    `size`.
     """
 
     def times(value: float | None, factor: float) -> float | None:

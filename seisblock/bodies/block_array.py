@@ -24,11 +24,11 @@ class BlockArray:
     Parameters
     ----------
     right, left : (m,) arrays, m
-        Horizontal distances from the lower corners, worn as they are, to the centre of gravity.
+        Horizontal distances from the lower corners (with edge wear) to the centre of gravity.
     centre : (m,) array, m
-        Its height.
+        Height of the centre of gravity.
     gyration_squared : (m,) array, m^2
-        Squared radius of gyration about it.
+        Squared radius of gyration about the centre of gravity.
     """
 
     right: FloatArray
@@ -105,12 +105,12 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
     size, slenderness : (m,) arrays
         Factors on all lengths, and on those along the motion.
     inset_share : (m,) array or None
-        How far the edges are worn, a share of the width per side; as the block's own when left out.
+        Edge wear, a share of the width per side; default the block's own.
 
     Raises
     ------
     BodyError
-        If nothing is left of a base below the centre of gravity.
+        If no base is left below the centre of gravity.
 
     Examples
     --------
@@ -140,7 +140,8 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
 def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
     """Map uniform draws in [-1, 1] to samples of a range whose median is the body's own value.
 
-    The lower half of the draws lies evenly between the least and the own value, the upper half between that and the largest.
+    The lower half of the draws maps uniformly to the interval from the smallest to the own value, the upper half to that up to the
+    largest.
 
     Examples
     --------
@@ -157,13 +158,13 @@ def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArra
     Parameters
     ----------
     block : Block
-        The median of the samples.
+        Median of the samples.
     tolerance : float
-        Half width of a known inset, a share of itself; see :func:`wear_range`.
+        Half width of a known inset, a share of the inset; see :func:`wear_range`.
     wide, tall : (m,) arrays
         Factors on all lengths along the motion, and on all heights.
     worn : (m,) array
-        In [-1, 1]: the worn edges of each sample within their range.
+        Draws in [-1, 1] for the edge wear of each sample within its range.
     """
     share = within(wear_range(block, tolerance), block.inset / block.width, worn)
     return block_variants(block, size=tall, slenderness=wide / tall, inset_share=share)
@@ -172,8 +173,8 @@ def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArra
 def wear_within(block: Block, share: float) -> float:
     """Return the default edge wear of a block, a share of its width per side.
 
-    Less than the share of its kind where its two sides differ so much that hardly anything would be left under its centre of gravity:
-    what stands is not worn like that.
+    Smaller than the share of the kind for a strongly asymmetric block, whose base would hardly reach below its centre of gravity: a
+    standing block cannot be worn so far.
 
     Examples
     --------
@@ -189,8 +190,8 @@ def wear_within(block: Block, share: float) -> float:
 def wear_range(block: Block, tolerance: float) -> Range:
     """Return the smallest and the largest inset of the samples of a block, shares of its width per side.
 
-    A known inset varies by a share of itself, so that sharp edges stay sharp; one that is not known has the range of its kind. Neither
-    leaves less than a fifth of what the block stands on. A tolerance of 0 means that the inset is known exactly.
+    A known inset varies by a share of the inset, so that sharp edges stay sharp; an unknown inset has the range of the kind. At least a
+    fifth of the base remains. A tolerance of 0 means that the inset is known exactly.
 
     Examples
     --------

@@ -41,15 +41,15 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
     Parameters
     ----------
     name : str or Path
-        ``kind = "block"`` with ``width`` and ``height`` (a number in m, or a text with a unit) and whatever else
-        :class:`~seisblock.bodies.block.Block` takes; or ``kind = "two-layer"`` or ``"pile"``, taken as one rigid block.
+        ``kind = "block"`` with ``width`` and ``height`` (a number in m, or a string with a unit) and the other parameters of
+        :class:`~seisblock.bodies.block.Block`; or ``kind = "two-layer"`` or ``"pile"``, taken as one rigid block.
     side : "short" or "long"
-        Which side lies along the motion, where a two-layer body gives both.
+        Side along the motion, for a two-layer body with both.
 
     Raises
     ------
     BodyError
-        If there is no such body, something is missing or unknown, or it is of another kind.
+        If there is no such body, an entry is missing or unknown, or the kind is another.
 
     Examples
     --------

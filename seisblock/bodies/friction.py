@@ -19,7 +19,7 @@ class Surface:
     source : str
         Citation with its locator.
     note : str
-        What was measured, and what is assumed.
+        Measured quantity and assumptions.
     """
 
     mu: float
@@ -46,7 +46,7 @@ def surface(pair: str) -> Surface:
     Raises
     ------
     ParameterError
-        If the pair is not in the table; the message lists those that are.
+        If the pair is not in the table; the message lists the known pairs.
 
     Examples
     --------

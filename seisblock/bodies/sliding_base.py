@@ -18,7 +18,7 @@ class SlidingBase:
     mu : float
         Static friction coefficient, positive.
     mu_kinetic : float or None
-        Kinetic friction coefficient, 0 to `mu`; as `mu` when left out.
+        Kinetic friction coefficient, 0 to `mu`; default `mu`.
     slope_deg : float, degrees
         Angle by which the base falls towards the component's positive direction, -90 to 90 exclusive; negative falls the other way.
     slope_length : float or None, m
@@ -29,7 +29,7 @@ class SlidingBase:
     Raises
     ------
     ParameterError
-        If a number lies outside its range, or the object would slide down without any shaking.
+        If a number lies outside its range, or the object slides without ground motion.
     """
 
     mu: float

@@ -34,14 +34,13 @@ class SpringBlock:
     depth : float, m
         Side b of the base, along y.
     height : float, m
-        Height H; the centre of gravity is at half of it.
+        Height H; centre of gravity at half of it.
     mass : float, kg
-        Total mass m, spread evenly.
+        Total mass m, homogeneous.
     stiffness : (kx, ky, kz), N/m
-        Stiffness of the springs at EACH corner.
+        Stiffness of the springs at each corner.
     damping : float
-        Damping ratio, in [0, 1). Under harmonic shaking it is the paper's modal h, the same in each mode; under a record it is
-        the zeta of each corner dashpot, c = 2 zeta k / omega of its direction (derived here).
+        Damping ratio, in [0, 1). Harmonic motion: the paper's modal h, equal in all modes; records: zeta of each corner dashpot, c = 2 zeta k / omega of its direction (derived here).
 
     Raises
     ------
@@ -51,7 +50,7 @@ class SpringBlock:
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------

@@ -30,21 +30,21 @@ def spring_block(
     Parameters
     ----------
     width, depth, height : float, m
-        Depth left out is the width.
+        The depth defaults to the width.
     mass : float, kg
-        Required with `stiffness`; else 1000 kg when left out, and only forces depend on it.
+        Required with `stiffness`; otherwise default 1000 kg, which affects only forces.
     stiffness : (kx, ky, kz), N/m per corner
         Instead of `frequency_vertical` and `beta`.
     frequency_vertical : float, Hz
     beta : float
-        Horizontal over vertical frequency, 0.707 when left out.
+        Ratio of horizontal to vertical frequency, default 0.707.
     damping : float
-        0.05 when left out.
+        Damping ratio, default 0.05.
 
     Raises
     ------
     BodyError
-        If something is missing, contradicts another, or is not possible.
+        If a value is missing, contradictory or out of range.
 
     Examples
     --------

@@ -84,11 +84,11 @@ class BodySpec:
     Parameters
     ----------
     name : str
-        As the answer calls it.
-    parameters : mapping of str to float, str or Inset
-        By the names of columns; lengths in m, masses in kg, the rest as the options of the same names.
+        Name in the results.
+    parameters : mapping of str to float, str or EdgeWear
+        Values by column name; lengths in m, masses in kg, others as the options of the same name.
     description : mapping or None
-        The TOML table of a body's own file.
+        TOML table of the body's file.
     source : str
         File, and line of a table, for messages.
     """
@@ -107,7 +107,7 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``, ``surface``,
     ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
     ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block) beside sizes; and ``body``, a file or a bundled body whose
-    description a row takes, with ``side`` short or long. An empty cell says nothing. Any other name is a file that describes one body, or a
+    description the row uses, with ``side`` short or long. Empty cells are ignored. Any other name is a file that describes one body, or a
     bundled body.
 
     Parameters
@@ -116,13 +116,13 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
 
     Returns
     -------
-    tuple of ListedBody
-        In the order of the files and of their rows.
+    tuple of BodySpec
+        In the order of files and rows.
 
     Raises
     ------
     BodyError
-        If a file cannot be read, a column means nothing, or a row is wrong (rows are named by their line).
+        If a file cannot be read, a column is unknown, or a row is invalid (the message gives the line).
 
     Examples
     --------

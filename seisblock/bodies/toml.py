@@ -25,14 +25,14 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
     Parameters
     ----------
     name : str or Path
-        A file, or for example ``chozusha``.
+        File, or name of a bundled body such as ``chozusha``.
     kind : str or None
-        What kind is wanted: where there is no such file, no bundled body of another kind is offered.
+        Required kind: without such a file, only bundled bodies of this kind are suggested.
 
     Raises
     ------
     BodyError
-        If there is no such file or bundled body, or it is not TOML.
+        If there is no such file or bundled body, or the file is not TOML.
     """
     path = Path(checks.path(name))
     if not _exists(path):
@@ -54,7 +54,7 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
         table = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise BodyError("{name} is not UTF-8 text: give a TOML file that describes a body, saved as UTF-8", name=name) from error
-    except (ValueError, RecursionError) as error:  # no TOML, a date that is none, lists in lists in lists
+    except (ValueError, RecursionError) as error:  # invalid TOML or date, or nesting too deep
         raise BodyError("{name} is not valid TOML: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
 
@@ -67,7 +67,7 @@ def _exists(path: Path) -> bool:
     """Return whether a file exists; False for names that the system rejects."""
     try:
         return path.exists()
-    except OSError:  # too long for a name
+    except OSError:  # name too long for the system
         return False
 
 

@@ -58,7 +58,7 @@ class TwoLayerBlock:
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
     """
 
     width: float
@@ -152,10 +152,10 @@ class Contact:
     mu : float
         Coefficient of static friction, zero or more.
     mu_kinetic : float or None
-        Coefficient of kinetic friction, 0 to `mu`; as `mu` when left out.
+        Coefficient of kinetic friction, 0 to `mu`; default `mu`.
     restitution_x, restitution_y : float
-        Ratios of velocities at the impact, horizontal and vertical, 0 to 1 ([Sugimoto2017]_ eq. (6)); when left out those that
-        [Sugimoto2017]_ section 4 takes from impacts of a plastic on steel.
+        Ratios of velocities at the impact, horizontal and vertical, 0 to 1 ([Sugimoto2017]_ eq. (6)); defaults from [Sugimoto2017]_
+        section 4, impacts of a plastic on steel.
 
     Raises
     ------
@@ -198,12 +198,12 @@ def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLa
         ``kind = "two-layer"``, ``heights`` = [h1, h2], ``masses`` = [m1, m2], and either ``width`` and ``depth`` or
         ``short`` and ``long``, the two sides in plan.
     side : "short" or "long"
-        Which side lies along the motion, where the table gives both.
+        Side along the motion, for a table with both.
 
     Raises
     ------
     BodyError
-        If something is missing or of the wrong kind.
+        If an entry is missing or of the wrong type.
     """
     check_kind(table, "two-layer")
     upper_height, lower_height = get_lengths(table, "heights", 2)
@@ -239,12 +239,12 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
     name : str or Path
         ``kind = "two-layer"``, see :func:`two_layer_from_table`.
     side : "short" or "long"
-        Which side lies along the motion, where the file gives both.
+        Side along the motion, for a file with both.
 
     Raises
     ------
     BodyError
-        If there is no such body, something is missing, or it is of another kind.
+        If there is no such body, an entry is missing, or the kind is another.
 
     Examples
     --------
@@ -260,12 +260,12 @@ def load_contact(name: str | Path) -> Contact:
     Parameters
     ----------
     name : str or Path
-        With a table ``contact`` of ``mu`` and whatever else :class:`Contact` takes.
+        TOML file or bundled name, with a table ``contact`` of ``mu`` and the other parameters of :class:`Contact`.
 
     Raises
     ------
     BodyError
-        If there is no such body, or it says nothing of friction.
+        If there is no such body, or it has no friction.
 
     Examples
     --------

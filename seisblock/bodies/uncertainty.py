@@ -21,13 +21,13 @@ Range = tuple[float, float]
 class ParameterRanges:
     """Parameter ranges of a kind of body; None where unknown.
 
-    Samples of a body are drawn from the ranges of its edges and its friction, values that nobody has measured on this one. Its width and
-    height are known, and vary by their own tolerance, whatever the sizes of its kind are.
+    Samples of a body are drawn from the ranges of edge wear and friction, which are unknown for the individual body. Its width and height
+    are known and vary by their own tolerance, independent of the sizes of the kind.
 
     Parameters
     ----------
     width_m, height_m : (float, float) or None, m
-        Usual sizes of the kind, along the motion and overall; not drawn from.
+        Usual sizes of the kind, along the motion and overall; not used for samples.
     inset_m : (float, float) or None, m
         Distance of the worn edges from each side.
     mu : (float, float) or None, 1
@@ -36,7 +36,7 @@ class ParameterRanges:
     Raises
     ------
     BodyError
-        If a range runs backwards, a number lies outside its own range, or an inset leaves nothing of the narrowest base.
+        If a range is reversed, a number lies outside its valid range, or an inset leaves no base at the smallest width.
 
     Examples
     --------
@@ -104,12 +104,12 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         Of the body; ``[ranges]`` in it holds two numbers for each of ``width``, ``height`` and ``inset`` (m, or with a unit; an inset also
         in per cent of the width) and ``mu``.
     body_values : mapping
-        What the body itself has of these, which must lie in them.
+        Values of the body, which must lie in the ranges.
 
     Raises
     ------
     BodyError
-        If it says something else, or the body lies outside its own ranges.
+        If the table is invalid, or the body lies outside its ranges.
     """
     if "ranges" not in table:
         return None

@@ -1,7 +1,7 @@
 """Command-line entry point: a click group with lazily imported commands.
 
-``main`` is a click group that imports a command's module only when that command is asked for, so that
-``seisblock --help`` loads nothing heavy. It is also the only place that catches :class:`SeisblockError`.
+``main`` is a click group that imports the module of a command on use, so that ``seisblock --help`` starts fast. Only the group catches
+:class:`SeisblockError`.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ class SeisblockGroup(click.Group):
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
         """Run the command; user errors become a message on stderr and an exit code."""
-        # the largest matrix here is of twelve rows: threads of the linear algebra would only wait for one another
+        # the largest matrix has twelve rows: BLAS threads would only add synchronization cost
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
@@ -162,7 +162,7 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report user errors."""
-        translate = bind_locale()  # kernels are compiled in other threads, too
+        translate = bind_locale()  # kernels compile in other threads, which have no locale context
         _jit.on_message, _jit.on_compile = lambda message: info(translate(message)), lambda task: progress(translate(task))
         reset_warnings()
         try:
@@ -178,7 +178,7 @@ class SeisblockGroup(click.Group):
             _report_interrupt()
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
-            # the reader went away (| head): nothing to say, and nothing may be flushed at exit
+            # the reader closed the pipe (| head): no message, and no flush at exit
             discard_stdout()
             ctx.exit(BROKEN_PIPE)
         except Terminated:

@@ -30,7 +30,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
     ----------
     source : Source
     solve : callable
-        Returns what became of the body in each direction of a record, the worst first.
+        Returns the results of all azimuths of a record, the worst first.
     """
     from seisblock.records import motion_of
 

@@ -69,7 +69,7 @@ class Command(click.Command):
     Parameters
     ----------
     examples : sequence of str
-        Lines a user can paste.
+        Example command lines.
     """
 
     context_class = Context

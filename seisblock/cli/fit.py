@@ -196,6 +196,6 @@ def _choose_body(params: dict[str, Any]) -> tuple[Any, Any, float | None]:
     free = params["free"] or ()
     choice = choose_block(params)
     info("body: {says}", says=choice.description)
-    # what a body's file brings along does not stand in the way of what is looked for
+    # a restitution from the body's file is only a default here: it may still be estimated
     block = choice.block if params["azimuth"] is None else choice.towards(params["azimuth"])
     return block, params["inset"], params["restitution"] if "restitution" in free else choice.restitution

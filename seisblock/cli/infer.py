@@ -246,7 +246,7 @@ def _infer_from_displacement(source: Source, output: Output, params: dict[str, A
     observed = params["jumped"] if params["slid"] is None else params["slid"]
     moves, document = _moving_object(source, params)
     curves: list[tuple[Any, Any]] = []
-    # a jump goes on beyond the window in which it may start
+    # a jump continues beyond the window in which rocking may start
     for record in load_records(source, keep_whole=params["jumped"] is not None):
         for motion in selected_motions(record, source):
             displacement = moves(motion)

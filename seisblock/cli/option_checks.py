@@ -28,7 +28,7 @@ def reject_with(condition: str, names: Iterable[str]) -> None:
     Raises
     ------
     click.UsageError
-        If one of them was asked for, whatever its value.
+        If one of the options was given, even with its default value.
     """
     if flags := given_flags(names):
         raise click.UsageError(gettext("{flags} has no effect with {what}: omit one of them", what=condition, flags=flags))
@@ -40,7 +40,7 @@ def reject_without(condition: str, names: Iterable[str]) -> None:
     Raises
     ------
     click.UsageError
-        If one of them was asked for, whatever its value.
+        If one of the options was given, even with its default value.
     """
     if flags := given_flags(names):
         raise click.UsageError(gettext("{flags} has no effect without {what}: omit it, or add {what}", what=condition, flags=flags))

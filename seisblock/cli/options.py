@@ -227,7 +227,7 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
     film : bool
         Whether there is an animation.
     accelerations : bool
-        Whether there are any to have a unit.
+        Whether ``--units`` of accelerations applies.
     """
     texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)

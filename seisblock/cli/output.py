@@ -39,7 +39,8 @@ def check_output(output: Output) -> None:
     Raises
     ------
     OutputError
-        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure or film to change.
+        If a file name has no known suffix, its folder does not exist, two outputs share a name, or an option lacks its figure or
+        animation.
     """
     if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
         raise OutputError("--size, --dpi and --title require --plot")

@@ -53,7 +53,7 @@ def graceful_exit() -> Iterator[None]:
         try:
             yield
         except Exception as error:
-            if received:  # a class whose body is executed, in any import, makes a RuntimeError of what is raised in it
+            if received:  # class creation during an import wraps exceptions into a RuntimeError
                 raise EXIT_EXCEPTIONS[received[0]] from error
             raise
         finally:

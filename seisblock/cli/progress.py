@@ -1,7 +1,7 @@
 """Progress line on stderr, shown on a terminal after a delay.
 
-A run has one line. A thread paints it, so that neither compiled code nor a library that draws need know of it; what is being done, and
-how much of it, is told by :func:`progress`, and of a single motion by the solver between its slices.
+A run has one line, drawn by a thread, so that compiled code and plotting libraries need no hooks. :func:`progress` sets the description
+and the count; the solver reports the progress of a single motion between slices.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ _line: StatusLine | None = None
 def progress(text: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
     """Show a task inside the context; yields a function of the completed and the total number.
 
-    The outermost block of a run has the line; inside it, what is done last is what is shown.
+    The outermost context of a run creates the line; nested contexts replace its description.
     """
     global _line
     with contextlib.ExitStack() as stack:

@@ -69,7 +69,7 @@ def run_batch(
     with progress("searching for records"):
         files = expand_names(names, plan.read_options)
         keys = list(dict.fromkeys(recording.key for recording in group_files(files, plan.read_options)))
-    _check_files(out)  # once more: now it is known what was read
+    _check_files(out)  # again, now that the inputs are known
     tally, columns, reasons = Tally(plan.model), _columns(plan), dict[str, str]()
     if resume and out.exists() and not checkpoint_path(out).exists():
         for rows in _finished_rows(out, columns, plan, files, {path for path, _ in keys}):
@@ -87,7 +87,7 @@ def run_batch(
                 with progress("writing {file}", file=str(out)):
                     write(out, columns, (row_cells(columns, row) for row in rows_of_all))
             else:
-                deque(rows_of_all, maxlen=0)  # counted alone: a table of failures would stand in the way of the line put right
+                deque(rows_of_all, maxlen=0)  # count only: a table without results must not block the corrected call
             journal.remove()
         if has_answers:
             info("wrote {path}", path=out)
@@ -104,7 +104,7 @@ def run_batch(
 def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
     """Yield the rows of a complete table, record by record, if it matches records, bodies, solver and options.
 
-    What was done to the records a table does not say: the record under which most happened is followed anew.
+    A table does not contain the preparation of the records, so the record with the most information is computed again and compared.
     """
     rows = list((read_parquet if out.suffix.lower() == PARQUET else read_table)(out, columns))
     tables: dict[str, list[Row]] = {path: list(group) for path, group in groupby(rows, key=lambda row: row["path"])}
@@ -133,7 +133,7 @@ def _solve(
 ) -> dict[str, str]:
     """Solve the missing records and append each record's rows to the journal.
 
-    The journal keeps reasons in English; what is returned can be told in any language.
+    The journal holds reasons in English; the returned messages are translatable.
     """
     missing = {key for key in keys if key not in journal.places}
     if len(missing) < len(keys):

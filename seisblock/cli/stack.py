@@ -239,12 +239,12 @@ def _run_records(source: Source, output: Output, body: Pile, contact: Any, width
     responses, extras = [], []
     for record in load_records(source):
         directions = list(selected_motions(record, source))
-        # all components act in every run: without --component one run tells all
+        # all components act in every run: without --component one direction suffices
         for motion in directions if source.component else directions[:1]:
             name = f"{record.station} {motion.name}".strip()
             with progress(name) as advance:
                 responses.append(solve_stack(body, motion, contact=contact, progress=advance, **params))
-            trim_heap()  # a day's models of one stone find no room beside what compiling has freed
+            trim_heap()  # memory freed by the compiler is needed for long records
             extra: dict[str, Any] = {"agreement": compare_pile_models(responses[-1])}
             if study_options["runs"]:
                 with progress("samples {name}", name=name) as advance:

@@ -67,9 +67,9 @@ def add_suggestion(text: str, message: str) -> str:
     Parameters
     ----------
     text : str
-        In the language spoken.
+        Translated message.
     message : str
-        The same, with the values it was said with.
+        The untranslated message with its values.
     """
     if not isinstance(message, Message):
         return text

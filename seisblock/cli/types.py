@@ -25,12 +25,12 @@ class Count(click.ParamType):  # type: ignore[type-arg]
     Parameters
     ----------
     quantity : str
-        What is counted, see :func:`seisblock.core.limits.check_limit`.
+        Noun of the message, see :func:`seisblock.core.limits.check_limit`.
     variable : str
         Of the limit.
     minimum : int
     power : int
-        How often the number counts: as many points on two axes make the square of it.
+        Power of the number that is limited: 2 for points on two axes.
     """
 
     name = "integer"
@@ -71,7 +71,7 @@ class Length(click.ParamType):  # type: ignore[type-arg]
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the length, m."""
         if isinstance(value, float):
-            return value  # a default, or converted already
+            return value  # default, or already converted
         try:
             return parse_length(value, quantity=lazy_gettext((param.name or "length").replace("_", " ") if param else "length"))
         except InputError as error:

@@ -63,7 +63,7 @@ def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
     Raises
     ------
     ParameterError
-        If it is said how far, of versions of which there are none.
+        If widths are given without samples.
     """
     _check_options(*(f"vary_{name}" for name in names), "moved", "seed")
     return {"azimuth_deg" if name == "azimuth" else name: params.pop(f"vary_{name}") for name in names}

@@ -43,15 +43,15 @@ def write_results(
     output : Output
         The output options.
     tables : callable
-        Returns what rich prints when no JSON is asked for.
+        Returns the rich tables printed without ``--json``.
     responses : sequence of Response
         Time histories for ``--csv``.
     csv : callable
-        Writes the file of ``--csv`` where time histories are not what it holds.
+        Writes the file of ``--csv`` if it does not hold time histories.
     figure : callable
-        Returns the matplotlib Figure of ``--plot``; left out, the responses' own.
+        Returns the matplotlib Figure of ``--plot``, default that of the responses.
     animation : callable
-        Writes the file of ``--animate``; left out, the responses' own film, at the speed, in the language and with the progress it is told.
+        Writes the file of ``--animate``, default the animation of the responses.
     """
     set_task("preparing the results")
     if responses:
@@ -82,7 +82,7 @@ def write_results(
         if output.plot == STDOUT:
             return
         info("wrote {path}", path=output.plot)
-    # stdout comes last: a reader that goes away (| head) takes no file with it
+    # stdout last: a closed pipe (| head) must not prevent the files
     if output.json:
         print_result(to_json(document))
     else:
@@ -95,7 +95,7 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
         write(path)
         close_line()
         with path.open(encoding="utf-8", newline="") as stream:
-            if sys.stdout.isatty():  # which would obey what stands in names of stations and bodies
+            if sys.stdout.isatty():  # names may contain terminal control sequences
                 sys.stdout.writelines(map(escape_control, stream))
             else:
                 shutil.copyfileobj(stream, sys.stdout)

@@ -25,17 +25,17 @@ class Stone:
     height_over_width : float
         H/B of the sao, positive.
     width : float or None, m
-        B, where it is known.
+        B, None if unknown.
     reinforced : bool
         Whether a dowel joins sao and jodai.
     fallen : bool or None
-        Whether it overturned; None where nobody says.
+        Whether the stone overturned; None if unknown.
     azimuth_deg : float or None
-        Which way it faces, degrees clockwise from north.
+        Azimuth of the front, degrees clockwise from north.
     count : int
-        How many stones this stands for, positive.
+        Number of such stones, positive.
     line : int or None
-        Line of the file it was read from.
+        Line of the source file.
 
     Raises
     ------
@@ -74,11 +74,11 @@ class Cemetery:
     stones : tuple of Stone
         At least one.
     name : str
-        For tables and figures.
+        Name for tables and figures.
     source : str
-        File it was read from, empty when made in memory.
+        Source file, empty if created in memory.
     notes : tuple of str
-        Comments at the head of that file: where the numbers come from.
+        Comments at the head of the file: origin of the data.
 
     Raises
     ------
@@ -144,7 +144,7 @@ class Cemetery:
         Parameters
         ----------
         most_fragile : int or None
-            How many stones get a dowel; those that have one keep it and do not count.
+            Number of stones to reinforce, in addition to those already reinforced; None for all.
         """
         if most_fragile is None:
             return replace(self, stones=tuple(replace(stone, reinforced=True) for stone in self.stones))

@@ -75,18 +75,18 @@ def read_cemetery(name: str | Path) -> Cemetery:
 
     The header names the columns: ``height_over_width``, or ``height`` and ``width`` (a unit in the name, ``height (cm)``,
     or in the cell, ``8sun``; metres without); and, where known, ``reinforced``, ``fallen``, ``azimuth_deg``, ``count``. Japanese
-    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) do as well. Lines that begin with # are comments; those before the header are kept
-    as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are passed over.
+    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) are accepted, too. Lines that begin with # are comments; those before the header are kept
+    as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are ignored.
 
     Parameters
     ----------
     name : str or Path
-        A file, else for example ``aoyama.csv``.
+        File, or name of a bundled cemetery such as ``aoyama.csv``.
 
     Raises
     ------
     BodyError
-        If there is no such file or bundled cemetery, a column is missing, or a row is wrong; rows are named by their line.
+        If there is no such file or bundled cemetery, a column is missing, or a row is invalid; the message gives the line.
 
     Examples
     --------

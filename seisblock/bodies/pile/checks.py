@@ -40,7 +40,7 @@ def check_pile(pile: PileLike) -> None:
     Raises
     ------
     BodyError
-        With the first thing found wrong.
+        For the first inconsistency.
     """
     _check_names(pile)
     _check_friction(pile)

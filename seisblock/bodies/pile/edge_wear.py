@@ -21,7 +21,7 @@ def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
     ----------
     body : Pile
     tolerance : float, 1
-        Half width of the insets, a share of each; less where hardly a fifth of what a stone stands on would be left.
+        Half width of the insets, a share of each; reduced where less than a fifth of a base would remain.
     draw : float
         In [-1, 1].
 
@@ -55,7 +55,7 @@ def worn_share(stone: PileStone) -> float:
 def widest_wear(body: Pile, tolerance: float) -> float:
     """Return the half width of the insets of the samples of a pile, a share of each.
 
-    Less than asked where the pile would not stand at rest, its load being near an edge: what stands is not worn like that.
+    Smaller than `tolerance` where the most worn sample would be unstable at rest.
 
     Examples
     --------

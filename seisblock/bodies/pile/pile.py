@@ -21,22 +21,21 @@ class Pile:
     ----------
     name : str
     stones : tuple of PileStone
-        From below upwards.
+        From bottom to top.
     dowels : tuple of tuples of str
-        Names of stones held together as one body ([Furukawa2009]_ section 3(6)).
+        Names of stones joined as one body ([Furukawa2009]_ section 3(6)).
     fixed : tuple of str
         Stones that move with the ground.
     mu, mu_kinetic : float, 1
-        Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2. What slides has the latter, at most
-        the former; None: the same.
-    ranges : Ranges or None
-        Of its kind, as one block; a pile itself has no versions.
+        Static and kinetic friction of joints without their own; 0.438 as in [Furukawa2009]_ table 2. The kinetic value is at most the
+        static one; None: equal.
+    ranges : ParameterRanges or None
+        Ranges of the kind, for the pile as one block.
 
     Raises
     ------
     BodyError
-        If stones overlap, float, or do not touch where a dowel holds them; if the pile is unstable at rest; if kinetic friction is
-        more than static friction.
+        If stones overlap, lack support, or do not touch at a dowel; if the pile is unstable at rest; if kinetic exceeds static friction.
     """
 
     name: str
@@ -119,7 +118,7 @@ class Pile:
         Raises
         ------
         ParameterError
-            If that is more than the static friction of one of them.
+            If the value exceeds the static friction of a joint.
         """
         stones = tuple(replace(stone, mu_kinetic=None) for stone in self.stones)
         try:
@@ -136,7 +135,7 @@ class Pile:
     def as_block(self) -> Block:
         """Return the pile as one rigid block in the x-z plane: base on the ground, total mass, centre and inertia.
 
-        Its height is that of the highest stone; stones that stand wider than the base do not widen it.
+        Height: top of the highest stone; stones wider than the base do not widen it.
         """
         centres = self.centres()
         free_stones = [i for i, name in enumerate(self.names) if name not in self.fixed]

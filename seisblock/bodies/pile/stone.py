@@ -32,31 +32,31 @@ class PileStone:
     ----------
     name : str
     width, depth, height : float, m
-        Sizes along x, y and z; of a round stone the first two are its diameter.
+        Sizes along x, y and z; the first two are the diameter of a cylinder.
     offset : (float, float), m
-        Where its centre is seen from the centre of the stone (or the point of the ground) it stands on, along x and y.
+        Position of the centre relative to the centre of the supporting stone (or the origin of the ground), along x and y.
     on : str
-        The stone it stands on, or ``ground``.
+        Name of the supporting stone, or ``ground``.
     density : float, kg/m^3
     mu, mu_kinetic : float or None, 1
-        Friction of the joint under it, as long as it clings and once it slides; None: that of the pile.
+        Static and kinetic friction of the joint under the stone; None: that of the pile.
     bottom : float or None, m
-        Height of its lower face above the ground; None: the upper face of the stone it stands on.
+        Height of the base above the ground; None: top of the supporting stone.
     shape : str
         ``rectangular`` or ``round`` in plan.
-    inset : Inset
-        How far in from the sides of its base it turns, at worn edges; its mass and inertia stay as they are.
+    inset : EdgeWear
+        Distance of the worn pivot edges from the sides of the base; mass and inertia are unchanged.
 
     Raises
     ------
     BodyError
-        If a size or the density is not positive, or the friction negative; if a round stone is not as deep as it is wide, the shape is
-        unknown, or the inset leaves nothing of the base.
+        If a size or the density is not positive, or the friction negative; if width and depth of a cylinder differ, the shape is unknown,
+        or the inset leaves no base.
 
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------
@@ -147,9 +147,9 @@ class Joint:
     upper, lower : int
         Indices of the stones; ``lower`` is -1 for the ground.
     x, y : (float, float), m
-        The rectangle in which they touch.
+        Ends of the contact rectangle.
     height : float, m
-        Its height above the ground.
+        Height above the ground.
     """
 
     upper: int

@@ -39,20 +39,20 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     Parameters
     ----------
     name : str or Path
-        ``kind = "pile"``, and one ``[[stone]]`` table per stone, from below upwards: ``name``, ``width``, ``depth``, ``height``
-        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``mu_kinetic``,
-        ``bottom``, ``shape = "round"`` (``width`` is then its diameter, and ``depth`` may be left out), ``inset`` as of a block.
+        ``kind = "pile"``, and one ``[[stone]]`` table per stone, from bottom to top: ``name``, ``width``, ``depth``, ``height``
+        (numbers in m or strings such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``mu_kinetic``,
+        ``bottom``, ``shape = "round"`` (``width`` is the diameter, ``depth`` optional), ``inset`` as of a block.
         On top: ``name``, ``mu``, ``mu_kinetic``, ``density``, ``inset``, ``fixed`` (list of names), ``reinforced`` (list of lists of
-        names that dowels hold); ``[ranges]`` of its kind, as of a block.
+        dowelled names); ``[ranges]`` of the kind, as of a block.
     reinforced : bool
-        Whether the dowels of the file are in place.
+        Whether to insert the dowels of the file.
     mu : float or None, 1
-        Friction of every joint, sliding or not; None: what the file says.
+        Static and kinetic friction of every joint; None: that of the file.
 
     Raises
     ------
     BodyError
-        If there is no such file, or it describes no pile that can stand.
+        If there is no such file, or the pile is invalid or unstable.
 
     Examples
     --------

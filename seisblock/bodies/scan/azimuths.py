@@ -27,19 +27,19 @@ class ScanAzimuth:
     azimuth_deg : float
         Clockwise from north.
     arm_m : float
-        Level distance from the line about which it turns to the centre of gravity, b.
+        Horizontal distance b from the pivot line to the centre of gravity.
     slenderness_rad : float
         alpha, the angle between the vertical and R.
     radius_m : float
-        R, from that line to the centre of gravity.
+        R, from the pivot line to the centre of gravity.
     pivot_inertia_kg_m2 : float
-        I_O about that line.
+        I_O about the pivot line.
     frequency_parameter_rad_s : float
         p.
     restitution : float
-        Angular velocity after an impact onto that side over that before, which keeps the angular momentum about it.
+        Ratio of angular velocities after and before an impact on that side, from conserved angular momentum.
     threshold_m_s2 : float
-        Level acceleration of the ground, away from the azimuth, above which it turns.
+        Horizontal ground acceleration at which rocking towards the azimuth starts.
     """
 
     azimuth_deg: float
@@ -59,7 +59,7 @@ def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, grav
     ----------
     body : ScannedBody
     step_deg : float
-        Degrees between azimuths, from north on.
+        Azimuth step, starting at north.
     gravity : float, m/s^2
 
     Examples

@@ -33,22 +33,22 @@ class ScannedBody:
     name : str
     mass : float, kg
     height : float, m
-        Overall, above the ground.
+        Overall height above the ground.
     centre : three floats, m
-        Centre of gravity, x, y, and z above the ground.
+        Centre of gravity: x, y, and z above the ground.
     inertia : three rows of three floats, kg m^2
         Tensor about the centre of gravity.
     base : pairs of floats, m
-        x and y of the corners that carry, counter-clockwise: a convex polygon, sharp.
+        Corners of the sharp support polygon, convex, counter-clockwise.
     inset : Inset
-        How far in from each side of the base the worn body turns; a share is one of the base's least width.
+        Distance of the worn edges from each side of the base; a share refers to the smallest width of the base.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
 
     Raises
     ------
     BodyError
-        If the mass, a size or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
+        If the mass, a size or the inertia is not positive, or the centre of gravity does not lie above the base within its worn edges.
 
     Examples
     --------
@@ -132,8 +132,8 @@ class ScannedBody:
     def block_toward(self, azimuth: float) -> Block:
         """Return the equivalent block in the vertical plane whose +x has an azimuth.
 
-        The plane is that of the motion: it turns about the level line across it that touches its base, and its inertia is that about the
-        line's direction; turning aside, about the corner where line and base meet, is left out (ours). Its two sides differ.
+        The pivots are the horizontal lines across the plane that touch the base, and the inertia is that about their direction;
+        out-of-plane rotation about the touching corner is neglected (derived here). The two sides differ.
 
         Parameters
         ----------
@@ -143,7 +143,7 @@ class ScannedBody:
         Returns
         -------
         Block
-            Its inset is the mean of both sides', its arms are exact.
+            The inset is the mean of both sides; the arms are exact.
         """
         turn = math.radians(self.facing - checks.finite("the azimuth", azimuth, "degrees"))
         forward, lateral = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
@@ -169,7 +169,7 @@ class ScannedBody:
         Raises
         ------
         ComponentError
-            If the azimuth of the motion's +x is not known.
+            If the azimuth of the motion's +x is unknown.
         """
         azimuth = motion.azimuth_deg
         if azimuth is None:

@@ -27,9 +27,9 @@ class MassProperties:
     volume : float, m^3
     centre : (3,) array, m
     gyration : (3, 3) array, m^2
-        Tensor of inertia about the centre for a mass of one.
+        Inertia tensor about the centre for unit mass.
     pieces : int
-        Surfaces that do not touch each other; one inside another, turned inwards, is a hollow.
+        Number of connected surfaces; an inner one oriented inwards is a cavity.
     """
 
     volume: float
@@ -51,7 +51,7 @@ def mass_properties(mesh: Mesh) -> MassProperties:
     Raises
     ------
     BodyError
-        If the surface is open, meets itself along an edge, is turned inside out in part or in whole, or encloses nothing.
+        If the surface is open, not manifold, inconsistently oriented or inside out, or encloses no volume.
 
     Examples
     --------

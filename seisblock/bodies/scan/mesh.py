@@ -33,7 +33,7 @@ AXIS_ROTATIONS = {
 }
 """Axis and sign of the file that become x, y and z, for each upward axis.
 
-The body is turned about the file's x, which stays x; where x itself points up or down, about y.
+The body rotates about the file's x, which stays x; where x points up or down, about y.
 """
 
 HEADER_BYTES = 2**14
@@ -52,9 +52,9 @@ class Mesh:
     vertices : (n, 3) array, m
         z upwards.
     faces : (k, 3) array of int
-        Their corners, counter-clockwise seen from outside.
+        Vertex indices, counter-clockwise seen from outside.
     source, sha256 : str
-        The file, and its digest.
+        File name and SHA-256 digest.
     """
 
     vertices: FloatArray
@@ -70,16 +70,16 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     ----------
     name : path
     unit : str
-        Of the file's numbers, one of ``LENGTH_UNITS``; formats of meshes do not say.
+        Unit of the file's coordinates, one of ``LENGTH_UNITS``; mesh formats do not state it.
     up : str
         The file's axis that points upwards: x, y, z, -x, -y or -z.
 
     Raises
     ------
     BodyError
-        If there is no such file, it is no mesh, or not all of its numbers are finite.
+        If there is no such file, it is not a mesh, or a coordinate is not finite.
     ParameterError
-        If it is larger than may be read, or trimesh is not installed.
+        If the mesh exceeds the limit, or trimesh is not installed.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
     except ImportError as error:
         raise BodyError("reading a mesh requires trimesh: pip install 'seisblock[scan]'") from error
     try:
-        with np.errstate(all="ignore"):  # what is no number is told below
+        with np.errstate(all="ignore"):  # non-finite vertices raise an error below
             mesh: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
@@ -152,12 +152,12 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
 def _merge_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
     """Return a mesh with equal vertices merged, without degenerate triangles and unused vertices."""
     vertex_ids, faces = np.unique(faces, return_inverse=True)
-    points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # of the two zeros one
+    points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # -0.0 becomes 0.0
     bits = points.view(np.uint64)
     bits = (bits ^ (bits >> np.uint64(29))) * _HASH_MULTIPLIERS
     hashes = (bits ^ (bits >> np.uint64(32))).sum(axis=1, dtype=np.uint64)
     _, first, number = np.unique(hashes, return_index=True, return_inverse=True)
-    if not np.array_equal(points[first][number], points):  # two points of one number: slower, and never wrong
+    if not np.array_equal(points[first][number], points):  # hash collision: exact comparison, slower
         _, first, number = np.unique(points, axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces.reshape(-1, 3)]
     is_nondegenerate = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])

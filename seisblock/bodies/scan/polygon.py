@@ -21,7 +21,7 @@ COLLINEAR_TOLERANCE = 1e-6
 def convex_hull(points: ArrayLike) -> FloatArray:
     """Return the corners of the convex hull, (n, 2), m, counter-clockwise; two points where it is degenerate.
 
-    Corners that stand out by less than a millionth of its size are left out.
+    Corners within a millionth of the polygon's size of the line between their neighbours are dropped.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def convex_hull(points: ArrayLike) -> FloatArray:
         points_array = np.concatenate([extreme_points, _points_outside(points_array, extreme_points)])
     try:
         corners = points_array[ConvexHull(points_array).vertices]
-    except QhullError:  # all on a line, or too few
+    except QhullError:  # collinear or too few points
         return points_array[:2]
     return _drop_collinear(corners)
 
@@ -53,7 +53,7 @@ def _drop_collinear(corners: FloatArray) -> FloatArray:
         chord, arm = next_corners - previous_corners, corners - previous_corners
         height = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0]) / np.linalg.norm(chord, axis=1)
         flat = height < min_height
-        # of two neighbours one at a time: those with an even number first
+        # never drop two neighbours at once: even indices first
         even_flat = flat & (np.arange(len(corners)) % 2 == 0)
         flat = even_flat if even_flat.any() else flat
         if not flat.any() or len(corners) - int(flat.sum()) < 3:
@@ -98,8 +98,8 @@ def support_distance(polygon: FloatArray, direction: ArrayLike) -> float:
 def offset_polygon(polygon: FloatArray, distance: float) -> FloatArray:
     """Return a convex polygon with each side moved inwards, (k, 2), m; (0, 2) where nothing is left.
 
-    What is left is the set of points that lie at least so far from each side: the polygon cut by each side's line, moved by its normal
-    (derived here). A corner of angle phi moves by more than its sides do, by/sin(phi/2) (derived here).
+    The result is the set of points at least `distance` from each side: the polygon clipped by each side's line, shifted along its normal
+    (derived here). A corner of angle phi moves by distance/sin(phi/2), more than its sides (derived here).
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def _clip_half_plane(polygon: FloatArray, excess: FloatArray) -> FloatArray:
     next_corners, next_excess = np.roll(polygon, -1, axis=0), np.roll(excess, -1)
     is_crossing = (excess > 0.0) != (next_excess > 0.0)
     share = np.where(is_crossing, excess / np.where(is_crossing, excess - next_excess, 1.0), 0.0)
-    # each corner that stays, and behind it where its side crosses the line
+    # keep inside corners; after each, add the intersection of its side with the line
     candidates = np.stack([polygon, polygon + share[:, None] * (next_corners - polygon)], axis=1).reshape(-1, 2)
     return candidates[np.column_stack([excess <= 0.0, is_crossing]).ravel()]
 

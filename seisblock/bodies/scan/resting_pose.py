@@ -28,13 +28,13 @@ class RestingPose:
     Parameters
     ----------
     rotation : (3, 3) array
-        What turned the scan so that it rests.
+        Rotation that levels the scan.
     tilt : float, rad
-        By how much.
+        Angle of the rotation.
     ground_height : float, m
-        Height of the ground, along the scan's z after the turn.
+        Height of the ground, along the scan's z after the rotation.
     base : (n, 2) array, m
-        The corners that carry, counter-clockwise.
+        Corners of the support polygon, counter-clockwise.
     touching : int
         Vertices within the tolerance of the ground.
     """
@@ -49,8 +49,8 @@ class RestingPose:
 def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: float, source: str) -> RestingPose:
     """Return the resting pose of a body on level ground nearest to its scanned position.
 
-    It rests on the plane below all of its points that meets the vertical through its centre of gravity highest: the side of its convex
-    hull below the centre (derived here). What carries are the points within a tolerance of that plane.
+    The support plane is the plane below all points whose intersection with the vertical through the centre of gravity is highest: the
+    face of the convex hull below the centre (derived here). The support points are those within the tolerance of that plane.
 
     Parameters
     ----------
@@ -59,14 +59,14 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
     centre : (3,) array, m
         Centre of gravity.
     tolerance : float, m
-        How far above the ground a point may lie that still carries.
+        Largest height above the ground of a support point.
     source : str
-        For messages.
+        Name for messages.
 
     Raises
     ------
     BodyError
-        If it rests on a point or on an edge, or its centre of gravity does not lie above what carries it.
+        If the body rests on a point or an edge, or its centre of gravity does not lie above its support polygon.
 
     Examples
     --------
@@ -94,8 +94,8 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
 def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArray:
     """Return the slopes along x and y of the support plane, within the largest rotation.
 
-    A plane t + p x + q y below every point, highest at the centre: a linear programme with as many conditions as there are points, of
-    which few matter; those that the last plane breaks are added until none is.
+    The plane t + p x + q y below all points, highest at the centre, solves a linear programme with one constraint per point, few of which
+    are active: constraints violated by the last plane are added until none is (constraint generation).
     """
     from scipy.optimize import linprog
 

@@ -36,20 +36,20 @@ class Scan:
     volume : float, m^3
     density : float, kg/m^3
     tolerance : float, m
-        How far above the ground a point may lie that carries.
+        Largest height above the ground of a support point.
     tilt : float, rad
-        By how much the scan was turned so that it rests.
+        Angle of the levelling rotation.
     triangles, touching, pieces : int
-        Triangles, vertices that touch the ground, surfaces that do not touch each other.
+        Numbers of triangles, support points and connected surfaces.
     size : three floats, m
         Extents along x, y and z.
     outline : pairs of floats, m
-        x and y of the corners of its convex hull seen from above.
+        Corners of the convex hull in plan.
     slenderness_half_tolerance, slenderness_double_tolerance : float, rad
-        The least alpha with half and with twice the tolerance; NaN where it would not stand.
+        Smallest alpha with half and with twice the tolerance; NaN where the body overturns.
     source, sha256 : str
     unit, up : str
-        As the file was read.
+        Unit and upward axis of the file.
     """
 
     body: ScannedBody
@@ -86,21 +86,21 @@ def scan_body(
     Parameters
     ----------
     name : path
-        An STL, PLY or OBJ file, or a bundled one: a closed surface of triangles.
+        STL, PLY or OBJ file, or a bundled one: a closed triangle mesh.
     density : float, kg/m^3
-        The motion does not depend on it.
-    inset : Inset or float
-        How far in from each side of the base it turns: a length, or a share of the base's least width.
+        Without effect on the motion.
+    inset : EdgeWear or float
+        Distance of the worn edges from each side of the base: a length, or a share of the smallest base width.
     tolerance : float, m
-        How far above the ground a point may lie that carries; 0.002 of the largest extent when left out.
+        Largest height above the ground of a support point; default 0.002 of the largest extent.
     unit : str
-        Of the file's numbers, m, cm, mm, in, ft ...
+        Unit of the file's coordinates: m, cm, mm, in, ft ...
     up : str
         The file's axis that points upwards: x, y, z, -x, -y or -z.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
     body_name : str, optional
-        Name of the body; that of the file when left out.
+        Name of the body, default the file name.
 
     Returns
     -------
@@ -109,7 +109,7 @@ def scan_body(
     Raises
     ------
     BodyError
-        If the file is no mesh, its surface is not closed, or what it encloses does not stand.
+        If the file is not a mesh, the surface is not closed, or the body has no stable pose.
     ParameterError
         If a number lies outside its range.
 

@@ -75,7 +75,7 @@ def load_scan(name: str | Path) -> ScannedBody:
     Raises
     ------
     BodyError
-        If there is no such body, something is missing or wrong, or it is of another kind.
+        If there is no such body, an entry is missing or invalid, or the kind is another.
 
     Examples
     --------

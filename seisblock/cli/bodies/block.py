@@ -62,12 +62,12 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     ----------
     params : mapping
         ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI, and ``kind``; ``restitution`` and ``inset``
-        override what a file brings along. None where not given. ``gal``: False where lengths are told in m.
+        override those of a file. None where not given. ``gal``: False for lengths in m in the description.
 
     Raises
     ------
     BodyError
-        If sizes and a named block are mixed, or something needed is missing.
+        If both sizes and a named block are given, or a required value is missing.
     """
     keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
     sizes = {key: params[key] for key in keys if params.get(key) is not None}

@@ -25,14 +25,14 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     Parameters
     ----------
     params : mapping
-        ``block`` and ``side``, or sizes, SI, and what else is to hold of that body; None where not given.
+        ``block`` and ``side``, or sizes, SI, and further parameters of the body; None where not given.
     solver : str
-        ``slide`` needs neither.
+        ``slide`` requires neither.
 
     Raises
     ------
     ParameterError
-        If sizes and a named body are mixed, or something needed is missing.
+        If both sizes and a named body are given, or a required value is missing.
 
     Examples
     --------

@@ -77,7 +77,7 @@ def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:
     Raises
     ------
     BodyError
-        If the body is not known, or nothing says how rough the ground is.
+        If the body is unknown, or no friction coefficient is given.
     """
     choice = choose_block({**params, "restitution": None})
     mu, kinetic, origin = params.get("mu"), params.get("mu_kinetic"), lazy_gettext("as given")

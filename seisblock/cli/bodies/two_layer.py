@@ -30,14 +30,14 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
     ----------
     params : mapping
         ``block``, ``side``, or ``width``, ``depth``, ``heights``, ``masses``; and ``mu``, ``mu_kinetic``, ``restitution_x``,
-        ``restitution_y``, which override those that a preset brings along. SI; None where not given.
+        ``restitution_y``, which override those of a preset. SI; None where not given.
     default : str
         Bundled body taken when neither a block nor sizes are given.
 
     Raises
     ------
     BodyError
-        If sizes and a named block are mixed, or something needed is missing.
+        If both sizes and a named block are given, or a required value is missing.
     """
     sizes = {key: params.get(key) for key in ("width", "heights", "masses")}
     given_sizes = [key for key, value in sizes.items() if value is not None]
