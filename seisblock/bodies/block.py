@@ -280,8 +280,8 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 def scale_block(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
     """Return a block with all lengths times `size`, and those along the motion also times `slenderness`.
 
-    A given mass is unchanged, otherwise it follows from the volume; a given inertia scales with the squared radius of gyration times
-    `size`.
+    A given mass is unchanged, otherwise it follows from the volume; a given inertia keeps its radius of gyration
+    times `size`.
     """
 
     def times(value: float | None, factor: float) -> float | None:

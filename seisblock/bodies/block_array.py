@@ -13,7 +13,7 @@ from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.bodies.uncertainty import Range
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray
 
-MOST_WORN = 0.8
+MAX_WEAR_SHARE = 0.8
 """Largest edge wear of an asymmetric block, a share of its smaller arm."""
 
 
@@ -137,7 +137,7 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
     return BlockArray(right, left, centre, gyration)
 
 
-def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
+def within(limits: Range, nominal: float, draws: FloatArray) -> FloatArray:
     """Map uniform draws in [-1, 1] to samples of a range whose median is the body's own value.
 
     The lower half of the draws maps uniformly to the interval from the smallest to the own value, the upper half to that up to the
@@ -148,8 +148,8 @@ def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
     >>> within((0.2, 0.7), 0.4, np.array([-1.0, -0.5, 0.0, 0.5, 1.0])).round(2).tolist()
     [0.2, 0.3, 0.4, 0.55, 0.7]
     """
-    low, high = min(known[0], own), max(known[1], own)
-    return own + np.where(draws < 0.0, own - low, high - own) * draws
+    low, high = min(limits[0], nominal), max(limits[1], nominal)
+    return nominal + np.where(draws < 0.0, nominal - low, high - nominal) * draws
 
 
 def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArray, worn: FloatArray) -> BlockArray:
@@ -184,7 +184,7 @@ def wear_within(block: Block, share: float) -> float:
     if block.centroid_offset == 0.0:
         return share
     smaller = 0.5 - abs(block.centroid_offset) / block.width
-    return min(share, max(MOST_WORN * smaller, block.inset / block.width))
+    return min(share, max(MAX_WEAR_SHARE * smaller, block.inset / block.width))
 
 
 def wear_range(block: Block, tolerance: float) -> Range:
@@ -201,14 +201,14 @@ def wear_range(block: Block, tolerance: float) -> Range:
     >>> [round(end, 3) for end in wear_range(Block(0.2, 0.6, inset=0.01, ranges=ParameterRanges(inset_m=(0.0, 0.02))), 0.1)]
     [0.0, 0.1]
     """
-    own = block.inset / block.width
-    most = MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own)
-    known = None if block.ranges is None else block.ranges.inset_m
-    if known is None or tolerance == 0.0:
-        half = min(tolerance * own, most)
-        return own - half, own + half
-    low, high = (end / block.width for end in known)
-    return min(low, own), max(own, min(high, own + most))
+    nominal = block.inset / block.width
+    max_change = MAX_WEAR_SHARE * (0.5 - abs(block.centroid_offset) / block.width - nominal)
+    limits = None if block.ranges is None else block.ranges.inset_m
+    if limits is None or tolerance == 0.0:
+        half = min(tolerance * nominal, max_change)
+        return nominal - half, nominal + half
+    low, high = (end / block.width for end in limits)
+    return min(low, nominal), max(nominal, min(high, nominal + max_change))
 
 
 def to_block_array(blocks: Sequence[Block]) -> BlockArray:

@@ -35,7 +35,7 @@ class EdgeWear:
 
     Examples
     --------
-    >>> EdgeWear(share=0.1).of(0.24)
+    >>> EdgeWear(share=0.1).inset(0.24)
     0.024
     """
 
@@ -90,7 +90,7 @@ def parse_edge_wear(text: str | float) -> EdgeWear:
     --------
     >>> parse_edge_wear("5%") == parse_edge_wear(0.05) == DEFAULT_WEAR
     True
-    >>> parse_edge_wear("1cm").of(0.24)
+    >>> parse_edge_wear("1cm").inset(0.24)
     0.01
     """
     match = _SHARE_PATTERN.match(to_halfwidth(text)) if isinstance(text, str) else None

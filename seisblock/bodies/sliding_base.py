@@ -80,7 +80,7 @@ class SlidingBase:
 
     @property
     def never_stops(self) -> bool:
-        """Whether kinetic friction never stops downhill sliding on the slope ([Fujino1978]_ eq. (14))."""
+        """True if kinetic friction never stops downhill sliding on the slope ([Fujino1978]_ eq. (14))."""
         return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
 

@@ -40,7 +40,8 @@ class SpringBlock:
     stiffness : (kx, ky, kz), N/m
         Stiffness of the springs at each corner.
     damping : float
-        Damping ratio, in [0, 1). Harmonic motion: the paper's modal h, equal in all modes; records: zeta of each corner dashpot, c = 2 zeta k / omega of its direction (derived here).
+        Damping ratio, in [0, 1). Harmonic motion: the paper's modal h, equal in all modes; records: zeta of each corner dashpot,
+        c = 2 zeta k / omega of its direction (derived here).
 
     Raises
     ------

@@ -147,7 +147,7 @@ def get_edge_wear(table: Mapping[str, Any]) -> EdgeWear:
     Examples
     --------
     >>> get_edge_wear({"inset": "1cm"}), get_edge_wear({"inset": 0.1}).share, get_edge_wear({}).share
-    (Inset(length_m=0.01, share=0.0), 0.1, 0.0)
+    (EdgeWear(length_m=0.01, share=0.0), 0.1, 0.0)
     """
     value = table.get("inset")
     return parse_edge_wear(value) if isinstance(value, str) else EdgeWear(share=get_number(table, "inset") or 0.0)

@@ -137,11 +137,11 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         raise BodyError("{source}: {why}", source=source_name(range_table), why=error.message) from error
 
 
-def _inset(told: Mapping[str, Any], end: Any, width: float | None) -> float:
+def _inset(table: Mapping[str, Any], end: Any, width: float | None) -> float:
     """Return one end of the inset range, m; percentages refer to the body's width."""
     if width is not None and isinstance(end, str) and "%" in end:
         return parse_edge_wear(end).inset(width)
-    return parse_length(end, quantity=lazy_gettext("{source}: {key}", source=source_name(told), key="inset"))
+    return parse_length(end, quantity=lazy_gettext("{source}: {key}", source=source_name(table), key="inset"))
 
 
 def _parse_pair(range_table: Mapping[str, Any]) -> list[Any]:

@@ -124,7 +124,7 @@ def body(
     from seisblock.bodies.scan.toml import scan_to_toml
     from seisblock.report.io.atomic import check_target, write_text
     from seisblock.report.json.body import document
-    from seisblock.report.text import body as shown
+    from seisblock.report.text import body as text_output
 
     if out is not None:
         if out.suffix.lower() != ".toml":
@@ -142,8 +142,8 @@ def body(
     write_results(
         document(scan_result, directions, step_deg=step, gravity=gravity),
         output,
-        tables=lambda: shown.tables(scan_result, directions, gal=output.gal),
-        csv=lambda path: shown.write_csv(path, directions),
+        tables=lambda: text_output.tables(scan_result, directions, gal=output.gal),
+        csv=lambda path: text_output.write_csv(path, directions),
         figure=lambda: _draw(scan_result),
     )
 

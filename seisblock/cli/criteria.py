@@ -57,7 +57,7 @@ def criteria(
     from seisblock.cli.write_results import write_results
     from seisblock.records import motion_of
     from seisblock.report.json.criteria import document
-    from seisblock.report.text import criteria as shown
+    from seisblock.report.text import criteria as text_output
     from seisblock.studies.criteria_comparison import compare_criteria
 
     choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
@@ -80,8 +80,8 @@ def criteria(
     write_results(
         document(cards, options, gravity=gravity),
         output,
-        tables=lambda: shown.tables(cards, gal=output.gal),
-        csv=lambda path: shown.write_csv(path, cards),
+        tables=lambda: text_output.tables(cards, gal=output.gal),
+        csv=lambda path: text_output.write_csv(path, cards),
         figure=lambda: _draw(cards, gal=output.gal),
     )
 

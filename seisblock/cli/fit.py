@@ -131,7 +131,7 @@ def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
     """
     from seisblock.cli.progress import progress
     from seisblock.report.json.fit import document
-    from seisblock.report.text import fit as shown
+    from seisblock.report.text import fit as text_output
     from seisblock.studies.fit.fit import fit_block
 
     observed = _read_outcomes(outcomes, source, params.pop("outcome"))
@@ -158,9 +158,9 @@ def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
     def csv(path: Path) -> None:
         from seisblock.report.io.atomic import write_table
 
-        write_table(path, *shown.csv_columns(result, observed))
+        write_table(path, *text_output.csv_columns(result, observed))
 
-    write_results(answer, output, tables=lambda: shown.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
+    write_results(answer, output, tables=lambda: text_output.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
 
 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:

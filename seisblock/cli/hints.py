@@ -81,10 +81,10 @@ def slide_hint(source: Source, mu: float, mu_kinetic: float | None, *, slips: bo
     """Yield the slenderness limit of pure sliding and the ``respond`` command line for other bodies."""
     if slips:
         kinetic = [] if mu_kinetic is None else ["--mu-kinetic", f"{mu_kinetic:g}"]
-        typed = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
+        command = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
         text = gettext(
             "Valid for objects that do not rock: b/h (half base over height of the centre of gravity) above {mu:g}. Other objects: {typed}",
             mu=mu,
-            typed=typed,
+            typed=command,
         )
         yield styled_line(text)

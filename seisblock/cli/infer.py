@@ -152,9 +152,9 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
 
 def _foreign_options(form: str, *, rigid: bool) -> list[str]:
     """Return the options of the other forms; gravity acts on rigid stones."""
-    own_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
-    of_forms = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
-    return [name for name in of_forms if name not in own_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
+    form_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
+    all_options = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
+    return [name for name in all_options if name not in form_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
 def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
@@ -244,12 +244,12 @@ def _infer_from_displacement(source: Source, output: Output, params: dict[str, A
     if params["slid"] is not None and params["mu"] is None:
         raise click.UsageError(gettext("friction required: --slid needs --mu (static coefficient), for example --mu 0.3"))
     observed = params["jumped"] if params["slid"] is None else params["slid"]
-    moves, document = _moving_object(source, params)
+    displacement_function, document = _moving_object(source, params)
     curves: list[tuple[Any, Any]] = []
     # a jump continues beyond the window in which rocking may start
     for record in load_records(source, keep_whole=params["jumped"] is not None):
         for motion in selected_motions(record, source):
-            displacement = moves(motion)
+            displacement = displacement_function(motion)
             with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
                 factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
             curves.append((record, factors))
@@ -285,9 +285,13 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     gravity = params["gravity"]
     if params["slid"] is not None:
         base = SlidingBase(params["mu"], params["mu_kinetic"])
-        moves = partial(study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"])
+        displacement_function = partial(
+            study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"]
+        )
         frictions = {"mu": params["mu"], "mu_kinetic": params["mu_kinetic"]}
-        return moves, partial(slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions)
+        return displacement_function, partial(
+            slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions
+        )
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     choice = two_layer_choice(params, default=DEFAULT_BLOCK)
@@ -296,5 +300,9 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
         info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")
     body: dict[str, Any] = {"contact": choice.contact, "flight_only": params["flight_only"]}
     body |= {key: params[key] for key in ("spin", "landing", "first")}
-    moves = partial(study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body)
-    return moves, partial(jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body)
+    displacement_function = partial(
+        study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body
+    )
+    return displacement_function, partial(
+        jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body
+    )

@@ -82,7 +82,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **pa
     from seisblock.cli.hints import jump_hint
     from seisblock.models.jump.solve import solve_jump
     from seisblock.report.json.jump import document
-    from seisblock.report.text import jump as shown
+    from seisblock.report.text import jump as text_output
 
     if repeat and params["first"]:
         raise click.UsageError(gettext("--first and --repeat (the default) exclude each other: give only one of them"))
@@ -103,7 +103,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **pa
         output,
         responses=responses,
         tables=lambda: chain(
-            shown.tables(responses, gal=output.gal, tenon=tenon),
+            text_output.tables(responses, gal=output.gal, tenon=tenon),
             jump_hint(source, params, DEFAULT_BLOCK, choice.block, choice.contact, tenon),
         ),
     )

@@ -116,7 +116,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.report.io.atomic import check_distinct_outputs
     from seisblock.report.io.suffix import check_text_suffix
     from seisblock.report.json.map import document
-    from seisblock.report.text import map as shown
+    from seisblock.report.text import map as text_output
     from seisblock.studies.map.stations import survey_stations
     from seisblock.studies.map.surveyed_places import compare_surveys, read_surveys
 
@@ -131,13 +131,13 @@ def map(  # noqa: A001 - the command's name
     model = _station_model(cemetery, params, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
         info("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
-    reading = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+    read_options = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
     with progress("stations") as advance:
         stations = survey_stations(
             source.record or (REAL_SAMPLE,),
             model,
             preparation=make_preparation(source, source.component),
-            read_options=reading,
+            read_options=read_options,
             strict=source.strict,
             workers=workers,
             progress=advance,
@@ -168,14 +168,14 @@ def map(  # noqa: A001 - the command's name
         write_table(path, list(rows[0]), (list(row.values()) for row in rows))
 
     def figure() -> Any:
-        from seisblock.report.figures.stations import figure as drawn
+        from seisblock.report.figures.stations import figure as make_figure
 
-        return drawn(stations, model, gal=output.gal, surveys=surveys)
+        return make_figure(stations, model, gal=output.gal, surveys=surveys)
 
     def tables() -> Iterator[Any]:
-        yield from shown.tables(stations, model, gal=output.gal)
+        yield from text_output.tables(stations, model, gal=output.gal)
         if surveys:
-            yield from shown.survey_tables(surveys)
+            yield from text_output.survey_tables(surveys)
 
     result = document(stations, model, surveys, upstairs=source.floor is not None)
     write_results(result, output, tables=tables, csv=table, figure=figure)
@@ -235,5 +235,11 @@ def _station_body(
     info("body: {says}", says=placement.name)
     default_runs = DEFAULT_RUNS if model.chance is not None else 0
     return StationBody(
-        placement.body, placement.options, vertical, default_runs if runs is None else runs, seed, solver=solver, label=placement.name
+        placement.body,
+        placement.options,
+        vertical,
+        default_runs if runs is None else runs,
+        seed,
+        solver=solver,
+        label=placement.name,
     )

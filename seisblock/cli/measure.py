@@ -93,7 +93,7 @@ def measure(
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.write_results import write_results
     from seisblock.measures import Conventions
-    from seisblock.measures import measure as measured
+    from seisblock.measures import measure as compute_measures
     from seisblock.report.json.measure import document
     from seisblock.report.units_display import acceleration_unit
 
@@ -102,7 +102,9 @@ def measure(
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=THRESHOLD_SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
     records = load_records(source, vertical_counts=True, use_recording=True)
-    answers = [measured(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
+    answers = [
+        compute_measures(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records
+    ]
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
     def make_tables() -> Any:

@@ -179,9 +179,9 @@ def overturn_rate(
     answer = document(results, curve, parameters, citations=method.citations, warnings=warnings)
 
     def tables() -> Any:
-        from seisblock.report.text.overturn_rate import tables as shown
+        from seisblock.report.text.overturn_rate import tables as text_output
 
-        return shown(stones, results, curve, gal=output.gal, confidence=method.confidence)
+        return text_output(stones, results, curve, gal=output.gal, confidence=method.confidence)
 
     def figure() -> Any:
         from seisblock.report.figures.cemetery import overturn_rate_figure

@@ -52,16 +52,16 @@ class Task:
         """Set the completed and the total number."""
         self.completed, self.total = completed, total
 
-    def told(self) -> str:
+    def count_text(self) -> str:
         """Return the progress as text."""
         if self.total is None:
             return ""
-        count_text = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
+        count = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
         elapsed = time.monotonic() - self.started
         return (
-            count_text
+            count
             if elapsed < SHOW_DELAY_S or not self.completed
-            else gettext("{counted}, {rate:.3g} per s", counted=count_text, rate=self.completed / elapsed)
+            else gettext("{counted}, {rate:.3g} per s", counted=count, rate=self.completed / elapsed)
         )
 
 
@@ -125,9 +125,9 @@ class StatusLine:
         if self._bar is None or self._displayed != (work.text, has_total):
             self._clear()
             self._bar, self._displayed = _make_bar(has_total=has_total), (work.text, has_total)
-            self._bar.add_task(work.text, total=work.total, told=work.told())
+            self._bar.add_task(work.text, total=work.total, count=work.count_text())
             self._bar.start()
-        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.completed, total=work.total, told=work.told())
+        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.completed, total=work.total, count=work.count_text())
         self._bar.refresh()
 
     def _clear(self) -> None:
@@ -197,7 +197,7 @@ def _make_bar(*, has_total: bool) -> Bar:
 
     from seisblock.report.text.tables import console
 
-    columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[told]}", markup=False)
+    columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[count]}", markup=False)
     clock = TimeRemainingColumn() if has_total else TimeElapsedColumn()
     screen = console(stderr=True)
     return Progress(*columns, clock, console=screen, transient=True, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)

@@ -65,7 +65,7 @@ def respond(
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
     from seisblock.report.json.respond import document
-    from seisblock.report.text import respond as shown
+    from seisblock.report.text import respond as text_output
     from seisblock.studies.respond.probability import ParameterVariation, respond_probability
 
     widths = pop_spreads(params, *VARIED_PARAMETERS)
@@ -98,7 +98,7 @@ def respond(
         output,
         responses=responses,
         figure=azimuth_figure(responses, extras, gal=output.gal),
-        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
     )
 
 

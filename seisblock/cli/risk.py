@@ -93,14 +93,14 @@ def risk(output: Output, hazard: Path, years: float, stood: float | None, **para
     risks = [(fragility, find_risk(fragility.curve, site, years=years, stood_years=stood)) for fragility in curves]
 
     def tables() -> Any:
-        from seisblock.report.text.risk import tables as shown
+        from seisblock.report.text.risk import tables as text_output
 
-        return shown(risks, site, gal=output.gal)
+        return text_output(risks, site, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.report.figures.risk import figure as drawn
+        from seisblock.report.figures.risk import figure as make_figure
 
-        return drawn(risks, site, gal=output.gal)
+        return make_figure(risks, site, gal=output.gal)
 
     def csv(path: Path) -> None:
         from seisblock.report.io.atomic import write_table

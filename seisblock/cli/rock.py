@@ -91,11 +91,11 @@ def rock(
     from seisblock.models.rock.outcome import friction_suffices
     from seisblock.models.rock.solve import solve_rock
     from seisblock.report.json.rock import document
-    from seisblock.report.text import rock as shown
+    from seisblock.report.text import rock as text_output
     from seisblock.studies.model_comparison import compare_models
     from seisblock.studies.rocking.margin import find_margin, flag_near_flip
     from seisblock.studies.rocking.perturb import Spread
-    from seisblock.studies.rocking.perturb import perturb as perturbed
+    from seisblock.studies.rocking.perturb import perturb as perturb_block
 
     if not margin:
         reject_without("--margin", ["margin_limit"])
@@ -123,7 +123,7 @@ def rock(
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or DEFAULT_RUNS
             with progress("samples {name}", name=motion.name) as advance:
-                extra["perturbation"] = perturbed(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
+                extra["perturbation"] = perturb_block(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
@@ -131,7 +131,7 @@ def rock(
         responses=responses,
         figure=azimuth_figure(responses, extras, gal=output.gal),
         tables=lambda: chain(
-            shown.tables(responses, extras, gal=output.gal, mu=mu),
+            text_output.tables(responses, extras, gal=output.gal, mu=mu),
             rock_hint(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
         ),
     )

@@ -26,7 +26,7 @@ from seisblock.report.io.atomic import check_target, read_table, write_table
 from seisblock.report.io.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.report.json.batch import document
 from seisblock.report.json.encode import to_json
-from seisblock.report.text import batch as shown
+from seisblock.report.text import batch as text_output
 from seisblock.studies.batch.cluster import connect
 from seisblock.studies.batch.run import iter_record_rows, make_plan
 from seisblock.studies.batch.table import REASON, Row, batch_columns, row_cells
@@ -94,7 +94,7 @@ def run_batch(
     if as_json:
         print_result(to_json(document(tally, plan, str(out), notes)))
     else:
-        print_tables(shown.tables(tally, reasons))
+        print_tables(text_output.tables(tally, reasons))
     if not tally.answers:
         if out.exists():
             raise RecordError("no row has a result: {path} is unchanged", path=out)
@@ -212,8 +212,8 @@ def _check_files(out: Path) -> None:
 def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkpoint]:
     """Open the journal of a batch under a file lock: a resumed or a new one."""
     identity = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
-    reading = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
-    purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + reading).encode(errors="surrogatepass")).hexdigest()}
+    read_identity = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
+    purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + read_identity).encode(errors="surrogatepass")).hexdigest()}
     is_resumed = resume and path.exists()
     with lock_checkpoint(path):
         journal = Checkpoint.resume(path, purpose) if is_resumed else Checkpoint.begin(path, purpose)

@@ -27,7 +27,7 @@ from seisblock.report.exports.openquake import nrml
 from seisblock.report.exports.pelicun import pelicun_metadata, pelicun_rows
 from seisblock.report.io.atomic import check_distinct_outputs, write_records, write_table, write_text
 from seisblock.report.json.fragility import document
-from seisblock.report.text import fragility as shown
+from seisblock.report.text import fragility as text_output
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -87,15 +87,15 @@ def run_study(
     _write_exports(study, params)
 
     def figure() -> Any:
-        from seisblock.report.figures.fragility import figure as drawn
+        from seisblock.report.figures.fragility import figure as make_figure
 
-        return drawn(study, gal=output.gal, compare=comparison)
+        return make_figure(study, gal=output.gal, compare=comparison)
 
     write_results(
         document(study, placed_bodies, parameters, compare=comparison, notes=left_out),
         output,
-        tables=lambda: shown.tables(study, gal=output.gal, compare=comparison),
-        csv=lambda path: write_table(path, *shown.csv_columns(study)),
+        tables=lambda: text_output.tables(study, gal=output.gal, compare=comparison),
+        csv=lambda path: write_table(path, *text_output.csv_columns(study)),
         figure=figure,
     )
 
@@ -118,9 +118,11 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
         for name, value in (("--suite", params["suite"]), ("--suite-out", params["suite_out"])):
             if value is not None:
                 raise ParameterError("RECORD and {name} exclude each other: give only one of them", name=name)
-        reading = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+        read_options = ReadOptions(
+            source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level
+        )
         with progress("reading the records"):
-            records, left_out = read_suite(source.record, reading, strict=source.strict)
+            records, left_out = read_suite(source.record, read_options, strict=source.strict)
         return records, left_out, None
     suite: str = params["suite"] or DEFAULT_SUITE
     with progress("generating synthetic records"):

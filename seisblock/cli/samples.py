@@ -31,15 +31,15 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
     NAME is a file name, or its beginning up to the first dot. All commands accept the name of a sample in place of a file.
     """
-    from seisblock.report.text import samples as shown
+    from seisblock.report.text import samples as text_output
 
     directory = None
     if target is not None:
         directory, name = _destination(target, name)
-    selection = shown.select_samples(name)
+    selection = text_output.select_samples(name)
     with quiet_output(quiet):
         if directory is not None:
-            paths = shown.copy_samples(selection, directory, overwrite=overwrite)
+            paths = text_output.copy_samples(selection, directory, overwrite=overwrite)
             for path in paths:
                 info("wrote {path}", path=path)
             if not paths:
@@ -50,7 +50,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
         print_result(to_json(samples_document(selection, directory)))
     elif directory is None:
-        print_tables(shown.sample_lines(selection))
+        print_tables(text_output.sample_lines(selection))
 
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:

@@ -127,7 +127,7 @@ def _run_single(
     from seisblock.models.slide.solve import solve_slide
     from seisblock.records import motion_of
     from seisblock.report.json.slide import document
-    from seisblock.report.text import slide as shown
+    from seisblock.report.text import slide as text_output
     from seisblock.studies.sliding import slide_study, worst_directions
 
     base_options = {name: value for name, value in single.items() if name != "vertical"}
@@ -149,7 +149,7 @@ def _run_single(
         output,
         responses=responses,
         tables=lambda: chain(
-            shown.tables(responses, sweep, gal=output.gal),
+            text_output.tables(responses, sweep, gal=output.gal),
             slide_hint(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
         ),
     )
@@ -161,7 +161,7 @@ def _run_study(
     """Solve all combinations of parameters."""
     from seisblock.report.io.atomic import write_table
     from seisblock.report.json.slide import study_document
-    from seisblock.report.text import slide_study as shown
+    from seisblock.report.text import slide_study as text_output
     from seisblock.studies.sliding import slide_study, worst_directions
 
     points = []
@@ -185,8 +185,8 @@ def _run_study(
     write_results(
         study_document(parameters, pairs, warnings),
         output,
-        tables=lambda: shown.tables(records, points, gal=output.gal),
-        csv=lambda path: write_table(path, *shown.study_csv(records, points)),
+        tables=lambda: text_output.tables(records, points, gal=output.gal),
+        csv=lambda path: write_table(path, *text_output.study_csv(records, points)),
         figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal),
     )
 

@@ -166,7 +166,7 @@ def spectrum(
     _reject_options(kind, {"mu": mu})
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import document
-    from seisblock.report.text import spectrum as shown
+    from seisblock.report.text import spectrum as text_output
 
     diagonals = default_sizes(steps) if diagonals is None else diagonals
     alphas = default_slendernesses(steps) if alphas is None else alphas
@@ -175,8 +175,8 @@ def spectrum(
     write_results(
         document(spectra, kind, options, gravity=gravity),
         output,
-        tables=lambda: shown.tables(spectra, kind, _wear_note(inset)),
-        csv=lambda path: shown.write_csv(path, spectra),
+        tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
+        csv=lambda path: text_output.write_csv(path, spectra),
         figure=lambda: _draw(spectra, kind, gravity),
     )
 
@@ -217,7 +217,7 @@ def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import sliding_document
-    from seisblock.report.text import sliding_spectrum as shown
+    from seisblock.report.text import sliding_spectrum as text_output
     from seisblock.studies.sliding import slide_study
 
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
@@ -229,8 +229,8 @@ def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float
     write_results(
         sliding_document(curves, gravity=gravity, vertical=vertical),
         output,
-        tables=lambda: shown.tables(curves),
-        csv=lambda path: shown.write_csv(path, curves),
+        tables=lambda: text_output.tables(curves),
+        csv=lambda path: text_output.write_csv(path, curves),
         figure=lambda: _draw_sliding(curves),
     )
 
@@ -249,7 +249,7 @@ def _run_modes(
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import modes_document
-    from seisblock.report.text import mode_map as shown
+    from seisblock.report.text import mode_map as text_output
     from seisblock.studies.respond.mode_map import mode_map
 
     all_motions = [motion for record in load_records(source) for motion in selected_motions(record, source)]
@@ -264,8 +264,8 @@ def _run_modes(
     write_results(
         modes_document(maps, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical is not False),
         output,
-        tables=lambda: shown.tables(maps, _wear_note(inset)),
-        csv=lambda path: shown.write_csv(path, maps),
+        tables=lambda: text_output.tables(maps, _wear_note(inset)),
+        csv=lambda path: text_output.write_csv(path, maps),
         figure=lambda: _draw_modes(maps),
     )
 

@@ -227,7 +227,7 @@ def _run_records(source: Source, output: Output, body: Pile, contact: Any, width
     from seisblock.models.stack.solve import solve_stack
     from seisblock.readers._memory import trim_heap
     from seisblock.report.json.stack import document
-    from seisblock.report.text import stack as shown
+    from seisblock.report.text import stack as text_output
     from seisblock.studies.model_comparison import compare_pile_models
     from seisblock.studies.respond.pile_probability import PileVariation, stack_probability
 
@@ -254,7 +254,7 @@ def _run_records(source: Source, output: Output, body: Pile, contact: Any, width
         document(responses, body, contact, extras),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
     )
 
 
@@ -272,7 +272,7 @@ def _run_study(
 ) -> None:
     from seisblock.cli.progress import progress
     from seisblock.report.json.stack import study_document
-    from seisblock.report.text import stack_criterion as shown
+    from seisblock.report.text import stack_criterion as text_output
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
     common: dict[str, Any] = {
@@ -303,8 +303,8 @@ def _run_study(
     write_results(
         study_document(study, rigid, record_levels, records, reinforced=reinforced, **study_options),
         output,
-        tables=lambda: shown.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
-        csv=lambda path: shown.write_csv(study, record_levels, path),
+        tables=lambda: text_output.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
+        csv=lambda path: text_output.write_csv(study, record_levels, path),
         figure=lambda: _draw(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
     )
 

@@ -29,21 +29,21 @@ def closest_name(name: str, candidates: Iterable[str]) -> str | None:
     Near are: the only candidate that begins with the name; a candidate within one typing error (two from eight letters on), see
     :func:`_edit_distance`; and the longest candidate with which the name begins.
     """
-    typed = name.lstrip("-").lower()
+    query = name.lstrip("-").lower()
     by_form: dict[str, str] = {}
     for candidate in candidates:
-        folded = candidate.lstrip("-").lower()
-        by_form.setdefault(folded, candidate)
-        by_form.setdefault(folded.partition(".")[0], candidate)  # a file by its name without suffix
-    if not typed or not by_form:
+        lower_name = candidate.lstrip("-").lower()
+        by_form.setdefault(lower_name, candidate)
+        by_form.setdefault(lower_name.partition(".")[0], candidate)  # a file by its name without suffix
+    if not query or not by_form:
         return None
-    matches = {candidate for form, candidate in by_form.items() if form.startswith(typed)}
+    matches = {candidate for form, candidate in by_form.items() if form.startswith(query)}
     if len(matches) == 1:
         return matches.pop()
-    distance, form = min((_edit_distance(typed, form), form) for form in by_form)
-    if distance <= (0 if len(typed) < MIN_TYPO_LENGTH else 1 if len(typed) < TWO_TYPO_LENGTH else 2):
+    distance, form = min((_edit_distance(query, form), form) for form in by_form)
+    if distance <= (0 if len(query) < MIN_TYPO_LENGTH else 1 if len(query) < TWO_TYPO_LENGTH else 2):
         return by_form[form]
-    words = [form for form in by_form if len(form) >= MIN_PREFIX_LENGTH and typed.startswith(form)]
+    words = [form for form in by_form if len(form) >= MIN_PREFIX_LENGTH and query.startswith(form)]
     return by_form[max(words, key=len)] if words else None
 
 

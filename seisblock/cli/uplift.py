@@ -89,7 +89,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     from seisblock.bodies.spring_factory import spring_block
     from seisblock.models.uplift.solve import solve_uplift
     from seisblock.report.json.uplift import document
-    from seisblock.report.text import uplift as shown
+    from seisblock.report.text import uplift as text_output
 
     harmonic_flags = [_option_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if params.pop(name) is not None]
     if harmonic_flags:
@@ -102,7 +102,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
         document(responses, body),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, gal=output.gal),
+        tables=lambda: text_output.tables(responses, gal=output.gal),
     )
 
 
@@ -110,7 +110,7 @@ def _run_harmonic(source: Source, output: Output, figure: int | None, params: di
     """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.uplift import harmonic_document
-    from seisblock.report.text import uplift_harmonic as shown
+    from seisblock.report.text import uplift_harmonic as text_output
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 
     if source.record:
@@ -134,8 +134,8 @@ def _run_harmonic(source: Source, output: Output, figure: int | None, params: di
     write_results(
         harmonic_document(regions),
         output,
-        tables=lambda: shown.tables(regions, all_rows=params["frequency_ratio"] is not None),
-        csv=lambda path: shown.write_csv(path, regions),
+        tables=lambda: text_output.tables(regions, all_rows=params["frequency_ratio"] is not None),
+        csv=lambda path: text_output.write_csv(path, regions),
         figure=lambda: _draw(regions, figure),
     )
 

@@ -29,7 +29,7 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
     Examples
     --------
     >>> def f(): ...
-    >>> [each.name for each in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
+    >>> [row.name for row in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
     ['runs', 'moved', 'vary_size', 'vary_azimuth', 'seed']
     """
     options = [

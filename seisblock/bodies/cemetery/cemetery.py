@@ -123,7 +123,7 @@ class Cemetery:
 
     @property
     def has_survey(self) -> bool:
-        """Whether the outcome of any stone is known."""
+        """True if the outcome of any stone is known."""
         return any(stone.fallen is not None for stone in self.stones)
 
     def share_above(self, height_over_width: float) -> float:

@@ -75,8 +75,8 @@ def read_cemetery(name: str | Path) -> Cemetery:
 
     The header names the columns: ``height_over_width``, or ``height`` and ``width`` (a unit in the name, ``height (cm)``,
     or in the cell, ``8sun``; metres without); and, where known, ``reinforced``, ``fallen``, ``azimuth_deg``, ``count``. Japanese
-    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) are accepted, too. Lines that begin with # are comments; those before the header are kept
-    as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are ignored.
+    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) are accepted, too. Lines that begin with # are comments; those before the
+    header are kept as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are ignored.
 
     Parameters
     ----------

@@ -131,13 +131,13 @@ def _check_floating(pile: PileLike, joints: list[Joint]) -> None:
 
 def _check_dowels(pile: PileLike, joints: list[Joint]) -> None:
     """Raise an error for a dowel between stones that do not touch."""
-    touching = {frozenset((joint.upper, joint.lower)) for joint in joints}
+    touching_pairs = {frozenset((joint.upper, joint.lower)) for joint in joints}
     dowelled_names: set[str] = set()
     for group in pile.dowels:
         if len(group) < 2:
             raise BodyError("a dowel connects at least two stones, found {group}", group=list(group) or lazy_gettext("none"))
         for lower, upper in pairwise(group):
-            if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching:
+            if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching_pairs:
                 raise BodyError("the dowel between {lower} and {upper} has no effect: these stones do not touch", lower=lower, upper=upper)
         repeated_names = dowelled_names & set(group)
         if repeated_names:

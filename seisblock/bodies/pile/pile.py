@@ -109,7 +109,7 @@ class Pile:
 
     @property
     def has_lower_kinetic_friction(self) -> bool:
-        """Whether any joint has kinetic friction below static friction."""
+        """True if any joint has kinetic friction below static friction."""
         return any(kinetic < static for static, kinetic in map(self.friction, (None, *self.stones)))
 
     def with_kinetic_friction(self, mu_kinetic: float) -> Pile:

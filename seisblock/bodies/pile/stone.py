@@ -119,7 +119,7 @@ class PileStone:
 
     @property
     def is_round(self) -> bool:
-        """Whether the stone is a cylinder."""
+        """True for a cylinder."""
         return self.shape == ROUND
 
     @property

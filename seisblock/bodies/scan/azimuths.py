@@ -65,7 +65,7 @@ def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, grav
     Examples
     --------
     >>> from seisblock.bodies.scan.toml import load_scan
-    >>> [round(each.slenderness_rad, 2) for each in scan_azimuths(load_scan("boulder"), step_deg=90.0)]
+    >>> [round(row.slenderness_rad, 2) for row in scan_azimuths(load_scan("boulder"), step_deg=90.0)]
     [0.22, 0.3, 0.26, 0.26]
     """
     checks.instance(body, ScannedBody)

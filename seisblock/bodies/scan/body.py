@@ -54,7 +54,7 @@ class ScannedBody:
     --------
     >>> base = ((0.1, 0.15), (-0.1, 0.15), (-0.1, -0.15), (0.1, -0.15))
     >>> box = ScannedBody("box", 240.0, 0.8, (0.0, 0.0, 0.4), ((16.0, 0.0, 0.0), (0.0, 14.0, 0.0), (0.0, 0.0, 5.0)), base)
-    >>> east, north = box.towards(90.0), box.towards(0.0)
+    >>> east, north = box.block_toward(90.0), box.block_toward(0.0)
     >>> round(east.width, 12), round(north.width, 12)
     (0.2, 0.3)
     """

@@ -104,7 +104,7 @@ def scan_body(
 
     Returns
     -------
-    Scanned
+    Scan
 
     Raises
     ------
@@ -115,8 +115,8 @@ def scan_body(
 
     Examples
     --------
-    >>> found = scan_body("boulder.ply")
-    >>> round(found.body.mass), round(found.body.towards(0.0).slenderness, 2)
+    >>> scan = scan_body("boulder.ply")
+    >>> round(scan.body.mass), round(scan.body.block_toward(0.0).slenderness, 2)
     (310, 0.22)
     """
     checks.positive("the density", density, "kg/m^3", error=BodyError)
@@ -157,7 +157,7 @@ def scan_body(
         except BodyError:
             return math.nan
 
-    body, tilt, touching = body_at_tolerance(contact_tolerance, inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
+    body, tilt, support_points = body_at_tolerance(contact_tolerance, inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
     return Scan(
         body,
         properties.volume,
@@ -165,7 +165,7 @@ def scan_body(
         contact_tolerance,
         tilt,
         len(mesh.faces),
-        touching,
+        support_points,
         properties.pieces,
         (float(size[0]), float(size[1]), float(size[2])),
         tuple((x, y) for x, y in convex_hull(mesh.vertices[:, :2]).tolist()),

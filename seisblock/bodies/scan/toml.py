@@ -80,7 +80,7 @@ def load_scan(name: str | Path) -> ScannedBody:
     Examples
     --------
     >>> body = load_scan("boulder")
-    >>> round(body.towards(90.0).slenderness, 2), round(body.with_wear(0.1).towards(90.0).slenderness, 2)
+    >>> round(body.block_toward(90.0).slenderness, 2), round(body.with_wear(0.1).block_toward(90.0).slenderness, 2)
     (0.26, 0.22)
     """
     return scan_from_table(read_body_toml(name))

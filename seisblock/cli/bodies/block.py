@@ -104,9 +104,9 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     )
 
 
-def refuse_kind(asked: Mapping[str, Any]) -> None:
+def refuse_kind(params: Mapping[str, Any]) -> None:
     """Raise an error for ``--kind`` with a body from a file, which has its own ranges."""
-    if asked.get("kind") is not None:
+    if params.get("kind") is not None:
         raise BodyError("--kind has no effect with --block: use --kind with --width and --height")
 
 
