@@ -12,7 +12,7 @@ import pytest
 from tests.lengths import all_but_slow
 
 ONE = (
-    "import sys; from seisblock import _jit; _jit.announce = lambda text: print(text, file=sys.stderr)\n"
+    "import sys; from seisblock import _jit; _jit.on_message = lambda text: print(text, file=sys.stderr)\n"
     "import numpy as np; from seisblock.dynamics.polynomial import evaluate, first_crossing\n"
     "print(evaluate(np.array([1.0, 2.0]), 1, 0.5))\n"
 )
@@ -66,8 +66,8 @@ def test_only_the_kernels_that_python_calls_are_kept(filled):
 def test_a_process_reads_only_the_kernels_that_python_calls(folder):
     """Machine code of a kernel holds that of the kernels it calls: with everything in the cache, two of them are made."""
     counted = (
-        f"{SCRIPT}import gc; from seisblock._jit.lazy import OnDemand\n"
-        "print(*sorted(k.__name__ for k in gc.get_objects() if isinstance(k, OnDemand) and k._compiled is not None))"
+        f"{SCRIPT}import gc; from seisblock._jit.lazy import LazyKernel\n"
+        "print(*sorted(k.__name__ for k in gc.get_objects() if isinstance(k, LazyKernel) and k._compiled is not None))"
     )
     environment = {**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)}
     done = subprocess.run([sys.executable, "-c", counted], env=environment, capture_output=True, text=True, check=True)
@@ -151,7 +151,7 @@ RACE = """
 import contextlib, threading
 from pathlib import Path
 import numba
-from seisblock._jit.cache import _numba_keeps_in
+from seisblock._jit.cache import _numba_cache_dir
 both, seen = threading.Barrier(2, timeout=0.5), {}
 
 def meet():
@@ -159,7 +159,7 @@ def meet():
         both.wait()
 
 def keep(name):
-    with _numba_keeps_in(Path(name)):
+    with _numba_cache_dir(Path(name)):
         meet()
         seen[name] = numba.config.CACHE_DIR
         meet()

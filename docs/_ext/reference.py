@@ -1,11 +1,12 @@
-"""The reference, made while the site is built from what the program says of itself.
+"""Reference pages generated from the program while the site is built.
 
-On a page a fence named `commands`, `documents`, `gallery`, `literature` or `names` (one public name a line) is replaced by what it
-stands for, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+A fence named `commands`, `documents`, `gallery`, `glossary`, `literature` or `names` (one public name per line) is replaced by the
+generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect
 import re
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -17,11 +18,11 @@ from sphinx.application import Sphinx
 import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.command import SECTIONS
-from seisblock.cli.help import paragraphs, help_rows
-from seisblock.report.json.registry import DOCUMENTS, json_schema
+from seisblock.cli.help import help_rows, paragraphs
 from seisblock.references import COMMAND_PAPERS, REFERENCES
+from seisblock.report.json.registry import DOCUMENTS, json_schema
 
-FENCE = re.compile(r"^```\{(commands|documents|gallery|literature|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
@@ -127,12 +128,12 @@ def literature(_: str) -> str:
     return "\n".join(("```{eval-rst}", entries, "```"))
 
 
-def names(listed: str) -> str:
+def names(name_list: str) -> str:
     """Return the public names of a list: a table, then each with its docstring."""
-    asked = listed.split()
+    public_names = name_list.split()
     head = ["```{eval-rst}", ".. currentmodule:: seisblock", "", ".. autosummary::", "   :nosignatures:", ""]
-    parts = [*head, *(f"   {name}" for name in asked), ""]
-    for name in asked:
+    parts = [*head, *(f"   {name}" for name in public_names), ""]
+    for name in public_names:
         value = getattr(seisblock, name)
         if inspect.ismodule(value):
             parts += [f".. automodule:: {value.__name__}", ""]
@@ -143,12 +144,41 @@ def names(listed: str) -> str:
     return "\n".join((*parts, "```"))
 
 
-MADE = {"commands": commands, "documents": documents, "gallery": gallery, "literature": literature, "names": names}
+GLOSSARY_GROUPS = {
+    "units": ("Units", "単位"),
+    "record": ("Record", "記録"),
+    "object": ("Object", "物体"),
+    "response": ("Response", "応答"),
+    "contact": ("Contact of stones", "石の接触"),
+}
+
+
+def glossary(language: str) -> str:
+    """Return the terms of ``glossary.toml``, grouped, with the other language and the module."""
+    japanese = language.strip() == "ja"
+    terms = tomllib.loads((DOCS / "glossary.toml").read_text(encoding="utf-8"))["term"]
+    lines = []
+    for group, headings in GLOSSARY_GROUPS.items():
+        lines.append(f"## {headings[japanese]}\n")
+        for term in (term for term in terms if term["group"] == group):
+            term_names = (term["ja"], term["en"]) if japanese else (term["en"], term["ja"])
+            lines += [f"{term_names[0]} ({term_names[1]})", f": {term['text_ja' if japanese else 'text']} `{term['module']}`\n"]
+    return "\n".join(lines)
+
+
+GENERATORS = {
+    "commands": commands,
+    "documents": documents,
+    "gallery": gallery,
+    "glossary": glossary,
+    "literature": literature,
+    "names": names,
+}
 
 
 def fill(app: Sphinx, page: str, source: list[str]) -> None:
     """Replace fences and keys of a page, outside of code."""
-    text = FENCE.sub(lambda found: MADE[found[1]](found[2]), source[0])
+    text = FENCE.sub(lambda match: GENERATORS[match[1]](match[2]), source[0])
     pieces = re.split(r"(^```.*?^```$|`[^`\n]+`)", text, flags=re.M | re.S)
     source[0] = "".join(piece if piece.startswith("`") else KEY.sub(r"{cite}`\1`", piece) for piece in pieces)
 

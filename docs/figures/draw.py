@@ -6,17 +6,17 @@ from pathlib import Path
 HERE = Path(__file__).parent
 INK, SOFT, ACCENT, PAPER = "#222", "#6b6b6b", "#c0392b", "#ffffff"
 
-FLOORS = (
-    ("cli", "thin shell: options, one library call, one way to show the answer"),
-    ("present", "what one sees: documents, text, figures, films, pages; one table of faces"),
-    ("validation", "the evidence: one module per paper, exporting CASES"),
-    ("studies", "many runs: rocking, cemetery, inverse, sliding, uplift regions"),
-    ("solvers | criteria", "one folder per model | closed forms"),
-    ("bodies | measures | readers", "what stands there | one number per record | how a file is read"),
-    ("results", "what a solver answers: phases, events, channels, responses"),
-    ("dynamics", "the engine, which knows no body; the one list of statuses and of array types"),
-    ("records", "what was measured: records, motions, and what may be done to them"),
-    ("ground floor", "units, samples, checks, errors, references, typing, showing, _jit: import nothing above"),
+LAYERS = (
+    ("cli", "options, one library call, one presentation"),
+    ("report", "JSON documents, text, figures, animation, HTML pages"),
+    ("validation", "evidence: one module per paper, exporting CASES"),
+    ("studies", "many runs: respond, rocking, survey, fragility, hazard, map, batch, fit"),
+    ("models | criteria", "one folder per model | closed forms"),
+    ("bodies | measures | readers", "body descriptions | one number per record | file formats"),
+    ("dynamics", "event-driven engine"),
+    ("records", "records, motions, processing, quality control"),
+    ("samples | references | _jit", "bundled files | bibliography | compiled kernels"),
+    ("core", "errors, units, messages, results, limits, safe input and output"),
 )
 
 
@@ -47,19 +47,19 @@ def page(width, height, parts, title):
 
 
 def architecture():
-    """Return the floors, the top one first, and the way that data takes."""
+    """Return the layers, top first, and the path of the data."""
     parts = []
-    for k, (name, what) in enumerate(FLOORS):
+    for k, (name, what) in enumerate(LAYERS):
         y = 20 + 58 * k
         shade = "#f3efe8" if k % 2 else "#faf7f2"
         parts.append(f'<rect x="20" y="{y}" width="640" height="50" rx="4" fill="{shade}" stroke="#bdb4a4"/>')
         parts.append(text(36, y + 21, name, weight="bold"))
         parts.append(text(36, y + 40, what, size=12.5, fill=SOFT))
-    bottom = 20 + 58 * len(FLOORS)
+    bottom = 20 + 58 * len(LAYERS)
     parts.append(f'<line x1="690" y1="40" x2="690" y2="{bottom - 24}" stroke="{INK}" stroke-width="1.5" marker-end="url(#tip)"/>')
     parts.append(text(704, 290, "imports", size=13, style='transform="rotate(90 704 290)"', anchor="middle"))
     parts.append(text(20, bottom + 24, "data:", size=13, weight="bold"))
-    way = ("file", "readers", "Record", "Motion + body", "solvers", "Response", "studies", "present", "cli")
+    way = ("file", "readers", "Record", "Motion + body", "models", "Response", "studies", "report", "cli")
     x = 66
     for k, stop in enumerate(way):
         wide = 7.4 * len(stop)
@@ -68,7 +68,7 @@ def architecture():
         if k < len(way) - 1:
             parts.append(f'<line x1="{x}" y1="{bottom + 20}" x2="{x + 17}" y2="{bottom + 20}" stroke="{ACCENT}" marker-end="url(#red)"/>')
             x += 23
-    return page(730, bottom + 44, parts, "The floors of seisblock")
+    return page(730, bottom + 44, parts, "Layers of seisblock")
 
 
 def leaning(x, y, width, height, degrees):

@@ -65,7 +65,7 @@ OF_BODIES = {
     "blocks of jump_many": (lambda body: sb.jump_many([body], MOTION, contacts=[sb.load_contact("chozusha")]), "TwoLayerBlock"),
     "contacts of jump_many": (lambda body: sb.jump_many([LAYERS], MOTION, contacts=[body]), "Contact"),
     "bodies of uplift_many": (lambda body: sb.uplift_many([body], MOTION), "SpringBlock"),
-    "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "Setting"),
+    "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "RespondParams"),
 }
 
 

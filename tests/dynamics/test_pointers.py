@@ -39,9 +39,9 @@ def test_a_model_that_has_been_followed_can_be_sent_to_another_process():
     here = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     script = (
         "import pickle, sys, numpy as np\n"
-        "from seisblock.dynamics import follow; from seisblock.records import Motion\n"
+        "from seisblock.dynamics import integrate; from seisblock.records import Motion\n"
         "model = pickle.loads(sys.stdin.buffer.read())\n"
-        "there = follow(model, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-3], [1.0, 0.0], 0)\n"
+        "there = integrate(model, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-3], [1.0, 0.0], 0)\n"
         "print(repr(there.end_time), there.n_events)"
     )
     done = subprocess.run([sys.executable, "-c", script], input=pickle.dumps(BALL), capture_output=True, check=True)

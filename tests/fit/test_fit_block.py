@@ -162,7 +162,7 @@ def test_what_makes_no_sense_is_refused(what, experiment):
 
 def test_what_is_no_outcome_is_refused():
     """Nor what is no motion."""
-    with pytest.raises(KindError, match="Observed is needed, found tuple"):
+    with pytest.raises(KindError, match="Observation is needed, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
     with pytest.raises(KindError, match="Motion is needed"):
         Observation("pulse.csv", True)

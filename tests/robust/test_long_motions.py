@@ -95,7 +95,7 @@ def test_many_blocks_turned_in_a_long_motion(in_stretches):
     whole = integrate_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
     in_stretches()
     parts = integrate_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
-    for field in ("final", "final_mode", "end_time", "extrema", "stays"):
+    for field in ("final", "final_mode", "end_time", "extrema", "dwell_times"):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
 
 

@@ -447,8 +447,8 @@ def test_what_a_killed_run_left_is_swept(tmp_path):
     """SIGKILL in the middle of a write leaves a hidden file: the next output there takes it away, but none that a living run holds."""
     fcntl = pytest.importorskip("fcntl")
     script = (
-        "import os, signal, sys\nfrom seisblock.report.io.atomic import replacing\n"
-        "with replacing(sys.argv[1]) as path:\n    path.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+        "import os, signal, sys\nfrom seisblock.report.io.atomic import atomic_write\n"
+        "with atomic_write(sys.argv[1]) as path:\n    path.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
     )
     killed = subprocess.run([sys.executable, "-c", script, str(tmp_path / "a.txt")], check=False)
     assert killed.returncode == -signal.SIGKILL and len(list(tmp_path.glob(".seisblock-*"))) == 1

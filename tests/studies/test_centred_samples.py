@@ -85,7 +85,7 @@ def test_nominal_body_is_the_median_of_its_samples(name):
     assert np.median(np.degrees(np.arctan2(-gains[:, 1], gains[:, 0]))) == pytest.approx(0.0, abs=0.2)
     rock = perturbed_rock_params(body, motion, Spread(), draws)
     nominal = perturbed_rock_params(body, motion, Spread(), np.zeros((1, 7)))
-    for field in ("alphas", "levers", "onto"):
+    for field in ("alphas", "levers", "restitutions"):
         np.testing.assert_allclose(np.median(getattr(rock, field), axis=0), getattr(nominal, field)[0], rtol=0.01)
 
 
