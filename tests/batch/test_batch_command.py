@@ -273,4 +273,4 @@ def test_a_pipe_is_no_table_to_go_on_with(folder, name):
     """Nobody would write into it."""
     os.mkfifo(folder / name)
     answer = run(LINE + " --resume")
-    assert answer.exit_code == 3 and answer.stderr.endswith("t.csv is no table that was begun: leave --resume out\n")
+    assert answer.exit_code == 3 and answer.stderr.endswith("t.csv is not an interrupted table: omit --resume\n")

@@ -139,8 +139,8 @@ def test_unmeasured_edges_scatter_more():
 @pytest.mark.parametrize(
     ("lines", "says"),
     [
-        ('width = ["50cm", "55cm"]', "width is 0.6 in the body, outside its range of 0.5 to 0.55"),
-        ('width = ["70cm", "50cm"]', "width is 0.6 in the body, outside its range"),
+        ('width = ["50cm", "55cm"]', "width of the body is 0.6, outside its range of 0.5 to 0.55"),
+        ('width = ["70cm", "50cm"]', "width of the body is 0.6, outside its range"),
         ('width = ["60cm"]', "width must be a list of 2 values"),
         ("mu = 0.3", "mu must be a list of 2 numbers"),
         ("weight = [1, 2]", "unknown entries weight"),

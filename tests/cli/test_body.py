@@ -141,7 +141,7 @@ def test_a_scan_is_not_written_over(tmp_path):
     assert done.exit_code == 3 and "is a file that is read" in done.stderr.replace("\n", " ")
     assert path.read_bytes() == before
     assert run("body", path, "--out", tmp_path / "none" / "box.toml").exit_code == 3
-    assert "written as .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
+    assert "must end in .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
 
 
 def test_without_trimesh_it_says_what_to_install(monkeypatch):

@@ -74,7 +74,7 @@ def test_what_has_nothing_to_do_is_refused_by_name(line, flag, tmp_path, monkeyp
 def test_a_body_of_one_block_has_no_long_side(line):
     """--side chose nothing of bodies that are no two-layer block, without a word."""
     done = CliRunner().invoke(main, shlex.split(line))
-    assert done.exit_code == 3 and "--side is of a two-layer --block" in done.stderr
+    assert done.exit_code == 3 and "--side has no effect: this body is not a two-layer --block" in done.stderr
 
 
 def test_a_form_of_infer_refuses_all_that_it_does_not_read():

@@ -165,7 +165,7 @@ def test_harmonic_table_as_csv(run, tmp_path):
     [
         ((), "--width is missing", 3),
         (("--width", 1), "--height is missing", 3),
-        (("--width", 1, "--height", 2), "the springs have no stiffness", 3),
+        (("--width", 1, "--height", 2), "spring stiffness required", 3),
         (("--width", 0, "--height", 2, "--frequency-vertical", 5), "width of the block must be positive", 3),
         (("--width", 1, "--height", -2, "--frequency-vertical", 5), "height of the block must be positive", 3),
         (("--width", 1, "--height", 2, "--frequency-vertical", 0), "vertical frequency must be positive", 3),
