@@ -91,7 +91,7 @@ def test_units(table, height):
         ("H/B,count\n2.5,inf\n", "line 2: count must be an integer"),
         ("H/B,azimuth\n2.5,NE\n", "line 2: azimuth_deg must be a number, found 'NE'"),
         ("H/B,azimuth\n2.5,nan\n", "line 2: azimuth of a gravestone must be a finite number"),
-        ("height,width\n60,24\n", r"line 2: width of 24 m is no gravestone \(without a unit it means metres"),
+        ("height,width\n60,24\n", r"line 2: width of 24 m is not plausible for a gravestone \(read as metres without a unit"),
         ("height (cm),width (cm)\n60,\n", "line 2: dimensions missing: height over width, or height and width, required; empty: width"),
         ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -24"),
         ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards' has the unknown unit 'yards'"),
@@ -115,7 +115,7 @@ def test_files_that_are_none(tmp_path, monkeypatch):
     for name, message in {
         "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled: aoyama.csv",
         "synthetic_jma.csv": "no cemetery file synthetic_jma.csv",
-        str(tmp_path): "is a directory",
+        str(tmp_path): "is a folder",
         "binary.csv": "no table of text",
         "latin.csv": "neither UTF-8 nor Shift-JIS",
     }.items():

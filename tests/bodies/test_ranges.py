@@ -132,7 +132,7 @@ def test_unmeasured_edges_scatter_more():
     wide, narrow = study.curves
     assert wide.dispersion.beta_parameter > 1.1 * narrow.dispersion.beta_parameter
     (note,) = (note for note in study.notes if note.startswith("any: its versions lie within its own ranges"))
-    assert "edges 0 to 0.02424 m in" in note
+    assert "edges worn by 0 to 0.02424 m" in note
     assert not any("one: its versions" in note for note in study.notes)
 
 

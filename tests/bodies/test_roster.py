@@ -51,7 +51,7 @@ def test_rows_may_take_a_body_from_elsewhere(tmp_path):
         ("width,height\n1,2\n", "line 1: column name required"),
         ("name,width,幅\na,1,2\n", "two columns mean width"),
         ("name,width (gal)\na,1\n", "gal"),
-        ("name,mu (cm)\na,1\n", "unit 'cm' of column 'mu (cm)' is not known; known: none"),
+        ("name,mu (cm)\na,1\n", "unit 'cm' of column 'mu .cm.' is not known; known: none"),
         ("name,width\na,wide\n", "line 2"),
         ("name,width\n,1\n", "line 2: the name of a body is empty"),
         ("name,width\na,1,2,3\n", "line 2: expected 2 cells"),
@@ -76,7 +76,7 @@ def test_what_is_no_table(tmp_path):
     for name in ("dir.csv", "image.csv", "gone.csv"):
         with pytest.raises(BodyError, match=name):
             read_bodies(tmp_path / name)
-    with pytest.raises(BodyError, match="no body was named"):
+    with pytest.raises(BodyError, match="body required"):
         read_bodies([])
 
 

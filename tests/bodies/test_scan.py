@@ -283,7 +283,7 @@ def test_a_motion_knows_its_azimuth():
     body, bare = load_scan("boulder"), Motion.from_arrays([0.0, 1.0], 0.01)
     assert body.block_for_motion(motion_of(record, "EW")) == body.block_toward(90.0)
     assert bare.azimuth_deg is None
-    with pytest.raises(ComponentError, match="another block in each direction"):
+    with pytest.raises(ComponentError, match="has other dimensions in each azimuth"):
         block_for_motion(body, bare)
     assert block_for_motion(load_block("gravestone"), bare) == load_block("gravestone")
 
@@ -399,7 +399,7 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
     both = write_ply(
         tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
     )
-    assert any("2 surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
+    assert any("2 separate surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
     stray = write_ply(tmp_path / "stray.ply", np.concatenate([vertices, [[0.0, 0.0, -9.0]]]), faces)
     assert scan_body(stray).body.height == pytest.approx(0.9, rel=EXACT)
 
@@ -431,7 +431,7 @@ def test_a_scan_that_is_described_wrongly_is_refused_in_words(change, told_so):
 
 def test_one_block_is_not_taken_for_a_scan():
     """Where one block for all directions is needed, a scan is refused with what is missing."""
-    with pytest.raises(BodyError, match="another block in each direction"):
+    with pytest.raises(BodyError, match="dimensions depend on the azimuth"):
         load_block("boulder")
-    with pytest.raises(BodyError, match='expected kind = "scan"'):
+    with pytest.raises(BodyError, match='kind must be "scan"'):
         load_scan("gravestone")

@@ -84,7 +84,7 @@ def test_files_are_written(folder, tmp_path):
     [
         (("FOLDER/S00.csv", *SHELF), "one record says nothing of how records differ"),
         (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
-        (("FOLDER", *SHELF, "--bodies", "gravestone"), "not both"),
+        (("FOLDER", *SHELF, "--bodies", "gravestone"), "exclude each other"),
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
         (("FOLDER", *SHELF, "--levels", "1,2"), "at no level, up to 2 kine: ask for higher levels"),
         (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine on: ask for lower levels"),

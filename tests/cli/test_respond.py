@@ -117,7 +117,7 @@ BAD = (
     ((*CABINET, "--restitution", "1"), "restitution"),
     ((*CABINET, "--rocking-restitution", "1.5"), "restitution"),
     ((*CABINET, "--centroid-offset", "30cm"), "above the base"),
-    ((*CABINET, "--surface", "granite/granite"), "not both"),
+    ((*CABINET, "--surface", "granite/granite"), "exclude each other"),
     (("--width", "45cm", "--height", "180cm", "--surface", "a/b"), "there are"),
     ((*CABINET, "--runs", "-1"), "runs"),
     ((*CABINET, "--moved", "0"), "positive"),

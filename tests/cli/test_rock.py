@@ -215,7 +215,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "24parsec", "--height", "1"], "unknown unit"),
         (["--width", "0.2"], "--height"),
         ([], "--width, --height missing"),
-        (["--block", "gravestone", "--width", "0.2"], "not both"),
+        (["--block", "gravestone", "--width", "0.2"], "exclude each other"),
         (["--block", "nowhere.toml"], "no body file"),
         (["--width", "0.2", "--height", "1", "--restitution", "1.2"], "[0, 1]"),
         (["--width", "0.2", "--height", "1", "--restitution", "-0.1"], "[0, 1]"),

@@ -164,7 +164,7 @@ def test_time_history_has_both_limits_of_each_event(tmp_path):
         (("--mu", "0.2", "--kappa", "1.2"), 3, "kappa"),
         (("--mu", "0.2", "--kappa", "0"), 3, "kappa"),
         (("--mu", "0.2", "--mu-kinetic", "0.3"), 3, "between 0 and mu"),
-        (("--mu", "0.2", "--mu-kinetic", "0.1", "--kappa", "0.5"), 3, "not both"),
+        (("--mu", "0.2", "--mu-kinetic", "0.1", "--kappa", "0.5"), 3, "exclude each other"),
         (("--mu", "0.2", "--slope", "90"), 3, "lie in (-90, 90)"),
         (("--mu", "0.2", "--slope", "15"), 3, "slides without any ground motion"),
         (("--mu", "0.1,0.2", "--slope", "15"), 3, "slides without any ground motion"),

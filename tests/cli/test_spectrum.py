@@ -74,7 +74,7 @@ def test_table_file_and_figure(run, tmp_path, kind):
         (["--sizes", "1,-2"], "size 2R must be positive"),
         (["--slenderness-rad", "20"], "below 1.571"),
         (["--height-over-width", "-3"], "height over width must be positive"),
-        (["--sizes", "1", "--frequency-parameter", "2"], "not both"),
+        (["--sizes", "1", "--frequency-parameter", "2"], "exclude each other"),
         (["--sizes", "1:2"], "range"),
         (["--restitution", "2"], "[0, 1]"),
         (["--mu", "0.2"], "means nothing"),

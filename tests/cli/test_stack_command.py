@@ -196,7 +196,7 @@ BAD = {
     "too coarse": (("--step", "0.01", "--law", "springs"), "too coarse"),
     "too coarse for rigid stones": (("--step", "0.1"), "will not do"),
     "rigid springs": (("--law", "rigid", "--young", "1e9"), "no springs"),
-    "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
+    "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "exclude each other"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
     "grid without study": (("--grid", "2"), "go with --criterion"),
     "step of the study": (("--criterion", "--step", "0.001"), "--step, --vertical and --across have no effect with --criterion"),

@@ -396,7 +396,7 @@ REFUSED = {
     "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv, .txt"),
     "a size of no figure": (["--size", "18x12"], "require --plot"),
     "dots of no figure": (["--dpi", "100"], "require --plot"),
-    "a slow motion of no film": (["--slow", "4"], "give --animate, too"),
+    "a slow motion of no film": (["--slow", "4"], "--slow requires --animate"),
 }
 
 
