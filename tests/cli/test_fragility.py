@@ -83,7 +83,7 @@ def test_files_are_written(folder, tmp_path):
     ("words", "says"),
     [
         (("FOLDER/S00.csv", *SHELF), "one record says nothing of how records differ"),
-        (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
+        (("FOLDER", "--solver", "rock"), "body required (--width, --height missing)"),
         (("FOLDER", *SHELF, "--bodies", "gravestone"), "exclude each other"),
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
         (("FOLDER", *SHELF, "--levels", "1,2"), "at no level, up to 2 kine: ask for higher levels"),
@@ -92,7 +92,7 @@ def test_files_are_written(folder, tmp_path):
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "knows no answer to the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are one file"),
-        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "how rough is it under the body?"),
+        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "friction required"),
     ],
 )
 def test_what_cannot_be_asked_is_a_sentence(words, says, folder):

@@ -111,7 +111,7 @@ def test_slide_says_which_bodies_rock_instead(monkeypatch):
 
 
 BAD = (
-    (("--width", "45cm", "--height", "180cm"), "how rough"),
+    (("--width", "45cm", "--height", "180cm"), "friction required"),
     ((*CABINET[:4], "--mu", "-0.1"), "mu|friction"),
     ((*CABINET, "--mu-kinetic", "0.5"), "kinetic"),
     ((*CABINET, "--restitution", "1"), "restitution"),
