@@ -92,7 +92,7 @@ def test_files_are_written(folder, tmp_path):
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "knows no answer to the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are one file"),
-        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "friction required"),
+        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "how rough is it under the body?"),
     ],
 )
 def test_what_cannot_be_asked_is_a_sentence(words, says, folder):

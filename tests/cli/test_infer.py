@@ -168,9 +168,9 @@ def test_files(run, survey):
 @pytest.mark.parametrize(
     ("words", "code", "message"),
     [
-        ((), 2, "give one of --cemetery"),
+        ((), 2, "exactly one of --cemetery"),
         (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery, --slid"),
-        (("--rate", "35/100"), 2, "give one of --cemetery"),
+        (("--rate", "35/100"), 2, "exactly one of --cemetery"),
         (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate requires --cemetery"),
         (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),
         (("--cemetery", "aoyama.csv", "--rate", "0.35"), 3, "write both numbers, for example 35/100"),

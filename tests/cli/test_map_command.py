@@ -159,7 +159,7 @@ def test_a_map_needs_a_place(tmp_path):
     words = ["--plot", str(tmp_path / "b.svg"), "--html", str(tmp_path / "b.html"), "--csv", str(tmp_path / "b.csv")]
     refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", *words])
     assert (refused.exit_code, list(tmp_path.glob("b.*"))) == (3, [])
-    assert "of no station it is known where it is" in refused.stderr
+    assert "no station has coordinates" in refused.stderr
 
 
 def test_surveys_stand_beside_stations(tmp_path):

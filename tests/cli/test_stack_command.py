@@ -188,20 +188,20 @@ def test_thinned_criterion_study(tmp_path):
 
 
 BAD = {
-    "no such file": (("--stones", "nothing.toml"), "bundled are"),
+    "no such file": (("--stones", "nothing.toml"), "bundled:"),
     "negative friction": (("--mu", "-0.1"), "friction"),
     "no such stone": (("--without", "nose"), "has no stone 'nose'"),
     "a stone stands on it": (("--without", "jodai"), "stands on 'jodai'"),
     "fixed unknown": (("--fix", "nose"), "'nose'"),
     "too coarse": (("--step", "0.01", "--law", "springs"), "too coarse"),
     "too coarse for rigid stones": (("--step", "0.1"), "will not do"),
-    "rigid springs": (("--law", "rigid", "--young", "1e9"), "no springs"),
+    "rigid springs": (("--law", "rigid", "--young", "1e9"), "have no effect with --law rigid"),
     "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "exclude each other"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
-    "grid without study": (("--grid", "2"), "go with --criterion"),
+    "grid without study": (("--grid", "2"), "require --criterion"),
     "step of the study": (("--criterion", "--step", "0.001"), "--step, --vertical and --across have no effect with --criterion"),
     "components of the study": (("--criterion", "--no-across"), "--step, --vertical and --across have no effect with --criterion"),
-    "damping of nothing": (("--damping", "0.1"), "goes with --young"),
+    "damping of nothing": (("--damping", "0.1"), "requires --young"),
     "vertical as direction": (("--component", "UD"), "vertical"),
 }
 
