@@ -112,7 +112,7 @@ def test_a_scan_without_azimuth_is_a_failure_of_its_row(stone, tmp_path):
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
     done = run("rock", record, "--block", stone)
-    assert done.exit_code == 3 and "dimensions depend on the azimuth" in done.stderr.replace("\n", " ")
+    assert done.exit_code == 3 and "has other dimensions in each azimuth" in done.stderr.replace("\n", " ")
 
 
 def test_every_direction_of_rock_and_respond(stone, tmp_path):

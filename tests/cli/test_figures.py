@@ -40,8 +40,8 @@ def test_size_and_resolution(drawn, words, pixels):
     [
         (("--size", "18"), "is not a width and a height, for example 18x12", 2),
         (("--size", "axb"), "a", 2),
-        (("--size", "1x1"), "a figure is between 4 cm and 120 cm", 2),
-        (("--size", "5mmx5mm"), "a figure is between 40 mm and 1200 mm", 2),
+        (("--size", "1x1"), "width and height of a figure must lie between 4 cm and 120 cm", 2),
+        (("--size", "5mmx5mm"), "width and height of a figure must lie between 40 mm and 1200 mm", 2),
         pytest.param(("--size", "85mmx60mm"), "do not fit into 85 mm x 60 mm", 3, marks=pytest.mark.slow),
         (("--size", "100x100", "--dpi", "1200"), "make it smaller", 3),
         (("--dpi", "0"), "is not in the range", 2),
