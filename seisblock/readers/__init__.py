@@ -1,4 +1,4 @@
-"""How a record is read: formats of JMA, NIED and PEER, plain tables, and whatever obspy knows."""
+"""Readers of strong-motion records: JMA, NIED, PEER and other formats, plain tables, and ObsPy formats."""
 
 from seisblock.readers.read import read, read_all
 from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE, Sample, list_samples, sample_path

@@ -1,4 +1,4 @@
-"""Numbers in columns of one width, as Fortran writes them: a line that lost a character is found by its length."""
+"""Fixed-width Fortran number columns; the line length reveals missing characters."""
 
 from __future__ import annotations
 
@@ -15,19 +15,18 @@ from seisblock.readers._header import MAX_COUNT
 from seisblock.readers.table.parse import raise_line_error
 
 DOS_EOF = "\x1a"
-"""What old systems end a text with."""
+"""End-of-file character of DOS text files."""
 
 _FORTRAN_FORMAT = re.compile(r"\(\s*(\d*)[FEGI](\d+)(?:\.\d+)?\s*\)", re.IGNORECASE)
 
 
 def parse_fortran_format(text: str) -> tuple[int, int] | None:
-    """Return how many numbers stand in a line and how wide each is, of a Fortran format, or None.
+    """Return numbers per line and field width of a Fortran format, or None.
 
     Examples
     --------
-    >>> parse_fortran_format("(8F10.3)"), parse_fortran_format("Format=(1E15.6)"), parse_fortran_format("(10I8)"),
-    ... parse_fortran_format("none")
-    ((8, 10), (1, 15), (10, 8), None)
+    >>> [parse_fortran_format(text) for text in ("(8F10.3)", "Format=(1E15.6)", "(10I8)", "none")]
+    [(8, 10), (1, 15), (10, 8), None]
     """
     match = _FORTRAN_FORMAT.search(text)
     per_line, width = (int(match[1] or 1), int(match[2])) if match else (0, 0)
@@ -35,31 +34,31 @@ def parse_fortran_format(text: str) -> tuple[int, int] | None:
 
 
 def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> FloatArray:
-    """Return numbers in columns of one width, (count,).
+    """Return fixed-width numbers, (count,).
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        File name, for messages.
     lines : sequence of str
-        Of the whole file.
+        Lines of the whole file.
     first : int
-        Index of the line in which they begin.
+        Index of the first line of numbers.
     count : int
-        How many the header promises.
+        Number of values stated by the header.
     layout : tuple of int
-        How many stand in a line, and how wide each is.
+        Numbers per line and field width.
 
     Raises
     ------
     RecordFormatError
-        If the file ends before them, a line holds more or fewer, or a cell is no number.
+        If the file is too short, a line has the wrong length, or a cell is not a number.
     """
     per_line, width = layout
     field_lines = lines[first : first + ceil(count / per_line)]
     if count < 1 or len(field_lines) * per_line < count:
         raise RecordFormatError(
-            "{name} is cut short: its header promises {count} numbers from line {line} on, and the file ends before them: fetch it again",
+            "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again",
             name=name,
             count=count,
             line=first + 1,
@@ -68,6 +67,7 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
     for row, text in enumerate(field_lines):
         line_count = min(per_line, count - row * per_line)
         line = text.rstrip()
+        # a lost or inserted character shifts all later fields of the line
         if len(line) != line_count * width:
             message = lazy_gettext(
                 "expected {count} numbers of {width} characters each, found {text!r}", count=line_count, width=width, text=line.strip()[:80]
@@ -79,7 +79,7 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
 
 
 def count_lines(count: int, layout: tuple[int, int]) -> int:
-    """Return how many lines so many numbers take.
+    """Return the number of lines occupied by `count` numbers.
 
     Examples
     --------
@@ -90,7 +90,6 @@ def count_lines(count: int, layout: tuple[int, int]) -> int:
 
 
 def _parse_field(name: str, line: int, cell: str) -> float:
-    """Return the number in a cell."""
     try:
         value = float(cell)
     except ValueError:
@@ -101,12 +100,12 @@ def _parse_field(name: str, line: int, cell: str) -> float:
 
 
 def parse_sample_count(name: str, line: int, text: str) -> int:
-    """Return a count of samples that a header tells.
+    """Return the number of samples stated by a header.
 
     Raises
     ------
     RecordFormatError
-        If it is none, or so few that nothing moves.
+        If the text is not a whole number, or below 2.
     """
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
         raise_line_error(name, line, lazy_gettext("expected the number of samples, found {text!r}", text=text.strip()[:40]))

@@ -1,4 +1,4 @@
-"""Small words that headers are made of: numbers that may be missing, times in Japan."""
+"""Header values: optional numbers and times in JST."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ JST = timedelta(hours=9)
 """Japan Standard Time ahead of UTC."""
 
 MAX_COUNT = 2.0**53
-"""No instrument counts further, and no file holds more samples."""
+"""Largest sample count or raw value accepted; beyond it float64 does not represent all integers."""
 
 
 def parse_number(text: str) -> float | None:
-    """Return a finite number, or None when the text is none."""
+    """Return a finite number, or None if the text is not one."""
     try:
         value = float(text)
     except ValueError:
@@ -22,7 +22,7 @@ def parse_number(text: str) -> float | None:
 
 
 def parse_jst(text: str) -> datetime | None:
-    """Return the UTC time of ``yyyy/mm/dd HH:MM:SS[.ff]`` JST, or None when the text is no time."""
+    """Return the UTC time of ``yyyy/mm/dd HH:MM:SS[.ff]`` JST, or None if the text is not a time."""
     for form in ("%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S"):
         try:
             return datetime.strptime(text.strip(), form).replace(tzinfo=UTC) - JST

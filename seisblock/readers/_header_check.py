@@ -1,4 +1,4 @@
-"""The peak that a header tells, held against the samples: the one test of a whole file that the file itself brings."""
+"""Check of the samples against the peak stated in the header."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.records import QCFlag
 
 
 def half_last_digit(text: str) -> float:
-    """Return half a unit of the last digit of a printed number.
+    """Return half a unit of the last printed digit of a number.
 
     Examples
     --------
@@ -22,33 +22,35 @@ def half_last_digit(text: str) -> float:
 
 
 def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str, slack: float) -> tuple[QCFlag, ...]:
-    """Return a doubt where the largest sample is not the peak that the header tells.
+    """Return a flag if the largest sample differs from the header peak.
 
     Parameters
     ----------
     code : str
-        Of the component.
+        Component code.
     peak_text : str
-        The peak as the header prints it, with its sign.
+        Peak as printed in the header, with sign.
     values : (n,) array
-        The samples, in the unit of the header.
+        Samples in the unit of the header.
     unit : str
-        Its name.
+        Name of the unit.
     slack : float
-        How far the two may lie apart, in this unit: the digits that both are printed to.
+        Tolerance in this unit, from the printed digits of both.
     """
     peak = parse_number(peak_text)
     if peak is None:
         text = lazy_gettext(
-            "{component}: the header's peak is no number ({text!r}): the samples cannot be checked", component=code, text=peak_text[:20]
+            "{component}: header peak {text!r} is not a number; peak of the samples not checked", component=code, text=peak_text[:20]
         )
         return (QCFlag("header", text, code),)
     extremes = np.array([values.max(), values.min()])
+    # both extremes when their sizes agree within the rounding: the header may state either
     largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
+    # 1e-6: rounding of the tolerance itself
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
     text = lazy_gettext(
-        "{component}: the header says that the peak is {told:g} {unit}, the samples reach {peak:g} {unit}",
+        "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}",
         component=code,
         told=peak,
         unit=unit,

@@ -1,4 +1,4 @@
-"""Places and times as English headers write them: degrees with the letter of the hemisphere, days in words, clocks of California."""
+"""Coordinates and times in English headers: hemisphere letters, dates, clocks of U.S. time zones."""
 
 from __future__ import annotations
 
@@ -13,17 +13,18 @@ _DATETIME = re.compile(
     r"(\d{1,4})/(\d{1,2})/(\d{1,4}),?\s*(\d{1,2}):\s?(\d{1,2})(?::\s?(\d{1,2}(?:\.\d+)?))?\s*([A-Z]{2,4})?", re.IGNORECASE
 )
 PIVOT_YEAR = 70
-"""Years of two digits from here on are of the 20th century."""
+"""Two-digit years from here on are of the 20th century."""
 
 
 def parse_coordinates(text: str) -> tuple[float | None, float | None]:
-    """Return latitude and longitude in a text, degrees north and east, None where it has none.
+    """Return latitude and longitude in a text, degrees north and east; None where missing.
 
     Examples
     --------
-    >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("Site X  42 31 12S  172 49 48E"),
-    ... parse_coordinates("none")
-    ((35.908, -120.458), (-42.52, 172.83), (None, None))
+    >>> parse_coordinates("STATION NO. 36456   35.908N, 120.458W     SMA-1"), parse_coordinates("none")
+    ((35.908, -120.458), (None, None))
+    >>> parse_coordinates("Site X  42 31 12S  172 49 48E")
+    (-42.52, 172.83)
     """
     degrees_by_letter: dict[str, float] = {}
     for degrees, minutes, seconds, letter in _SEXAGESIMAL.findall(text):
@@ -36,13 +37,13 @@ def parse_coordinates(text: str) -> tuple[float | None, float | None]:
 
 
 def parse_datetime(text: str) -> tuple[datetime | None, str]:
-    """Return the first moment in a text, UTC, and the clock that tells it; None without a day and an hour.
+    """Return the first time in a text, UTC, and the name of its clock; None without date and hour.
 
     Parameters
     ----------
     text : str
         ``05/02/83, 16:42:48.2 PDT``, ``7/06/19, 03:16: 8.0 UTC (GPS)``, ``2018/11/30 17:29:29 UTC``: month, day and year, or the year
-        first where it has four digits. A clock that is not known, or not told, is taken for UTC.
+        first if it has four digits. An unknown or missing clock is taken as UTC.
 
     Examples
     --------
@@ -54,6 +55,7 @@ def parse_datetime(text: str) -> tuple[datetime | None, str]:
     if match is None:
         return None, "UTC"
     clock = (match[7] or "UTC").upper()
+    # unknown abbreviations cannot be converted
     clock = clock if clock in UTC_OFFSETS else "UTC"
     first, second, third = (int(part) for part in match.group(1, 2, 3))
     year, month, day = (first, second, third) if len(match[1]) == 4 else (third, first, second)
@@ -62,7 +64,7 @@ def parse_datetime(text: str) -> tuple[datetime | None, str]:
 
 
 def utc_datetime(year: int, month: int, day: int, hour: int, minute: int, second: float, clock: str = "UTC") -> datetime | None:
-    """Return a moment that a clock tells, UTC, or None where there is no such time.
+    """Return the UTC time of a clock reading, or None if the date or time is invalid.
 
     Examples
     --------
@@ -71,6 +73,7 @@ def utc_datetime(year: int, month: int, day: int, hour: int, minute: int, second
     """
     try:
         local_time = datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=round(second, 6))
+        # seconds up to 61: leap seconds
         return local_time - UTC_OFFSETS.get(clock, timedelta(0)) if 0.0 <= second < 61.0 else None
     except (ValueError, OverflowError):
         return None

@@ -1,4 +1,4 @@
-"""Memory that a decoder in C has freed, given back to the system."""
+"""Return of freed heap memory to the operating system."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ import sys
 
 
 def trim_heap() -> None:
-    """Let go of what is free within the heap, where its library can (glibc).
+    """Call `malloc_trim(0)` on glibc.
 
-    A decoder takes a file apart into many small blocks. Freed, they stay with the process as long as anything lies above them, twelve
-    bytes of each sample of three components, and whatever is large is then taken from the system besides.
+    A decoder allocates many small blocks. Freed, they stay with the process as long as later blocks are in use (twelve bytes per sample of
+    three components), while large arrays are allocated in addition.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What lies in a .tar, .zip, or what gzip, bzip2 or xz packed: the files in it, however deeply packed, as far as the budget goes."""
+"""Extraction of members from zip, tar, gzip, bzip2 and xz files, nested archives included, within the read limits."""
 
 from __future__ import annotations
 
@@ -35,62 +35,63 @@ _DAMAGE_ERRORS = (
     ValueError,
     OSError,
 )
-"""What the packers of the standard library raise on archives that are cut, spoilt or encrypted."""
+"""Exceptions raised by the standard library on truncated, damaged or encrypted archives."""
 
 _DECOMPRESSORS: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
     (rb"\x1f\x8b", lambda stream: gzip.GzipFile(fileobj=stream)),
     (rb"BZh[1-9]1AY&SY", bz2.BZ2File),
     (rb"\xfd7zXZ\x00", lzma.LZMAFile),
 )
-"""How what was packed begins, and what unpacks it."""
+"""Magic bytes and opener of each compression format."""
 
 _TAR_MAGIC = slice(257, 262)
-"""Where a tar says that it is one."""
+"""Position of the tar magic ``ustar``."""
 
 
 def is_archive(data: bytes) -> bool:
-    """Return whether bytes are a zip or tar archive, or packed by gzip, bzip2 or xz."""
+    """Return whether bytes begin a zip or tar archive or a gzip, bzip2 or xz file."""
     return data.startswith((b"PK\x03\x04", b"PK\x05\x06")) or data[_TAR_MAGIC] == b"ustar" or _find_decompressor(data[:16]) is not None
 
 
 def _find_decompressor(head: bytes) -> Callable[[IO[bytes]], Any] | None:
-    """Return what unpacks bytes that begin so."""
     return next((opener for magic, opener in _DECOMPRESSORS if re.match(magic, head)), None)
 
 
 def list_members(blob: RawFile, budget: ReadBudget) -> list[RawFile]:
-    """Return the files in a bundle, see :func:`iter_members`."""
+    """Return the files in an archive, see :func:`iter_members`."""
     return list(iter_members(blob, budget))
 
 
 def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[RawFile]:
-    """Yield the files in a bundle, those in bundles within it too, without plots and without sparse members.
+    """Yield the files in an archive and in nested archives, without plots and sparse members.
 
     Parameters
     ----------
-    blob : Blob
-    budget : Budget
-        What may be unpacked; sizes that members declare are compared with it before anything is read.
+    blob : RawFile
+        Archive.
+    budget : ReadBudget
+        Read limits; declared member sizes are checked before reading.
     depth : int
-        How many archives this one lies in, itself included.
+        Nesting depth, 1 for an archive that is not inside another.
 
     Raises
     ------
     RecordFormatError
-        If it is damaged or encrypted.
+        If the archive is damaged or encrypted.
     RecordError
-        If it exceeds the budget.
+        If it exceeds a limit.
     """
     budget.check_nesting(blob.name, depth)
     members = _iter_archive(blob, budget)
     while True:
         try:
             member = next(members, None)
+        # errors of this package (limits, nested archives) keep their message
         except InputError:
             raise
         except _DAMAGE_ERRORS as error:
             raise RecordFormatError(
-                "{name} is a damaged or encrypted archive ({error}): fetch it again or unpack it first",
+                "{name}: archive damaged or encrypted ({error}); download it again or unpack it first",
                 name=blob.name,
                 error=str(error)[:200],
             ) from error
@@ -105,7 +106,7 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
 
 
 def _iter_archive(blob: RawFile, budget: ReadBudget) -> Iterator[RawFile]:
-    """Yield the members of one archive, named archive/member, none held but the one that is taken."""
+    """Yield the members of one archive, named archive/member, one at a time."""
     stream = io.BufferedReader(BytesReader(blob.content), MIB)
     head = blob.content[: _TAR_MAGIC.stop]
     packer = _find_decompressor(head)
@@ -118,7 +119,6 @@ def _iter_archive(blob: RawFile, budget: ReadBudget) -> Iterator[RawFile]:
 
 
 def _iter_zip(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterator[RawFile]:
-    """Yield the members of a zip."""
     with zipfile.ZipFile(stream) as archive:
         for info in archive.infolist():
             budget.check_member(name)
@@ -130,25 +130,26 @@ def _iter_zip(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterator[RawF
 
 
 def _iter_compressed(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterator[RawFile]:
-    """Yield what is packed, and the members of a tar, unpacked as they are taken and to the end, where its checksum stands."""
+    """Yield a decompressed file, or the members of a compressed tar."""
     with stream as decompressor:
         is_tar = decompressor.read(_TAR_MAGIC.stop)[_TAR_MAGIC] == b"ustar"
+        # only the head was read to recognise a tar
         decompressor.seek(0)
         if not is_tar:
             yield RawFile(re.sub(r"\.(?:gz|bz2|xz)\Z", "", name, flags=re.IGNORECASE), budget.read(name, decompressor))
             return
         limited_reader = LimitedReader(name, decompressor, budget)
         yield from _iter_tar(name, limited_reader, budget)
+        # read to the end, where the checksum of the compressed stream is verified
         while limited_reader.read(MIB):
             pass
 
 
 def _iter_tar(name: str, stream: Readable, budget: ReadBudget) -> Iterator[RawFile]:
-    """Yield the members of a tar, from its beginning to its end."""
     with tarfile.open(fileobj=stream, mode="r|", tarinfo=_StrictTarInfo) as archive:  # type: ignore[call-overload]
         for entry in archive:
             budget.check_member(name)
-            # a sparse member is mostly holes: no record, and its size is no measure of the archive's
+            # the size of a sparse member is unrelated to the bytes in the archive, and records are not sparse
             if not entry.isfile() or entry.issparse() or _PLOT_PATTERN.search(entry.name):
                 continue
             member_name = f"{name}/{entry.name.removeprefix('./')}"
@@ -159,7 +160,7 @@ def _iter_tar(name: str, stream: Readable, budget: ReadBudget) -> Iterator[RawFi
 
 
 class _StrictTarInfo(tarfile.TarInfo):
-    """The header of a member of a tar: one that is spoilt or cut is damage, and not the end of the archive."""
+    """Tar member header; an invalid or truncated header raises ReadError instead of ending the archive."""
 
     @classmethod
     def fromtarfile(cls, archive: tarfile.TarFile) -> _StrictTarInfo:

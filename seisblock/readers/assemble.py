@@ -1,4 +1,4 @@
-"""Which parts are one recording, and how they become one record."""
+"""Assembly of files or channels of one recording into one record."""
 
 from __future__ import annotations
 
@@ -12,45 +12,48 @@ from seisblock.records import Component, Record
 from seisblock.records.site import matches_station
 
 LEVELS = ("surface", "borehole")
-_COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
+_COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # other codes: before the vertical
 SYNCHRONOUS_FORMATS = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
-"""Formats whose components start together and end at will."""
+"""Formats whose components have a common start but may differ in length."""
 
 TRIM_TOLERANCE = 0.05
-"""How much longer than the shortest, relatively, such a component may be."""
+"""Largest relative excess in length over the shortest component that is trimmed."""
 
 
 def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
-    """Return the one record that parts make: of one station, level, start and sampling.
+    """Return one record from parts with a common station, level, start and sampling interval.
 
     Parameters
     ----------
     name : str
-        Of the source, for messages.
+        Source name, for messages.
     parts : sequence of Record
-        One or several components each, at least one part.
+        At least one part, with one or several components each.
     station : str or None
-        Station to take when the parts come from several.
+        Station to select if there are several.
     level : {"surface", "borehole"} or None
-        Sensor of a KiK-net station; None is the surface when there is one.
+        Sensor of a KiK-net station; None selects the surface sensor if present.
 
     Raises
     ------
     ComponentError
-        If the station or level is missing, or several stations leave the choice open.
+        If the station or level is missing, or there are several stations and none is selected.
     RecordError
-        If the parts are not one recording.
+        If the parts do not belong to one recording.
     """
     selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
-        raise RecordError("{name}: not one recording, the starts differ ({starts}): read these files one by one", name=name, starts=starts)
+        raise RecordError(
+            "{name}: start times differ ({starts}), so the files are not one recording; read them separately", name=name, starts=starts
+        )
     intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
         interval_texts = [f"{dt:g} s" for dt in intervals]
-        raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=interval_texts)
+        raise RecordError("{name}: sampling intervals differ ({found}); give the files of one recording", name=name, found=interval_texts)
     components = [c for part in selected_parts for c in part.components]
     history = dict.fromkeys(line for part in selected_parts for line in part.history)
+    # other formats with unequal lengths are rejected by Record
     if selected_parts[0].format in SYNCHRONOUS_FORMATS:
         components, trim_notes = _trim_to_shortest(components)
         history.update(dict.fromkeys(trim_notes))
@@ -68,7 +71,8 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
 
 
 def belongs_to_recording(parts: Sequence[Record], group_parts: Sequence[Record]) -> bool:
-    """Return whether the one component of a file belongs to the recording that other files began: same station and start (or event)."""
+    """Return whether a single-component file belongs to the recording of other files."""
+    # same station, start (or event), sampling interval and format, and a component that the group lacks
     if len(parts) != 1 or len(parts[0].components) != 1:
         return False
     part, first = parts[0], group_parts[0]
@@ -81,45 +85,46 @@ def belongs_to_recording(parts: Sequence[Record], group_parts: Sequence[Record])
 
 
 def _select_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
-    """Return the parts of one station."""
     stations = list(dict.fromkeys(p.station for p in parts))
     station_names = [s or lazy_gettext("(unnamed)") for s in stations]
     if station is not None:
         matching_parts = [p for p in parts if matches_station(p, station)]
         if not matching_parts:
-            raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=station_names)
+            raise ComponentError("{name}: no station {station!r}; available: {listed}", name=name, station=station, listed=station_names)
         return matching_parts
     if len(stations) > 1:
         raise ComponentError(
-            "{name} holds {count} stations: choose one with `station`: {listed}", name=name, count=len(stations), listed=station_names
+            "{name} contains {count} stations; select one with `station`: {listed}", name=name, count=len(stations), listed=station_names
         )
     return parts
 
 
 def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Sequence[Record], tuple[str, ...]]:
-    """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
+    """Return the parts of one KiK-net sensor and a history entry; parts of other networks are unchanged."""
     levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
     if level is not None and level not in LEVELS:
-        raise ComponentError("unknown level {level!r}: give surface or borehole", level=level)
+        raise ComponentError("unknown `level` {level!r}: expected surface or borehole", level=level)
     if not levels:
         if level == "borehole":
-            raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave `level` out", name=name)
+            raise ComponentError("{name}: no borehole sensor (KiK-net stations only); omit `level`", name=name)
         return parts, ()
     selected_level = level or ("surface" if "surface" in levels else "borehole")
     matching_parts = [p for p in parts if p.metadata.get("level") == selected_level]
     if not matching_parts:
-        raise ComponentError("{name} holds no {taken} components, only {levels}", name=name, taken=selected_level, levels=sorted(levels))
-    reason = lazy_gettext("as asked") if level else lazy_gettext("the default") if len(levels) > 1 else lazy_gettext("the only one given")
-    text = (
-        "took the surface sensor of the KiK-net station ({why})"
-        if selected_level == "surface"
-        else "took the borehole sensor of the KiK-net station ({why})"
+        raise ComponentError("{name}: no {taken} sensor; available: {levels}", name=name, taken=selected_level, levels=sorted(levels))
+    reason = (
+        lazy_gettext("selected by `level`")
+        if level
+        else lazy_gettext("default")
+        if len(levels) > 1
+        else lazy_gettext("only sensor in the files")
     )
+    text = "KiK-net surface sensor used ({why})" if selected_level == "surface" else "KiK-net borehole sensor used ({why})"
     return matching_parts, (lazy_gettext(text, why=reason),)
 
 
 def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
-    """Return components of one length when they differ a little at the end, and what was cut."""
+    """Return components trimmed to equal length if they differ slightly, and the history entries."""
     lengths = [c.acceleration.size for c in components]
     min_length = min(lengths)
     if max(lengths) == min_length or max(lengths) > (1.0 + TRIM_TOLERANCE) * min_length:
@@ -128,13 +133,15 @@ def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component],
     trimmed_components = [replace(c, acceleration=c.acceleration[:min_length]) for c in components]
     return trimmed_components, [
         lazy_gettext(
-            "cut all components to the shortest, {shortest} samples (the files hold {lengths})", shortest=min_length, lengths=length_texts
+            "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})",
+            shortest=min_length,
+            lengths=length_texts,
         )
     ]
 
 
 def _merge_metadata(parts: Sequence[Record]) -> dict[str, object]:
-    """Return what the headers say together; what each component has of its own is gathered."""
+    """Return merged header entries; dictionaries by component are combined."""
     metadata: dict[str, object] = {}
     for part in parts:
         for key, value in part.metadata.items():

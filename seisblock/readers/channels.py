@@ -1,4 +1,4 @@
-"""Channels of one file: a component each; of a structure that has many, those of one place are a station of their own."""
+"""Channels of a file as components; places in a structure as separate stations."""
 
 from __future__ import annotations
 
@@ -13,39 +13,39 @@ from seisblock.readers.directions import Direction
 from seisblock.records import Component, Record
 
 MAX_CHANNELS = 3
-"""Channels of one place on the ground: two horizontals and the vertical."""
+"""Channels of one sensor: two horizontals and the vertical."""
 
 _LABEL = re.compile(r"^(?:location)?[\s:,;-]*", re.IGNORECASE)
 
 
 def make_component(direction: Direction, values: FloatArray, name: str) -> tuple[Component, tuple[str, ...]]:
-    """Return a component, a vertical one positive up, and what the history says of it.
+    """Return a component, a vertical one positive up, and history entries.
 
     Parameters
     ----------
     direction : Direction
     values : (n,) array, m/s^2
     name : str
-        Of the direction, as the file has it.
+        Name of the direction in the file.
     """
     if direction.sign > 0:
         return Component(direction.code, values, direction.azimuth_deg), ()
-    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=name.strip()),)
+    history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=name.strip()),)
     return Component(direction.code, -values, direction.azimuth_deg), history
 
 
 def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> list[Record]:
-    """Return the channels of a file, each a record of one component; where they are a structure's, named after their places.
+    """Return one single-component record per channel; channels of a structure are named by their place.
 
-    Up to three channels of different directions are one station. More, or one direction twice, stand at several places: each place is then
-    called as a station of its own, so that one of them is chosen as a station of a bundle is, and its name tells where it is.
+    Up to three channels of different directions are one station. More channels, or two with one direction, are at several places: each
+    place becomes a station, named by the place and selected like a station of an archive.
 
     Parameters
     ----------
     parts : sequence of Record
-        ``metadata["channels"]`` numbers them, ``metadata["place"]`` says where they are.
+        ``metadata["channels"]`` has the channel numbers, ``metadata["place"]`` the place.
     structure : bool
-        Whether they are known to be a structure's, of which this file may hold a part.
+        True if the channels are known to be in a structure, possibly spread over several files.
     """
     codes = [part.codes[0] for part in parts]
     is_one_station = len(parts) <= MAX_CHANNELS and len(set(codes)) == len(parts)
@@ -55,6 +55,7 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
     counts = Counter(zip(places, codes, strict=True))
     result = []
     for part, place, code in zip(parts, places, codes, strict=True):
+        # two channels with one direction at one place are told apart by their number
         needs_number = not place or counts[place, code] > 1
         channels = part.metadata.get("channels")
         number = channels.get(code, "") if isinstance(channels, dict) else ""
@@ -66,7 +67,7 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
 
 
 def parse_location(text: str) -> str:
-    """Return where a channel is, from what follows its direction in a header.
+    """Return the location of a channel from the header text after its direction.
 
     Examples
     --------

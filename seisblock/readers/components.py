@@ -1,4 +1,4 @@
-"""One file of a set stands for the others beside it."""
+"""Companion files of the other components beside a component file."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _CHANNEL_NAMES = (
     # 0111a.smc, np01002p_4225b_a.smc
     re.compile(r"^(?P<before>.*\d)(?P<code>[A-Z])(?P<after>(?:_[ACPU])?\.SMC)\Z", re.IGNORECASE),
 )
-"""How files of one component each are named, in which one letter tells the component."""
+"""Names of single-component files in which one letter gives the component."""
 
 _SENSORS = {"borehole": "1", "surface": "2"}
 _COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 2}
 
 
 def load_component_files(blob: RawFile, budget: ReadBudget, level: str | None = None) -> list[RawFile]:
-    """Return a file and those beside it that are other components of the same set, in the order NS, EW, UD.
+    """Return a file and the other component files of its set in the same folder, in the order NS, EW, UD.
 
-    A KiK-net file brings those of its own sensor, or of the sensor that `level` names.
+    For KiK-net, the files of the same sensor or of the sensor `level`.
     """
     if blob.path is None:
         return [blob]
@@ -44,7 +44,7 @@ def load_component_files(blob: RawFile, budget: ReadBudget, level: str | None = 
 
 
 def knet_file_set(basename: str) -> tuple[str, int] | None:
-    """Return what the names of one K-NET or KiK-net station's files share, and how many there are, or None for any other name.
+    """Return common name stem and number of files of a K-NET or KiK-net station, or None for other names.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def knet_file_set(basename: str) -> tuple[str, int] | None:
 
 
 def channel_file_set(basename: str) -> str | None:
-    """Return what the names of files of one station share of which each holds a channel, or None for any other name.
+    """Return the common name pattern of the channel files of a station, or None for other names.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def channel_file_set(basename: str) -> str | None:
 
 
 def _load_channel_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile]:
-    """Return the files whose names differ in the letter of the channel only and whose headers tell the same recording."""
+    """Return the files whose names differ in the channel letter only and whose headers match."""
     own_set = channel_file_set(path.name)
     if own_set is None:
         return [blob]
@@ -77,7 +77,7 @@ def _load_channel_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[Raw
 
 
 def _recording_key(blob: RawFile) -> tuple[object, ...]:
-    """Return what the headers of the channels of one recording share: format, station, place and time."""
+    """Return the header entries common to the channels of a recording: format, station, place and time."""
     head = blob.content[:8192]
     text = head.decode("latin-1")
     if is_smc(head):
@@ -94,10 +94,11 @@ def _recording_key(blob: RawFile) -> tuple[object, ...]:
 
 
 def _load_knet_set(blob: RawFile, path: Path, level: str | None, budget: ReadBudget) -> list[RawFile]:
-    """Return the three files of one K-NET station, or of one sensor of a KiK-net station."""
+    """Return the three files of a K-NET station, or of one sensor of a KiK-net station."""
     match = _KNET_NAME.match(path.name)
     if match is None:
         return [blob]
+    # KiK-net suffixes: 1 borehole, 2 surface
     sensor = _SENSORS.get(level or "", match["sensor"]) if match["sensor"] else ""
     ranks = {f"{match['stem']}.{code}{sensor}".upper(): rank for code, rank in _COMPONENT_ORDER.items()}
     paths = {ranks[p.name.upper()]: p for p in _directory_files(path) if p.name.upper() in ranks and p.name.startswith(match["stem"])}
@@ -107,7 +108,7 @@ def _load_knet_set(blob: RawFile, path: Path, level: str | None, budget: ReadBud
 
 
 def _load_at2_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile]:
-    """Return the files whose names differ in the direction only and whose headers tell the same event and sampling."""
+    """Return the files whose names differ in the direction only and whose headers have the same event and sampling."""
     own_parts = split_direction(path.name)
     if own_parts is None:
         return [blob]
@@ -118,6 +119,7 @@ def _load_at2_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile
             continue
         candidate = _load_file(neighbour, blob, budget)
         if _at2_key(candidate) == _at2_key(blob):
+            # keyed by component: a duplicate direction replaces, the given file is checked below
             files_by_code[parse_orientation(other_parts[1])[0]] = blob if neighbour == path else candidate
     if not any(candidate.path == path for candidate in files_by_code.values()):
         return [blob]
@@ -125,14 +127,13 @@ def _load_at2_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile
 
 
 def _at2_key(blob: RawFile) -> tuple[bytes, bytes | None]:
-    """Return what the headers of one AT2 set share: title without direction, DT."""
+    """Return the header entries common to an AT2 set: title without direction, and DT."""
     lines = blob.content[:2000].splitlines()
     interval = re.search(rb"DT\s*=\s*0*([\d.]+)", blob.content[:2000])
     return (lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval[1].rstrip(b"0") if interval else None)
 
 
 def _directory_files(path: Path) -> list[Path]:
-    """Return the files of a directory, in order."""
     try:
         return sorted(p for p in path.parent.iterdir() if p.is_file())
     except OSError:
@@ -140,10 +141,9 @@ def _directory_files(path: Path) -> list[Path]:
 
 
 def _load_file(path: Path, origin: RawFile, budget: ReadBudget) -> RawFile:
-    """Return the bytes of a sibling."""
     if path == origin.path:
         return origin
     try:
         return RawFile(str(path), read_bytes(path, str(path), budget), path)
     except RecordError as error:
-        raise RecordError("{error}; it belongs to {name}", error=error.message, name=origin.name) from error
+        raise RecordError("{error} (component file of the same set as {name})", error=error.message, name=origin.name) from error

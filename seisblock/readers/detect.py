@@ -1,4 +1,4 @@
-"""Which format some bytes are in: content decides, never the name."""
+"""Format detection by content."""
 
 from __future__ import annotations
 
@@ -26,19 +26,21 @@ _DETECTORS = (
     (esm.is_esm, esm.FORMAT),
     (at2.is_at2, at2.FORMAT),
 )
-"""What tells a format by its first bytes, the most particular first."""
+"""Tests of the first bytes for each format, the most specific first."""
 
 
 def detect_format(blob: RawFile) -> str:
-    """Return ``BUNDLE``, a format of ours, or ``OBSPY`` for whatever else there is."""
+    """Return ``BUNDLE`` for an archive, the name of a format read here, or ``OBSPY`` for anything else."""
     head = blob.content[:4096]
     if archive.is_archive(head):
         return ARCHIVE
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        # an even number of bytes: UTF-16 code units
         head = head[:4094].decode("utf-16", "replace").encode()
     for is_format, name in _DETECTORS:
         if is_format(head):
             return name
+    # GSE files are text: recognised before the test for tables
     if obspy.is_gse(head):
         return OBSPY
     try:

@@ -1,4 +1,4 @@
-"""Which direction a word means: a compass point, an azimuth, an axis, a SEED code."""
+"""Directions of components from names: compass points, bearings, azimuths, axes, SEED codes."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _FILLER_WORDS = re.compile(
     r"|(?<!\d)(?:加速度|成分|方向|波形|向き)(?!\s*\d)|(?<=[北西下直nsewudzxy])動$",
     re.IGNORECASE,
 )
-"""What stands around a direction and tells none."""
+"""Words next to a direction that carry no direction."""
 
 _QUADRANT = re.compile(r"([NS])(\d{1,2}(?:\.\d+)?)([EW])", re.IGNORECASE)
 _DEGREES = re.compile(r"(?:az(?:imuth)?)?(\d{1,3}(?:\.\d+)?)(deg(?:rees?)?|°|度)?", re.IGNORECASE)
@@ -48,15 +48,15 @@ class Direction:
     Parameters
     ----------
     code : str
-        ``NS``, ``EW``, ``UD``; the azimuth in degrees (``164``); else the name of an axis whose azimuth is not known.
+        ``NS``, ``EW``, ``UD``; the azimuth in degrees (``164``); else the name of an axis of unknown azimuth.
     azimuth_deg : float or None
-        Of the positive direction, clockwise from north; None when vertical or not known.
+        Azimuth of the positive direction, degrees clockwise from north; None if vertical or unknown.
     sign : float
-        -1 where the name is positive down: the samples are turned to ``UD``.
+        -1 if the name is positive down; samples are converted to ``UD``, positive up.
     is_bare_number : bool
-        A number without the word degrees: an azimuth only in company.
+        A number without a degree mark: an azimuth only together with a perpendicular one.
     velocity : bool
-        A SEED code of an instrument that measures velocity.
+        SEED code of a velocity sensor.
     """
 
     code: str
@@ -67,13 +67,13 @@ class Direction:
 
 
 def direction_from_azimuth(azimuth_deg: float, *, is_bare_number: bool = False) -> Direction:
-    """Return the direction of an azimuth: 0 and 360 are called ``NS``, 90 ``EW``, any other by its degrees."""
+    """Return the direction of an azimuth: ``NS`` for 0 and 360, ``EW`` for 90, else the degrees."""
     azimuth = azimuth_deg % 360.0
     return Direction({0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, is_bare_number=is_bare_number)
 
 
 def strip_component_words(text: str) -> str:
-    """Return a name without the words component, direction and acceleration around what it says; such a word alone stays.
+    """Return a name without the words component, direction and acceleration; such a word alone stays.
 
     Examples
     --------
@@ -81,20 +81,21 @@ def strip_component_words(text: str) -> str:
     ['UD', '南北', '上下', 'NS', 'NS', 'x', 'HNE', '加速度']
     """
     previous_text, stripped_text = text.strip(), _FILLER_WORDS.sub("", text.strip())
+    # repeated until unchanged: filler words may stand on both sides
     while stripped_text and stripped_text != previous_text:
         previous_text, stripped_text = stripped_text.strip(), _FILLER_WORDS.sub("", stripped_text.strip())
     return previous_text
 
 
 def parse_direction(text: str) -> Direction | None:
-    """Return the direction that a word means, or None.
+    """Return the direction denoted by a word, or None.
 
     Parameters
     ----------
     text : str
         ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``S80W``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
-        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; each with a word for component around it: ``UD成分``, ``東西方向``,
-        ``上下動``, ``NS component``. A lone ``T`` is not among them: it may be the time.
+        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; also with a word for component: ``UD成分``, ``東西方向``, ``上下動``,
+        ``NS component``. A lone ``T`` is excluded: it may be the time.
 
     Examples
     --------
@@ -120,6 +121,7 @@ def parse_direction(text: str) -> Direction | None:
     degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
     if degrees and float(degrees[1]) <= 360.0:
         return direction_from_azimuth(float(degrees[1]), is_bare_number=degrees[0] == degrees[1])
+    # SEED code: band, instrument (N accelerometer, H and L seismometers), orientation
     seed = _SEED.fullmatch(text.strip())
     if seed:
         letter, instrument = seed[2].upper(), seed[1].upper()

@@ -1,7 +1,7 @@
-"""From the names a user gives for many records to one recording after another: files, folders, patterns, lists and bundles.
+"""Discovery of recordings in files, folders, patterns, lists and archives.
 
-What belongs to one recording is told by the names of its files, as one component of a set stands for the others; nothing is read before
-its turn, and of an archive nothing is held but the members of the sets that are not whole yet.
+Files are grouped into recordings by name, as one component stands for its set; nothing is read before its turn. Of an archive, only
+members of incomplete sets are buffered.
 """
 
 from __future__ import annotations
@@ -28,30 +28,30 @@ from seisblock.readers.source import RawFile, open_source, resolve_path
 from seisblock.records import Record
 
 LIST_PREFIX = "@"
-"""What the name of a file that lists names begins with."""
+"""Prefix of the name of a record list."""
 
 _IGNORED_SUFFIXES = frozenset({".md", ".pdf", ".png", ".jpg", ".jpeg", ".gif", ".ps", ".html", ".toml", ".py", ".parquet", ".journal"})
-"""Suffixes of files in a folder that are passed over without a look into them."""
+"""Suffixes of files in a folder that are skipped without reading."""
 
 
 @dataclass(frozen=True)
 class RecordSource:
-    """One record that is yet to be read.
+    """One recording to be read.
 
     Parameters
     ----------
     name : str
         File name of its first file.
     path : str
-        Where that is, a member of a bundle as bundle/member.
+        Path of its first file; archive/member for a member of an archive.
     stamp : str
-        Tells its bytes from others under the same name: sizes, and when files were written last.
+        Sizes and modification times of its files; identifies the content under this path.
     files : tuple of str
-        The files that make it; empty where `blobs` do.
-    blobs : tuple of Blob
-        Members of a bundle that make it.
+        Files of the recording; empty if `blobs` are given.
+    blobs : tuple of RawFile
+        Archive members of the recording.
     failure : InputError or None
-        Why there is nothing to read.
+        Error that prevents reading.
     """
 
     name: str
@@ -63,16 +63,16 @@ class RecordSource:
 
     @property
     def key(self) -> tuple[str, str]:
-        """What tells it from every other: where it is, and which bytes."""
+        """Identity: path and stamp."""
         return self.path, self.stamp
 
     def read(self, options: ReadOptions) -> Record:
-        """Return the record, each reading with a budget of its own.
+        """Return the record, read with a fresh budget.
 
         Raises
         ------
         InputError
-            If it cannot be read.
+            If the recording cannot be read.
         """
         if self.failure is not None:
             raise self.failure
@@ -83,20 +83,20 @@ class RecordSource:
 
 
 def iter_records(names: Iterable[str], options: ReadOptions) -> Iterator[RecordSource]:
-    """Yield the recordings that some names stand for, each once.
+    """Yield the recordings denoted by names, each once.
 
     Parameters
     ----------
     names : iterable of str
-        Files, bundled samples, folders (with all that lies in them), patterns with ``*`` or ``?``, ``@list.txt`` with a name on each
-        line, and bundles, of which each station is a recording.
-    options : Options
-        The format, where it is said: then no file of a folder is passed over.
+        Files, bundled samples, folders (recursive), patterns with ``*`` or ``?``, ``@list.txt`` with a name per line, and archives, of
+        which each station is a recording.
+    options : ReadOptions
+        With a format given, no file of a folder is skipped.
 
     Raises
     ------
     RecordNotFoundError
-        If a list or a folder holds nothing, or no file fits a pattern.
+        If a list or folder is empty, or no file matches a pattern.
 
     Examples
     --------
@@ -107,15 +107,16 @@ def iter_records(names: Iterable[str], options: ReadOptions) -> Iterator[RecordS
 
 
 def expand_names(names: Iterable[str], options: ReadOptions) -> list[str]:
-    """Return the files that some names stand for, each once; see :func:`iter_records`."""
+    """Return the files denoted by names, each once; see :func:`iter_records`."""
     files: dict[str, str] = {}
+    # by real path: a file given by several names is read once
     for path in (expanded_path for name in names for expanded_path in _expand_name(name, options)):
         files.setdefault(os.path.realpath(path), path)
     return list(files.values())
 
 
 def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = ()) -> Iterator[str]:
-    """Yield the files that one name stands for, on a list within others."""
+    """Yield the files denoted by one name; `open_lists` are the lists being expanded."""
     if name.startswith(LIST_PREFIX) and not Path(name).exists():
         yield from _expand_list(Path(name[len(LIST_PREFIX) :]), options, open_lists)
         return
@@ -129,14 +130,14 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
     elif not exists and any(mark in name for mark in "*?["):
         matches = sorted(match for match in glob.glob(str(path), recursive=True) if Path(match).is_file())  # noqa: PTH207 - Path.glob takes no absolute pattern
         if not matches:
-            raise RecordNotFoundError("no file fits the pattern {name}", name=name)
+            raise RecordNotFoundError("no file matches the pattern {name}", name=name)
         yield from matches
     else:
         yield name if exists else _sample_path(name)
 
 
 def _sample_path(name: str) -> str:
-    """Return the path of a bundled sample; a name that is neither a file nor a sample is left as it is, to fail when it is read."""
+    """Return the path of a bundled sample, else the name unchanged, which fails on reading."""
     try:
         return str(resolve_path(name))
     except RecordNotFoundError:
@@ -144,57 +145,57 @@ def _sample_path(name: str) -> str:
 
 
 def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) -> Iterator[str]:
-    """Yield the files that a list names, one on each line; those that are not here are looked for beside the list."""
+    """Yield the files of a list; names that do not exist here are looked up next to the list."""
     real_path = os.path.realpath(path)
     if real_path in open_lists:
-        raise RecordNotFoundError("{name}: this list of records names itself: take it off the list", name=path)
+        raise RecordNotFoundError("{name}: the record list contains itself; remove that line", name=path)
     try:
         lines = read_bytes(path, str(path), RecordNotFoundError).decode("utf-8-sig").splitlines()
     except UnicodeDecodeError as error:
-        raise RecordNotFoundError("{name}: the list of records cannot be read: {reason}", name=path, reason=str(error)) from error
+        raise RecordNotFoundError("{name}: cannot read the record list: {reason}", name=path, reason=str(error)) from error
     entries = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith("#")]
     if not entries:
-        raise RecordNotFoundError("{name}: the list names no record: write one file on each line", name=path)
+        raise RecordNotFoundError("{name}: the record list is empty; write one file name per line", name=path)
     for line in entries:
         sibling = path.parent / line
         yield from _expand_name(str(sibling) if not Path(line).exists() and sibling.exists() else line, options, (*open_lists, real_path))
 
 
 def _expand_folder(path: Path, options: ReadOptions) -> Iterator[str]:
-    """Yield the files in a folder, and in those within it, that may be records."""
+    """Yield the files in a folder and its subfolders that may be records."""
     try:
         files = sorted(
             file for file in path.rglob("*") if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)
         )
     except OSError as error:
-        raise RecordNotFoundError("{name}: the folder cannot be read: {reason}", name=path, reason=os_error_text(error)) from error
+        raise RecordNotFoundError("{name}: cannot read the folder: {reason}", name=path, reason=os_error_text(error)) from error
     candidates = [str(file) for file in files if options.format is not None or _may_be_record(file)]
     if not candidates:
-        raise RecordNotFoundError("{name}: no record in this folder, {count} other files", name=path, count=len(files))
+        raise RecordNotFoundError("{name}: no record found in this folder ({count} other files)", name=path, count=len(files))
     yield from candidates
 
 
 def _may_be_record(path: Path) -> bool:
-    """Return whether a file looks like a record of a format that is recognised."""
+    """Return whether the content of a file is that of a known format."""
     if path.suffix.lower() in _IGNORED_SUFFIXES:
         return False
     try:
         with path.open("rb") as stream:
             head = stream.read(65536)
     except OSError:
-        return True  # why it cannot be read is told in its row
+        return True  # reading reports the error later
     return bool(head.strip()) and (is_archive(head) or detect_format(RawFile(str(path), head)) != OBSPY)
 
 
 class _FileSet(NamedTuple):
-    """What the names of the files of one recording share, and how many there may be."""
+    """Common name key of the files of one recording, and the number of files in a complete set."""
 
     key: tuple[str, ...]
     size: int
 
 
 def _file_set(name: str) -> _FileSet:
-    """Return the set to which a file belongs by its name, one of its own where there is none."""
+    """Return the set of a file by its name; a set of one for other names."""
     path = Path(name)
     knet = knet_file_set(path.name)
     if knet is not None:
@@ -207,7 +208,7 @@ def _file_set(name: str) -> _FileSet:
 
 
 def group_files(files: Iterable[str], options: ReadOptions) -> Iterator[RecordSource]:
-    """Yield the recordings that some files make, in the order of their first files."""
+    """Yield the recordings made up of files, in the order of their first files."""
     sets: dict[tuple[str, ...], list[str]] = {}
     for name in files:
         sets.setdefault(_file_set(name).key, []).append(name)
@@ -222,7 +223,7 @@ def group_files(files: Iterable[str], options: ReadOptions) -> Iterator[RecordSo
 
 
 def _file_stamp(path: Path) -> str:
-    """Return what tells a file from what it was before."""
+    """Return size and modification time, as text."""
     try:
         info = path.stat()
     except OSError:
@@ -231,7 +232,7 @@ def _file_stamp(path: Path) -> str:
 
 
 def _is_archive_file(path: Path) -> bool:
-    """Return whether a file is a bundle; of a pipe nobody knows, for what is looked at is gone."""
+    """Return whether a regular file is an archive; pipes are not inspected, as reading consumes them."""
     if not path.is_file():
         return False
     try:
@@ -242,28 +243,31 @@ def _is_archive_file(path: Path) -> bool:
 
 
 def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSource]:
-    """Yield the recordings in a bundle, each as soon as it is whole; those of which a member is missing come last."""
+    """Yield the recordings in an archive as soon as complete; incomplete sets come last."""
     stamp = _file_stamp(path)
     member_count = 0
     archive_budget = new_budget()
     with MemberBuffer() as buffer:
         try:
             for member in iter_members(open_source(path, archive_budget), archive_budget):
+                # members such as notes are skipped unless the options declare them to be records
                 if options.format is None and options.units is None and detect_format(member) == OBSPY:
                     continue
                 key, size = _file_set(member.name)
                 member_count += 1
+                # a complete set is yielded at once, which keeps the buffer small
                 if buffer.add(key, member) == size:
                     yield _archive_source(buffer.pop(key), stamp)
         except InputError as error:
             yield RecordSource(path.name, str(path), stamp, failure=error)
         else:
             if not member_count:
-                yield RecordSource(path.name, str(path), stamp, failure=RecordFormatError("{name}: no record in this bundle", name=path))
+                yield RecordSource(
+                    path.name, str(path), stamp, failure=RecordFormatError("{name}: no record found in this archive", name=path)
+                )
         for incomplete_key in buffer.keys:
             yield _archive_source(buffer.pop(incomplete_key), stamp)
 
 
 def _archive_source(members: list[RawFile], stamp: str) -> RecordSource:
-    """Return the recording that some members of a bundle make."""
     return RecordSource(members[0].basename, members[0].name, stamp, blobs=tuple(members))

@@ -1,4 +1,4 @@
-"""From one file to the parts in it: the format's reader is found and called."""
+"""Selection of the reader for a file or for the members of an archive."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _ALIASES = {
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the caller says about files that do not say it themselves."""
+    """Options for files that lack information in their headers."""
 
     format: str | None = None
     units: str | None = None
@@ -62,7 +62,7 @@ class ReadOptions:
 
 
 def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
-    """Return the records, or single components, that a file or a bundle holds."""
+    """Return the records, or single components, in a file or an archive."""
     format_name = detect_format(blob)
     if format_name == ARCHIVE:
         return _read_archive(blob, options)
@@ -72,7 +72,7 @@ def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
 
 
 def _read_file(blob: RawFile, format_name: str, options: ReadOptions) -> list[Record]:
-    """Return the records in one file, by the format it was found to be in or the one that the caller says."""
+    """Return the records in one file by the detected format or the format option."""
     kind = format_name if options.format is None else options.format.upper()
     kind = _ALIASES.get(kind, kind)
     if kind in _READERS:
@@ -85,7 +85,7 @@ def _read_file(blob: RawFile, format_name: str, options: ReadOptions) -> list[Re
 
 
 def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
-    """Return the parts in a bundle; files in it that are no records are passed over."""
+    """Return the parts in an archive; members that are not records are skipped."""
     members = list_members(blob, options.budget)
     parts: list[Record] = []
     for member in members:
@@ -93,10 +93,10 @@ def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
             continue
         parts.extend(replace(part, metadata={**part.metadata, "bundle": blob.name}) for part in read_parts(member, options))
     if not parts:
-        member_names = [m.basename for m in members[:8]] or lazy_gettext("nothing but plots")
+        member_names = [m.basename for m in members[:8]] or lazy_gettext("plots only")
         raise RecordFormatError(
-            "{name}: no record in this bundle, only {held}: expected files of K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet "
-            "or CWA, or plain tables",
+            "{name}: no record found in this archive (contents: {held}); expected K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, "
+            "ESM, GeoNet or CWA files, or plain tables",
             name=blob.name,
             held=member_names,
         )
@@ -104,22 +104,22 @@ def _read_archive(blob: RawFile, options: ReadOptions) -> list[Record]:
 
 
 def _check_options(record: Record, options: ReadOptions) -> Record:
-    """Return a record whose header agrees with the options."""
+    """Return the record, after a check of its header against the options."""
     header_unit = str(record.metadata.get("unit", ""))
     if options.units is not None and header_unit:
         option_unit = normalize_unit(options.units)
         if option_unit is None:
-            raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=options.units)
+            raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=options.units)
         if option_unit != header_unit:
             raise UnitError(
-                "{source} is in {stated} by its own header, the option says {units}: leave the option out",
+                "{source}: header unit {stated} contradicts `units` {units}; omit `units`",
                 source=record.source,
                 stated=header_unit,
                 units=options.units,
             )
     if options.dt is not None and abs(options.dt - record.dt) > 1e-6:
         raise ParameterError(
-            "{source}: its header says dt = {dt:g} s, the option says {options_dt:g} s: leave the option out",
+            "{source}: header dt {dt:g} s contradicts `dt` {options_dt:g} s; omit `dt`",
             source=record.source,
             dt=record.dt,
             options_dt=options.dt,

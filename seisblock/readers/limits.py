@@ -1,4 +1,4 @@
-"""How much one reading may take: bytes, members of archives, nesting, samples. One budget is passed down and spent by whoever reads."""
+"""Read limits: bytes, archive members, nesting and samples, counted in one budget per reading."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ _PREFIX = "SEISBLOCK_READ_"
 
 
 class Readable(Protocol):
-    """Whatever gives bytes piece by piece."""
+    """Protocol of binary streams."""
 
     def read(self, size: int, /) -> bytes:
-        """Return so many bytes, fewer at the end."""
+        """Return up to `size` bytes."""
 
 
 @dataclass
 class ReadBudget:
-    """What is left of what one reading may take; spent, never refilled.
+    """Counters of bytes, members and samples read, and their limits.
 
     Parameters
     ----------
     limits : mapping of str to int
-        By the names of the environment variables that set them.
+        Limits by the names of their environment variables.
     """
 
     limits: Mapping[str, int]
@@ -42,21 +42,22 @@ class ReadBudget:
         return self.limits["SEISBLOCK_READ_MIB"] * MIB - self.bytes_read
 
     def check_declared_size(self, name: str, count: int) -> None:
-        """Refuse a file or a member that says itself that it is too large, before it is read."""
+        """Raise if a declared size exceeds the remaining bytes, before reading."""
+        # before reading: a declared size may be far beyond the memory
         if count > self.remaining_bytes:
             self._raise_exceeded(name, -(-count // MIB), "SEISBLOCK_READ_MIB", "MiB")
 
     def read(self, name: str, stream: Readable) -> bytes:
-        """Return what a stream holds, read piece by piece and no further than the budget goes."""
+        """Return the content of a stream, read in chunks within the limit."""
         limited_reader = LimitedReader(name, stream, self)
         return b"".join(iter(lambda: limited_reader.read(_CHUNK_SIZE), b""))
 
     def check_bytes(self, name: str, count: int) -> None:
-        """Count bytes that were read or unpacked."""
+        """Count bytes read or unpacked."""
         self.bytes_read += count
         if self.remaining_bytes < 0:
             raise RecordError(
-                "{name} holds more than the {limit} MiB that may be read: set {variable} to read more",
+                "{name}: larger than the limit of {limit} MiB; set {variable} to read more",
                 name=name,
                 limit=self.limits["SEISBLOCK_READ_MIB"],
                 variable="SEISBLOCK_READ_MIB",
@@ -69,9 +70,9 @@ class ReadBudget:
             self._raise_exceeded(name, self.members_read, "SEISBLOCK_READ_MEMBERS", N_("files"))
 
     def check_nesting(self, name: str, depth: int) -> None:
-        """Refuse an archive that lies too deep in others."""
+        """Raise if an archive is nested too deeply."""
         if depth > self.limits["SEISBLOCK_READ_NESTING"]:
-            self._raise_exceeded(name, depth, "SEISBLOCK_READ_NESTING", N_("archives within archives"))
+            self._raise_exceeded(name, depth, "SEISBLOCK_READ_NESTING", N_("levels of nested archives"))
 
     def check_samples(self, name: str, count: int) -> None:
         """Count samples that were read."""
@@ -80,9 +81,8 @@ class ReadBudget:
             self._raise_exceeded(name, self.samples_read, "SEISBLOCK_READ_SAMPLES", N_("samples"))
 
     def _raise_exceeded(self, name: str, count: int, variable: str, quantity: str) -> None:
-        """Say what was found, what is allowed, and what lifts it."""
         raise RecordError(
-            "{name}: {found} {what}, and {limit} may be read: set {variable} to read more",
+            "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more",
             name=name,
             found=count,
             what=lazy_gettext(quantity),
@@ -93,14 +93,14 @@ class ReadBudget:
 
 @dataclass(frozen=True)
 class LimitedReader:
-    """A stream of which every byte is paid for as it is read.
+    """Stream that counts the bytes read against a budget.
 
     Parameters
     ----------
     name : str
-        What messages call it.
+        Source name, for messages.
     stream : Readable
-    budget : Budget
+    budget : ReadBudget
     """
 
     name: str
@@ -108,18 +108,18 @@ class LimitedReader:
     budget: ReadBudget
 
     def read(self, size: int, /) -> bytes:
-        """Return so many bytes, fewer at the end."""
+        """Return up to `size` bytes."""
         piece = self.stream.read(size)
         self.budget.check_bytes(self.name, len(piece))
         return piece
 
 
 def new_budget() -> ReadBudget:
-    """Return a fresh budget, its limits from the environment where they stand there.
+    """Return a new budget with limits from the environment.
 
     Raises
     ------
     ParameterError
-        If a variable is no positive whole number.
+        If a variable is not a positive whole number.
     """
     return ReadBudget({variable: get_limit(variable) for variable in DEFAULT_LIMITS if variable.startswith(_PREFIX)})

@@ -1,4 +1,4 @@
-"""The lines of a text: of a small one at once, of a large one piece by piece from its bytes, so that nothing holds it twice."""
+"""Lines of text files; lines of large files are decoded on access, chunk by chunk."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from seisblock.readers import source
 from seisblock.readers.source import FileBytes, RawFile, decode_text, is_binary
 
 CHUNK_LINES = 2**16
-"""Lines that are held at a time."""
+"""Lines decoded at a time."""
 
 
 @dataclass(frozen=True, eq=False)
 class LazyLines(Sequence[str]):
-    """Lines of a large text, made when they are looked at.
+    """Lines of a large text file, decoded on access.
 
     Parameters
     ----------
     data : bytes or FileBytes
-        Of the whole file.
+        Bytes of the whole file.
     encoding : str
     offsets : (m,) array of int
-        Where every ``PIECE``-th line begins, and where the data end.
+        Byte offsets of every ``CHUNK_LINES``-th line, and of the end of the data.
     begin, stop : int
-        The lines that these are.
+        Range of the lines in the file.
     transforms : tuple of callable
-        What is done to each, in this order.
+        Functions applied to each line, in this order.
     """
 
     data: bytes | FileBytes
@@ -61,20 +61,20 @@ class LazyLines(Sequence[str]):
             yield from piece
 
     def chunks(self) -> Iterator[list[str]]:
-        """Yield the lines, many at a time."""
+        """Yield lists of lines."""
         for number in range(self.begin // CHUNK_LINES, -(-self.stop // CHUNK_LINES)):
             first = number * CHUNK_LINES
             lines = self._chunk(number)[max(self.begin - first, 0) : self.stop - first]
             yield [self._transform(line) for line in lines] if self.transforms else lines
 
     def _chunk(self, number: int) -> list[str]:
-        """Return some lines as they stand in the file."""
+        """Return the lines of one chunk without transforms."""
+        # chunk limits fall on line ends, which are single bytes in these encodings
         text = self.data[self.offsets[number] : self.offsets[number + 1]].decode(self.encoding).replace("\r\n", "\n")
         lines = text.split("\n")
         return lines if number + 2 == self.offsets.size else lines[:CHUNK_LINES]
 
     def _transform(self, line: str) -> str:
-        """Return a line after all that is done to it."""
         for transform in self.transforms:
             line = transform(line)
         return line
@@ -95,28 +95,29 @@ def read_lines(blob: RawFile) -> Sequence[str]:
     for encoding in ("utf-8", *source.japanese_encodings(data[: source.HEAD_BYTES])):
         lines = LazyLines(data, encoding, offsets, 0, count)
         try:
+            # decode all chunks once: an invalid byte may occur anywhere
             for _ in lines.chunks():
                 pass
         except UnicodeDecodeError:
             continue
         return lines
-    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:
-    """Return lines with something done to each."""
+    """Return lines with a function applied to each."""
     return (
         replace(lines, transforms=(*lines.transforms, transform)) if isinstance(lines, LazyLines) else [transform(line) for line in lines]
     )
 
 
 def iter_chunks(lines: Sequence[str]) -> Iterator[Sequence[str]]:
-    """Yield lines, many at a time."""
+    """Yield lists of lines."""
     yield from lines.chunks() if isinstance(lines, LazyLines) else (lines,)
 
 
 def _has_simple_line_ends(blob: RawFile) -> bool:
-    """Return whether bytes are those of a text whose lines end in LF or CR LF, in an encoding that leaves these single bytes."""
+    """Return whether a text has LF or CR LF line ends in an encoding that keeps these as single bytes."""
     head = blob.content[: source.HEAD_BYTES]
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_binary(head):
         return False
@@ -124,11 +125,11 @@ def _has_simple_line_ends(blob: RawFile) -> bool:
 
 
 def _chunk_offsets(blob: RawFile) -> tuple[IntArray, int]:
-    """Return where every ``PIECE``-th line begins and where the data end, and how many lines there are."""
+    """Return the byte offsets of every ``CHUNK_LINES``-th line and of the end, and the number of lines."""
     offsets, count = [len(codecs.BOM_UTF8) if blob.content[:3] == codecs.BOM_UTF8 else 0], 0
     for begin, piece in zip(range(0, len(blob.content), source.LARGE_FILE_BYTES), blob.chunks(), strict=True):
         ends = np.flatnonzero(np.frombuffer(piece, dtype=np.uint8)[: source.LARGE_FILE_BYTES] == ord("\n"))
-        # line number k begins after k ends of lines
+        # line k begins after k line ends
         first = -(count + 1) % CHUNK_LINES
         offsets += (begin + 1 + ends[first::CHUNK_LINES]).tolist()
         count += int(ends.size)

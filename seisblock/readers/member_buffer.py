@@ -1,4 +1,4 @@
-"""Where members of a bundle wait for the rest of their set: in memory while they are few, else in a temporary file."""
+"""Spooled buffer that groups archive members by recording: in memory while small, else in a temporary file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.readers.source import LARGE_FILE_BYTES, RawFile
 
 
 class _BufferedMember(NamedTuple):
-    """What was put away: its name, and where its bytes are."""
+    """Name of a member and position of its bytes in the buffer file."""
 
     name: str
     begin: int
@@ -22,18 +22,18 @@ class _BufferedMember(NamedTuple):
 
 @dataclass
 class MemberBuffer:
-    """Bytes put away under a key; not held in memory beyond some.
+    """Archive members grouped by key, spooled to a temporary file.
 
     Parameters
     ----------
     in_memory : int
-        Bytes from which on a temporary file holds them.
+        Bytes kept in memory before a temporary file is used.
 
     Examples
     --------
-    >>> with MemberBuffer() as shelf:
-    ...     waiting = [shelf.put("station", RawFile(name, b"1")) for name in ("a.NS", "a.EW")]
-    ...     waiting, [blob.name for blob in shelf.take("station")]
+    >>> with MemberBuffer() as buffer:
+    ...     counts = [buffer.add("station", RawFile(name, b"1")) for name in ("a.NS", "a.EW")]
+    ...     counts, [blob.name for blob in buffer.pop("station")]
     ([1, 2], ['a.NS', 'a.EW'])
     """
 
@@ -50,12 +50,12 @@ class MemberBuffer:
         self._open.close()
 
     def add(self, key: Hashable, blob: RawFile) -> int:
-        """Put a member away, and return how many wait under its key.
+        """Store a member and return the number of members under its key.
 
         Raises
         ------
         RecordError
-            If the temporary file has no room.
+            If the temporary file cannot be written.
         """
         members = self._sets.setdefault(key, [])
         try:
@@ -63,7 +63,7 @@ class MemberBuffer:
             self._file.write(blob.data)
         except OSError as error:
             raise RecordError(
-                "{name} cannot be put away until the rest of its set is unpacked, in {folder}: {reason}",
+                "{name}: cannot write a temporary file in {folder}: {reason}",
                 name=blob.name,
                 folder=tempfile.gettempdir(),
                 reason=os_error_text(error),
@@ -72,8 +72,9 @@ class MemberBuffer:
         return len(members)
 
     def pop(self, key: Hashable) -> list[RawFile]:
-        """Take what waits under a key, in the order in which it was put away."""
+        """Remove and return the members under a key, in the order added."""
         members = [self._read_member(member) for member in self._sets.pop(key)]
+        # reuse the space when nothing is buffered
         if not self._sets:
             self._file.seek(0)
             self._file.truncate()
@@ -81,10 +82,9 @@ class MemberBuffer:
 
     @property
     def keys(self) -> list[Hashable]:
-        """The keys under which something waits, the oldest first."""
+        """Keys with members, the oldest first."""
         return list(self._sets)
 
     def _read_member(self, member: _BufferedMember) -> RawFile:
-        """Return a member with its bytes."""
         self._file.seek(member.begin)
         return RawFile(member.name, self._file.read(member.size))

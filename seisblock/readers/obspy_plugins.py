@@ -1,7 +1,7 @@
-"""JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA as waveform formats of obspy, by entry points, in anyone's script.
+"""ObsPy waveform plug-ins (entry points) for JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA.
 
-Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to
-m/s^2, so that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv``,
+Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; ObsPy's own K-NET reader gives counts and a ``calib`` to
+m/s^2, so that ``data * calib`` is in m/s^2 for all of them. Further header entries are in ``stats.jmacsv``, ``stats.knetcsv``,
 ``stats.at2``, ``stats.csmip``, ``stats.cosmos``, ``stats.smc``, ``stats.esm``, ``stats.geonet`` and ``stats.cwa``.
 """
 
@@ -36,7 +36,7 @@ _HEAD_BYTES = 4096
 
 
 def is_jma_csv(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is a JMA CSV: ``SITE CODE``, and then the sampling rate, stand at its beginning."""
+    """Return whether a file is a JMA CSV: ``SITE CODE`` at its start, followed by the sampling rate."""
     head = _read_head(filename)
     return _claims_jma_csv(head) and b"SAMPLING" in head.upper()
 
@@ -47,45 +47,45 @@ def read_jma_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
     Raises
     ------
     RecordFormatError
-        If the file breaks its format.
+        If the file is malformed.
     """
     return _to_stream([_parse_jma_csv(_read_raw(filename))], "jmacsv")
 
 
 def is_knet_csv(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is NIED's CSV: ``#K-NET CSV`` or ``#KiK-net CSV`` stands at its beginning."""
+    """Return whether a file is a NIED CSV, beginning with ``#K-NET CSV`` or ``#KiK-net CSV``."""
     return _claims_knet_csv(_read_head(filename))
 
 
 def read_knet_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
-    """Return an obspy Stream, m/s^2, of NIED's CSV; KiK-net channels are NS1 ... UD2 (borehole 1, surface 2). The offset is not removed.
+    """Return an obspy Stream, m/s^2, of a NIED CSV; KiK-net channels are NS1 ... UD2. The offset is kept.
 
     Raises
     ------
     RecordFormatError
-        If the file breaks its format.
+        If the file is malformed.
     """
     return _to_stream(_parse_knet_csv(_read_raw(filename)), "knetcsv")
 
 
 def is_at2(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is a PEER AT2: NPTS and DT stand in its first lines."""
+    """Return whether a file is a PEER AT2, with NPTS and DT in its first lines."""
     return _claims_at2(_read_head(filename))
 
 
 def read_at2(filename: str | Path | BinaryIO, **_: Any) -> Any:
-    """Return an obspy Stream, m/s^2, of the one component in an AT2 file; AT2 has no time, so the start is obspy's 1970-01-01.
+    """Return an obspy Stream, m/s^2, of an AT2 file; start 1970-01-01, since AT2 has no time.
 
     Raises
     ------
     RecordFormatError
-        If the file breaks its format.
+        If the file is malformed.
     """
     return _to_stream([_parse_at2(_read_raw(filename))], "at2")
 
 
 def is_csmip(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is a CSMIP file: its title stands in the first line."""
+    """Return whether a file is a CSMIP file, by the title in the first line."""
     return _claims_csmip(_read_head(filename))
 
 
@@ -95,13 +95,13 @@ def read_csmip(filename: str | Path | BinaryIO, **_: Any) -> Any:
     Raises
     ------
     RecordFormatError
-        If the file breaks its format, or holds no even accelerations.
+        If the file is malformed or has no evenly sampled acceleration.
     """
     return _to_stream(_parse_csmip(_read_raw(filename)), "csmip")
 
 
 def is_cosmos(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is a COSMOS file: its first line tells the format and how many lines of text follow."""
+    """Return whether a file is a COSMOS file, by format and number of text lines in the first line."""
     return _claims_cosmos(_read_head(filename))
 
 
@@ -111,7 +111,7 @@ def read_cosmos(filename: str | Path | BinaryIO, **_: Any) -> Any:
     Raises
     ------
     RecordFormatError
-        If the file breaks its format, or holds no even accelerations.
+        If the file is malformed or has no evenly sampled acceleration.
     """
     return _to_stream(_parse_cosmos(_read_raw(filename)), "cosmos")
 
@@ -122,34 +122,34 @@ def is_smc(filename: str | Path | BinaryIO) -> bool:
 
 
 def read_smc(filename: str | Path | BinaryIO, **_: Any) -> Any:
-    """Return an obspy Stream, m/s^2, of the one component in a corrected SMC file.
+    """Return an obspy Stream, m/s^2, of the component in a corrected SMC file.
 
     Raises
     ------
     RecordFormatError
-        If the file breaks its format, or holds no even accelerations.
+        If the file is malformed or has no evenly sampled acceleration.
     """
     return _to_stream([_parse_smc(_read_raw(filename))], "smc")
 
 
 def is_esm(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is an ASCII file of ESM: the event's name and identifier stand in its first lines."""
+    """Return whether a file is an ESM ASCII file, by event name and identifier in the first lines."""
     return _claims_esm(_read_head(filename))
 
 
 def read_esm(filename: str | Path | BinaryIO, **_: Any) -> Any:
-    """Return an obspy Stream, m/s^2, of the one component in an ASCII file of ESM.
+    """Return an obspy Stream, m/s^2, of the component in an ESM ASCII file.
 
     Raises
     ------
     RecordFormatError
-        If the file breaks its format, or holds no even accelerations.
+        If the file is malformed or has no evenly sampled acceleration.
     """
     return _to_stream([_parse_esm(_read_raw(filename))], "esm")
 
 
 def is_geonet(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is an accelerogram of GeoNet: its first line says so."""
+    """Return whether a file is a GeoNet accelerogram, by its first line."""
     return _claims_geonet(_read_head(filename))
 
 
@@ -159,13 +159,13 @@ def read_geonet(filename: str | Path | BinaryIO, **_: Any) -> Any:
     Raises
     ------
     RecordFormatError
-        If the file breaks its format, or holds no even accelerations.
+        If the file is malformed or has no evenly sampled acceleration.
     """
     return _to_stream(_parse_geonet(_read_raw(filename)), "geonet")
 
 
 def is_cwa(filename: str | Path | BinaryIO) -> bool:
-    """Return whether a file is a strong-motion text file of Taiwan's CWA: its header tells the sequence of the columns."""
+    """Return whether a file is a strong-motion text file of Taiwan's CWA, by its column sequence."""
     return _claims_cwa(_read_head(filename))
 
 
@@ -175,13 +175,13 @@ def read_cwa(filename: str | Path | BinaryIO, **_: Any) -> Any:
     Raises
     ------
     RecordFormatError
-        If the file breaks its format.
+        If the file is malformed.
     """
     return _to_stream([_parse_cwa(_read_raw(filename))], "cwa")
 
 
 def _read_head(filename: str | Path | BinaryIO) -> bytes:
-    """Return the first bytes of a file; a stream is put back to where it was."""
+    """Return the first bytes of a file; the position of a stream is restored."""
     if isinstance(filename, (str, Path)):
         try:
             with Path(filename).open("rb") as file:
@@ -196,14 +196,12 @@ def _read_head(filename: str | Path | BinaryIO) -> bytes:
 
 
 def _read_raw(filename: str | Path | BinaryIO) -> RawFile:
-    """Return the bytes of a file or of an open stream."""
     if isinstance(filename, (str, Path)):
         return RawFile(str(filename), Path(filename).read_bytes())
     return RawFile(str(getattr(filename, "name", "stream")), filename.read())
 
 
 def _to_stream(records: Sequence[Record], key: str) -> Any:
-    """Return records as one obspy Stream."""
     from obspy import Stream, Trace, UTCDateTime
 
     traces = []

@@ -1,4 +1,4 @@
-"""Which bytes a name stands for."""
+"""Access to the bytes of a source: file, bundled sample or standard input."""
 
 from __future__ import annotations
 
@@ -26,34 +26,34 @@ if TYPE_CHECKING:
 Location: TypeAlias = "str | PathLike[str]"
 
 STDIN = "-"
-"""The name that stands for the standard input."""
+"""Name of the standard input."""
 
 MAX_QUOTED_LENGTH = 200
-"""How much of a text from outside a message shows at most."""
+"""Longest text from a file or an exception quoted in a message, letters."""
 
 
 HEAD_BYTES = 2**16
-"""Bytes by which an encoding is told."""
+"""Bytes examined to determine the encoding."""
 
 _HALF_WIDTH_KANA = re.compile("[｡-ﾟ\uf8f0-\uf8f3]")
 _TABLE_KANJI = re.compile("[時刻間秒南北東西上下方向成分速度動]")
-"""Letters that bytes of EUC-JP give when they are read as Shift-JIS, and some that the headings of tables hold."""
+"""Half-width kana that EUC-JP bytes give when decoded as Shift-JIS, and kanji common in table headings."""
 
 LARGE_FILE_BYTES = 2**25
-"""Bytes beyond which a file, or a text, is taken piece by piece."""
+"""Size above which files and texts are processed in chunks."""
 
 
 @dataclass(frozen=True)
 class FileBytes:
-    """The bytes of a large file, read where they are looked at, so that no memory of its size is needed.
+    """Bytes of a large file, read on access.
 
     Parameters
     ----------
     path : Path
     name : str
-        What messages call it.
+        Source name, for messages.
     stamp : tuple of int
-        Which file it was and when it was written last.
+        Identity and modification time of the file when opened.
     """
 
     path: Path
@@ -71,14 +71,14 @@ class FileBytes:
                 data = stream.read(max(stop - begin, 0))
                 is_unchanged = file_stamp(os.fstat(stream.fileno())) == self.stamp
         except OSError as error:
-            raise RecordError("{name} cannot be read: {reason}", name=self.name, reason=os_error_text(error)) from error
+            raise RecordError("{name}: cannot read the file: {reason}", name=self.name, reason=os_error_text(error)) from error
         if not is_unchanged:
-            raise RecordError("{name} changed while it was read: read it again when it is complete", name=self.name)
+            raise RecordError("{name}: file changed while reading; read it again after it is complete", name=self.name)
         return data
 
 
 class BytesReader(io.RawIOBase):
-    """Bytes, held in memory or in their file, as a stream."""
+    """Raw stream over bytes in memory or in a file."""
 
     def __init__(self, content: bytes | FileBytes) -> None:
         self._content, self._position = content, 0
@@ -92,12 +92,12 @@ class BytesReader(io.RawIOBase):
         return True
 
     def seek(self, offset: int, whence: int = io.SEEK_SET, /) -> int:
-        """Go to a place, told from the beginning, from here or from the end; return where that is."""
+        """Set the position and return it."""
         self._position = max(offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._position, io.SEEK_END: len(self._content)}[whence], 0)
         return self._position
 
     def readinto(self, buffer: WriteableBuffer, /) -> int:
-        """Fill a buffer as far as there are bytes; return how many."""
+        """Fill a buffer and return the number of bytes."""
         view = memoryview(buffer).cast("B")
         data = self._content[self._position : self._position + len(view)]
         view[: len(data)] = data
@@ -106,13 +106,13 @@ class BytesReader(io.RawIOBase):
 
 
 def file_stamp(info: os.stat_result) -> tuple[int, ...]:
-    """Return what tells a file from another, or from what it was before: its size first."""
+    """Return the identity of a file version: size, modification time, device and inode."""
     return info.st_size, info.st_mtime_ns, info.st_dev, info.st_ino
 
 
 @dataclass(frozen=True)
 class RawFile:
-    """The bytes of one file, or of one member of a bundle, and the name they go by in messages."""
+    """Bytes of a file or archive member, with its name for messages."""
 
     name: str
     content: bytes | FileBytes
@@ -120,11 +120,11 @@ class RawFile:
 
     @property
     def data(self) -> bytes:
-        """All of the bytes."""
+        """All bytes."""
         return self.content if isinstance(self.content, bytes) else self.content[:]
 
     def chunks(self) -> Iterator[bytes]:
-        """Yield the bytes, many at a time, each with the one that follows it."""
+        """Yield the bytes in chunks, each with the first byte of the next."""
         for begin in range(0, len(self.content), LARGE_FILE_BYTES):
             yield self.content[begin : begin + LARGE_FILE_BYTES + 1]
 
@@ -135,21 +135,21 @@ class RawFile:
 
 
 def open_source(source: Location, budget: ReadBudget) -> RawFile:
-    """Return the bytes of a file, of the bundled sample of that name, or of the standard input.
+    """Return the bytes of a file, a bundled sample or the standard input.
 
     Parameters
     ----------
     source : path
         ``-`` is the standard input.
-    budget : Budget
-        What may be read.
+    budget : ReadBudget
+        Read limits.
 
     Raises
     ------
     RecordNotFoundError
-        If there is neither a file nor a sample of that name.
+        If neither a file nor a sample has that name.
     RecordError
-        If it is a directory or a device, is empty, cannot be read, or exceeds the budget.
+        If the source is a directory or a device, is empty, cannot be read, or exceeds a limit.
     """
     name = str(source)
     if name == STDIN:
@@ -158,44 +158,46 @@ def open_source(source: Location, budget: ReadBudget) -> RawFile:
         path = resolve_path(source)
         blob = RawFile(name, read_bytes(path, name, budget), path)
     if not any(not piece.isspace() for piece in blob.chunks()):
-        raise RecordError("{name} is empty: expected a strong-motion record", name=blob.name)
+        raise RecordError("{name}: empty file; expected a strong-motion record", name=blob.name)
     return blob
 
 
 def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
-    """Return the bytes of a file, or of a pipe, as far as the budget goes; those of a large file stay there.
+    """Return the bytes of a file or pipe within the limits; large files are read on access.
 
     Parameters
     ----------
     path : Path
     name : str
-        What messages call it.
-    budget : Budget
+        Source name, for messages.
+    budget : ReadBudget
 
     Raises
     ------
     RecordError
-        If it is a directory or a device, cannot be read, or exceeds the budget.
+        If the path is a directory or a device, cannot be read, or exceeds a limit.
     """
     try:
         info = path.stat()
         if stat.S_ISDIR(info.st_mode):
-            raise RecordError("{name} is a directory: name a record file in it", name=name)
+            raise RecordError("{name} is a folder: give a record file in it", name=name)
+        # devices such as /dev/zero never end
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
-            raise RecordError("{name} is a device, not a record: name a file, or - for the standard input", name=name)
+            raise RecordError("{name} is a device: give a file, or - for the standard input", name=name)
         budget.check_declared_size(name, info.st_size)
         mark_read(path)
         if stat.S_ISREG(info.st_mode) and info.st_size > LARGE_FILE_BYTES:
+            # counted once, though the file may be read several times
             budget.bytes_read += info.st_size
             return FileBytes(path, name, file_stamp(info))
         with path.open("rb") as stream:
             return budget.read(name, stream)
     except OSError as error:
-        raise RecordError("{name} cannot be read: {reason}", name=name, reason=os_error_text(error)) from error
+        raise RecordError("{name}: cannot read the file: {reason}", name=name, reason=os_error_text(error)) from error
 
 
 def resolve_path(source: Location) -> Path:
-    """Return the path of a file, or of the bundled sample of that name."""
+    """Return the path of a file or of a bundled sample."""
     name = str(source)
     path = Path(name)
     try:
@@ -203,26 +205,24 @@ def resolve_path(source: Location) -> Path:
             return path
         if name.startswith("~") and path.expanduser().exists():
             return path.expanduser()
-    except (OSError, RuntimeError, ValueError) as error:  # too long, no such home, a NUL in it
+    except (OSError, RuntimeError, ValueError) as error:  # name too long, unknown home directory, or NUL character
         raise RecordNotFoundError(
-            "{name!r} is no name of a file: {reason}", name=name[:MAX_QUOTED_LENGTH], reason=_error_reason(error)
+            "invalid file name {name!r}: {reason}", name=name[:MAX_QUOTED_LENGTH], reason=_error_reason(error)
         ) from error
     sample = find_sample(name) if path.name == name else None
     if sample is None:
         sample_names = [s.name for s in list_samples() if s.kind == "record"]
-        raise RecordNotFoundError(
-            "{name}: no such file, and no bundled sample of that name (there are {known})", name=name, known=sample_names
-        )
+        raise RecordNotFoundError("{name}: no such file or bundled sample (samples: {known})", name=name, known=sample_names)
     return sample
 
 
 def _error_reason(error: Exception) -> str:
-    """Return why a name was refused, without the name."""
+    """Return the reason of an error, without the file name."""
     return os_error_text(error) if isinstance(error, OSError) and error.strerror else str(error)[:MAX_QUOTED_LENGTH]
 
 
 def sha256_digest(blobs: Iterable[RawFile]) -> str:
-    """Return the SHA-256 of the bytes, one after the other."""
+    """Return the SHA-256 of the concatenated bytes."""
     total = hashlib.sha256()
     for blob in blobs:
         for piece in blob.chunks():
@@ -231,7 +231,7 @@ def sha256_digest(blobs: Iterable[RawFile]) -> str:
 
 
 def decode_text(blob: RawFile) -> str:
-    """Return the text of a file in UTF-8 (with or without BOM), UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, lines ending in LF.
+    """Return the text of a file in UTF-8, UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, with LF line ends.
 
     Raises
     ------
@@ -250,11 +250,11 @@ def decode_text(blob: RawFile) -> str:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
-    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def japanese_encodings(data: bytes) -> tuple[str, str]:
-    """Return the two encodings of Japanese, the likelier first: what EUC-JP means looks like half-width kana in Shift-JIS.
+    """Return the two Japanese encodings, the more probable first.
 
     Examples
     --------
@@ -266,11 +266,12 @@ def japanese_encodings(data: bytes) -> tuple[str, str]:
         as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD_BYTES else "strict")
     except UnicodeDecodeError:
         return "cp932", "euc_jp"
+    # EUC-JP decoded as Shift-JIS yields half-width kana; require kanji of table headings before preferring EUC-JP
     kana = _HALF_WIDTH_KANA.search(head.decode("cp932", errors="ignore"))
     return ("euc_jp", "cp932") if kana and _TABLE_KANJI.search(as_euc) else ("cp932", "euc_jp")
 
 
 def is_binary(data: bytes) -> bool:
-    """Return whether bytes hold control characters that no text has."""
+    """Return whether bytes contain control characters that do not occur in text."""
     head = data[:HEAD_BYTES]
     return any(byte in head for byte in (b"\x00", b"\x01", b"\x02", b"\x03", b"\x04", b"\x05", b"\x06", b"\x7f"))

@@ -1,4 +1,4 @@
-"""What was measured: records, motions, and the processing between them."""
+"""Strong-motion records, input motions, processing and quality control."""
 
 from seisblock.records.floor_motion import Storey
 from seisblock.records.motion import Motion, motion_of

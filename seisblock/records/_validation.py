@@ -1,4 +1,4 @@
-"""What a solver was given: a body, then a motion, and whether the vertical ground motion acts. Said once for all solvers."""
+"""Validation of the common solver inputs: body, motion and vertical gain."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from seisblock.records.motion import Motion
 from seisblock.records.record import Record
 
 Gain: TypeAlias = bool | float
-"""Whether something acts, or the factor by which it does."""
+"""Switch (bool) or factor (float) on a load component."""
 
 
 def validate_inputs(body: object, kind: type, motion: object) -> None:
-    """Refuse what is not a body of a kind, or not a motion, with the sentence that helps.
+    """Raise `KindError` unless `body` is of the expected class and `motion` is a Motion.
 
     Raises
     ------
     KindError
-        If the two stand in the wrong order, a record stands where a motion belongs, or either is something else.
+        If the arguments are in the wrong order, a Record is passed instead of a Motion, or either has another type.
     """
     if isinstance(motion, Motion) and isinstance(body, kind):
         return
     if isinstance(body, (Motion, Record)) and not isinstance(motion, (Motion, Record)):
         raise KindError(
-            "the body comes first, then the motion: found a {body} before the {motion}",
+            "wrong order of arguments: expected the body first, then the motion, found {body} before {motion}",
             body=type(body).__name__,
             motion=type(motion).__name__,
         )
@@ -35,49 +35,50 @@ def validate_inputs(body: object, kind: type, motion: object) -> None:
 
 
 def validate_motion(motion: object) -> None:
-    """Refuse what is no motion, with the sentence that helps.
+    """Raise `KindError` unless `motion` is a Motion.
 
     Raises
     ------
     KindError
-        If a record stands where a motion belongs, or anything else.
+        If `motion` is a Record or any other type.
     """
     if isinstance(motion, Record):
         code = next((component.code for component in motion.horizontals), "EW")
         raise KindError(
-            "{source} is a Record: choose a component with motion_of(record, {code!r})",
-            source=motion.source or lazy_gettext("this"),
+            "expected a Motion, found a Record ({source}): select a component with motion_of(record, {code!r})",
+            source=motion.source or lazy_gettext("unnamed record"),
             code=code,
         )
     if not isinstance(motion, Motion):
         raise KindError(
-            "a Motion is needed, found {found}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)",
+            "expected a Motion, found {found}: create one with motion_of(record, 'EW') or Motion.from_arrays(...)",
             found=checks.type_name(motion),
         )
 
 
 def vertical_gain(motion: Motion, vertical: Gain | None) -> float:
-    """Return the factor on a motion's vertical row.
+    """Return the factor applied to the vertical acceleration of a motion.
 
     Parameters
     ----------
     motion : Motion
     vertical : bool, float or None
-        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+        Switch or factor; None applies the vertical component where the record has one.
 
     Raises
     ------
     ParameterError
         If the factor is not a finite number.
     ComponentError
-        If it is asked for, and the motion's record has no vertical component.
+        If a nonzero gain is requested and the motion's record has no vertical component.
     """
     if vertical is None:
         return 1.0
-    gain = checks.finite("the factor on the vertical motion", float(vertical) if isinstance(vertical, bool) else vertical)
+    gain = checks.finite("the vertical gain", float(vertical) if isinstance(vertical, bool) else vertical)
     if gain != 0.0 and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
-            "{source}: no vertical component; it has {codes}: leave the vertical motion out, or give a record that has one",
+            "{source}: no vertical component (components: {codes}); switch the vertical motion off or use a record with a vertical "
+            "component",
             source=motion.record.source or lazy_gettext("record"),
             codes=motion.record.codes,
         )

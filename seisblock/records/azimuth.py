@@ -1,4 +1,4 @@
-"""Azimuths as surveyors write them: bearings from north or south, and degrees."""
+"""Azimuths from surveyors' bearings (N45E) and from text in degrees."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _DEGREES = re.compile(r"(\d{1,3}(?:\.\d{1,9})?)(?:°|度|deg)", re.IGNORECASE)
 
 
 def bearing_to_azimuth(start: str, angle: float, end: str) -> float:
-    """Return the azimuth, degrees clockwise from north, of an angle from N or S towards E or W.
+    """Return the azimuth, degrees clockwise from north, of an angle measured from N or S towards E or W.
 
     Examples
     --------
@@ -20,7 +20,7 @@ def bearing_to_azimuth(start: str, angle: float, end: str) -> float:
 
 
 def parse_bearing(name: str) -> float | None:
-    """Return the azimuth, degrees clockwise from north, that a bearing means; None where it is none.
+    """Return the azimuth, degrees clockwise from north, of a bearing or of text in degrees, else None.
 
     Examples
     --------

@@ -1,16 +1,16 @@
-"""Whether a record is all that was recorded."""
+"""History entry of a cropped record, and the test for it."""
 
 from __future__ import annotations
 
 from seisblock.core.i18n import N_, Message
 from seisblock.records.record import Record
 
-CROP_HISTORY = N_("{window} cut out")
-"""What is said of a record of which a part was taken."""
+CROP_HISTORY = N_("{window} extracted")
+"""Template of the history entry written by :func:`seisblock.records.process.crop`."""
 
 
 def is_cropped(record: Record) -> bool:
-    """Return whether a record is a part of one that was longer.
+    """Return whether a record is a window of a longer one.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""High-pass filters that leave nothing of a constant or a straight line: one without delay, one that acts forwards only."""
+"""High-pass filters with baseline removal: zero-phase, and causal."""
 
 from __future__ import annotations
 
@@ -10,34 +10,34 @@ from seisblock.core.typing import FloatArray
 from seisblock.records.butterworth import N_SECTIONS, highpass_sections, run_sections
 
 HIGHPASS_ORDER = 2 * N_SECTIONS
-"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
+"""Order of the Butterworth high-pass; run forwards and backwards, the effective order is twice that, with zero phase."""
 
 PADDING_PERIODS = 5.0
-"""Length of the padding at each end, in corner periods: the filter's slowest transient has died to 1e-5 by then."""
+"""Length of the padding at each end, in corner periods: the slowest transient of the filter has decayed to 1e-5 by then."""
 
 MAX_PADDING = 2**22
-"""Longest padding at either end, samples: a corner that needs more is refused."""
+"""Longest padding at either end, samples; a corner that requires more raises `ParameterError`."""
 
 BASELINE_PERIODS = 0.5
-"""Length of the windows at either end on which the baseline is measured, in corner periods."""
+"""Length of the windows at both ends that determine the baseline, in corner periods."""
 
 
 def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
-    """Remove from one row of samples what is slower than a corner frequency, without delay.
+    """Return samples high-passed with zero phase.
 
-    A Butterworth filter of order 4, forwards and backwards. First the :func:`end_line` is taken off, so that an offset or a drift
-    leaves nothing; then the record is extended at both ends by five corner periods of its own mirror image with the sign reversed, so
-    that the *velocity* goes on evenly: a motion that starts in mid-swing gets no step there. (An odd extension about the end sample,
-    scipy's default, would: cut in mid-swing, a sine's PGV comes out up to 40 times too large.)
+    Butterworth filter of order 4, forwards and backwards. The :func:`end_line` is removed first, so that an offset or a drift leaves
+    nothing; then the record is extended at both ends by five corner periods of its mirror image with reversed sign, so that the
+    *velocity* is continuous even for a motion that starts in mid-swing. (An odd extension about the end sample, scipy's default, adds a
+    step there: the PGV of a sine cut in mid-swing comes out up to 40 times too large.)
 
     Parameters
     ----------
     acceleration : (n,) array, m/s^2
-        Any samples.
+        Samples.
     dt : float, s
         Sampling interval.
     hz : float, Hz
-        Corner frequency, at which half the amplitude passes, between 0 and half the sampling rate.
+        Corner frequency (half amplitude), between 0 and half the sampling rate.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
     Raises
     ------
     ParameterError
-        If the corner lies outside that range, or is so low that the padding would exceed ``MOST_PADDING`` samples.
+        If the corner lies outside that range, or the padding would exceed ``MAX_PADDING`` samples.
     """
     sections, pad = _design(dt, hz)
     row = _pad(acceleration, dt, hz, pad, pad)
@@ -56,10 +56,10 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
 
 
 def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
-    """Remove what is slower than a corner frequency as instruments and many agencies do, forwards only: phases are shifted.
+    """Return samples high-passed causally (forwards only), as instruments and many agencies do.
 
-    The same filter, baseline and padding (before the record) as :func:`highpass_samples`, run once: at the corner 0.71 of the amplitude
-    passes.
+    Filter, baseline and padding (before the record) as in :func:`highpass_samples`, run once: amplitude 0.71 at the corner, phase
+    shifted.
 
     Parameters
     ----------
@@ -82,10 +82,10 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
 
 
 def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
-    """Return the straight line through the two ends of a row of samples, (n,), m/s^2: the baseline that a high-pass takes off first.
+    """Return the baseline removed before a high-pass: the straight line through both ends of the samples.
 
-    Least squares, weighted by a Hann window of half a corner period at either end (of the whole record when that is shorter): the shaking
-    in the middle does not tilt it, and the tapers average out a swing that the ends cut. Exact for constants and lines.
+    Least squares, weighted by a Hann window of half a corner period at either end (of the whole record if shorter): shaking in the middle
+    does not tilt the line, and the tapers average out a cycle cut by the ends. Exact for constants and straight lines.
 
     Parameters
     ----------
@@ -105,11 +105,12 @@ def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
 
 
 def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[float, float]:
-    """Return the baseline in the middle of the samples, and how much higher it is at their end."""
+    """Return the baseline at mid-record and its rise from there to the end, m/s^2."""
     n = acceleration.size
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
+    # half-sample offset keeps all weights positive, so that short records stay well-conditioned
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    # the weights are symmetric: about the middle, level and slope are independent
+    # the weights are symmetric about the middle, so the normal equations for level and slope decouple
     ends = ((_normalized_positions(n, 0, length), acceleration[:length]), (_normalized_positions(n, n - length, n), acceleration[-length:]))
     level = sum(taper @ a for _, a in ends) / (2.0 * taper.sum())
     slope = sum((taper * x) @ a for x, a in ends) / sum(taper @ x**2 for x, _ in ends)
@@ -117,13 +118,13 @@ def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[fl
 
 
 def _normalized_positions(samples: int, begin: int, end: int) -> FloatArray:
-    """Return where some of the samples lie between the first of all, -1, and the last, 1."""
+    """Return positions of samples `begin` to `end` on an axis from -1 (first sample of all) to 1 (last)."""
     position = np.arange(begin, end, dtype=np.float64)
     return position * (2.0 / max(samples - 1, 1)) - 1.0
 
 
 def _pad(acceleration: FloatArray, dt: float, hz: float, pad_before: int, pad_after: int) -> FloatArray:
-    """Return samples less their baseline with their mirror images, made in the memory of what is returned."""
+    """Return samples minus the baseline, extended by mirror images of reversed sign, in one allocation."""
     n = acceleration.size
     level, slope = _level_and_slope(acceleration, dt, hz)
     row = np.empty(pad_before + n + pad_after)
@@ -135,18 +136,19 @@ def _pad(acceleration: FloatArray, dt: float, hz: float, pad_before: int, pad_af
 
 
 def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
-    """Return the sections of the filter, and how many samples its transients need to die."""
+    """Return the filter sections and the padding length, samples, after which transients have decayed."""
     nyquist = 0.5 / dt
     if not (np.isfinite(hz) and 0 < hz < nyquist):
         raise ParameterError(
-            "the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz", nyquist=nyquist, hz=hz
+            "high-pass corner must lie between 0 and {nyquist:g} Hz (half the sampling rate), found {hz:g} Hz", nyquist=nyquist, hz=hz
         )
+    # as a float: the ratio may exceed the range of integers
     pad = np.ceil(PADDING_PERIODS / (hz * dt))
     if pad > MAX_PADDING:
         min_corner = PADDING_PERIODS / (MAX_PADDING * dt)
         raise ParameterError(
-            "a high-pass corner of {hz:g} Hz needs {pad:.3g} samples of padding at either end of the record, more than "
-            "{most}: choose a corner of {least:.2g} Hz or more",
+            "high-pass corner {hz:g} Hz requires {pad:.3g} samples of padding at each end of the record, limit {most}; choose a "
+            "corner of at least {least:.2g} Hz",
             hz=hz,
             pad=pad,
             most=MAX_PADDING,
@@ -156,13 +158,13 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
 
 
 def _fill_mirror_image(row: FloatArray, pad_before: int, samples: int) -> None:
-    """Fill a row, at either end of the samples in it, with their mirror image, sign reversed, mirrored as often as needed."""
+    """Fill both ends of a row with the sign-reversed mirror image of its interior, repeated as needed."""
     interior = row[pad_before : pad_before + samples]
     for end, position in (
         (row[:pad_before], np.arange(-pad_before, 0)),
         (row[pad_before + samples :], np.arange(samples, row.size - pad_before)),
     ):
-        # position in a period of twice the record, of which the second half runs backwards with the sign reversed
+        # the extension has a period of twice the record; its second half runs backwards with reversed sign
         position %= 2 * samples
         is_mirrored = position >= samples
         end[:] = interior[np.where(is_mirrored, 2 * samples - 1 - position, position)]

@@ -1,4 +1,4 @@
-"""A storey of a building that swings as one linear oscillator: what stands on it feels the storey's motion, not the ground's."""
+"""Floor motion of a building modelled as one linear oscillator."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from seisblock.records.oscillator import oscillator_path
 from seisblock.records.record import Component, Record
 
 DAMPING = 0.05
-"""Of a building, a ratio to critical, unless another is given."""
+"""Default damping ratio of a building."""
 
 PARTICIPATION_FACTOR = 1.5
-"""How much of the ground's motion the fundamental mode takes up at the top: of even mass, in a straight line."""
+"""Participation factor of the fundamental mode at roof level for uniform mass and a linear mode shape."""
 
 RINGDOWN_RATIO = 1e-3
-"""The swing after the record is followed until it is this share of the largest acceleration of the oscillator."""
+"""The free vibration after the record is computed until its acceleration falls to this ratio of the oscillator's peak."""
 
 POINTS_PER_PERIOD = 20
-"""Least samples per period of the storey: straight lines between them are then right to (2 pi/20)^2/8, 1.2 % of a swing."""
+"""Minimum number of samples per floor period: the error of linear interpolation is then (2 pi/20)^2/8, 1.2 % of the amplitude."""
 
 EXAMPLE = "T=0.6,zeta=0.05,height=0.8"
 _PARAMETERS = {"t": "period_s", "zeta": "damping", "height": "height"}
@@ -34,17 +34,17 @@ _PARAMETERS = {"t": "period_s", "zeta": "damping", "height": "height"}
 
 @dataclass(frozen=True)
 class Storey:
-    """A storey, as one linear oscillator under the building's ground.
+    """Floor of a building modelled as one linear oscillator on the ground.
 
     Parameters
     ----------
     period_s : float, s
         Undamped natural period of the building's fundamental mode.
     damping : float, 1
-        Ratio to critical, between 0 and 1.
+        Damping ratio, between 0 and 1.
     height : float or None, 1
-        Where the storey lies, a share of the building's height, above 0 up to 1; None for the oscillator's own mass, which is where a
-        building of even mass and of a mode in a straight line has it, at two thirds.
+        Height of the floor as a ratio of the building height, above 0 up to 1; None for the mass of the oscillator, which corresponds to
+        two thirds of the height for uniform mass and a linear mode shape.
 
     Raises
     ------
@@ -53,15 +53,15 @@ class Storey:
 
     Notes
     -----
-    u'' + 2 zeta w u' + w^2 u = -a_g from rest gives the oscillator the absolute acceleration a = -(2 zeta w u' + w^2 u), exactly for a
-    ground that is a straight line from sample to sample ([NigamJennings1969]_ eq. (2.7)). A building whose fundamental mode is a straight
-    line phi = z/H and whose mass m is even takes up Gamma = int m phi dz / int m phi^2 dz = 3/2 of the ground's motion in it
-    ([Chopra2012]_ section 13.1: the participation factor), so that a storey at z feels
+    u'' + 2 zeta w u' + w^2 u = -a_g from rest gives the absolute acceleration a = -(2 zeta w u' + w^2 u) of the oscillator, exact for a
+    piecewise linear ground acceleration ([NigamJennings1969]_ eq. (2.7)). For a linear fundamental mode phi = z/H and uniform mass m the
+    participation factor is Gamma = int m phi dz / int m phi^2 dz = 3/2 ([Chopra2012]_ section 13.1), and the absolute acceleration of a
+    floor at height z is
 
         a_g + (3/2) (z/H) (a - a_g) .
 
-    Higher modes and yielding are left out: real storeys near the ground feel more of the ground's short periods, and a building that yields
-    passes on less.
+    Higher modes and yielding are neglected: real floors near the ground respond more at short periods, and a yielding building transmits
+    less.
 
     Examples
     --------
@@ -74,19 +74,19 @@ class Storey:
     height: float | None = None
 
     def __post_init__(self) -> None:
-        checks.positive("the period of the storey", self.period_s, "s")
-        checks.in_interval("the damping of the storey", self.damping, "(0, 1)")
+        checks.positive("the period of the building", self.period_s, "s")
+        checks.in_interval("the damping ratio of the building", self.damping, "(0, 1)")
         if self.height is not None:
-            checks.in_interval("the height of the storey, a share of the building's,", self.height, "(0, 1]")
+            checks.in_interval("the height ratio of the floor", self.height, "(0, 1]")
 
     @property
     def share(self) -> float:
-        """How much of the oscillator's motion relative to the ground the storey has ([Chopra2012]_ section 13.1)."""
+        """Ratio of the floor's to the oscillator's motion relative to the ground ([Chopra2012]_ section 13.1)."""
         return 1.0 if self.height is None else PARTICIPATION_FACTOR * self.height
 
     @property
     def spec(self) -> str:
-        """As :func:`parse_storey` reads it: ``T=0.6,zeta=0.05``."""
+        """Text form accepted by :func:`parse_storey`: ``T=0.6,zeta=0.05``."""
         return f"T={self.period_s:g},zeta={self.damping:g}" + ("" if self.height is None else f",height={self.height:g}")
 
     @property
@@ -96,12 +96,12 @@ class Storey:
 
 
 def parse_storey(text: str) -> Storey:
-    """Return the storey that a text such as ``T=0.6,zeta=0.05,height=0.8`` describes: period in s, damping and height as shares.
+    """Return the storey described by text such as ``T=0.6,zeta=0.05,height=0.8``.
 
     Raises
     ------
     ParameterError
-        If it says something else, or a number lies outside its range.
+        If the text has another form, or a number lies outside its range.
 
     Examples
     --------
@@ -124,32 +124,32 @@ def parse_storey(text: str) -> Storey:
 
 
 def _parse_error(text: str) -> ParameterError:
-    """Return the refusal of a text that describes no storey."""
     return ParameterError(
-        "{text!r} is no storey: expected its period T in s and, if need be, its damping zeta and its height, such as {example}",
+        "invalid floor {text!r}: expected the period T in s and optionally the damping ratio zeta and the height ratio, for "
+        "example {example}",
         text=text[:60],
         example=EXAMPLE,
     )
 
 
 def floor_motion(record: Record, storey: Storey) -> Record:
-    """Return what a storey does while the ground moves as a record says: absolute accelerations of its horizontal components.
+    """Return the absolute acceleration of a floor for a ground-motion record.
 
-    Each horizontal component drives an oscillator of its own, alike in all directions, so that turning to an azimuth afterwards or
-    before is the same. The vertical component passes as it is. The ground is still before and after the record, and the storey swings on:
-    samples are added until its swing is a thousandth of its peak. Where the record is coarse against the period, samples are put in
-    between, on the straight lines of the ground, 20 to a period.
+    Each horizontal component drives its own oscillator with the same properties, so that rotation to an azimuth commutes with the
+    response. The vertical component is unchanged. The ground is at rest before and after the record; free vibration is appended until the
+    acceleration has decayed to a thousandth of its peak. Where the record is coarse for the period, samples are inserted by linear
+    interpolation, at least 20 per period.
 
     Parameters
     ----------
     record : Record
-        Of the ground.
+        Ground motion.
     storey : Storey
 
     Raises
     ------
     ParameterError
-        If the swing lasts so long, or asks for so many samples in between, that there would be more than may be kept.
+        If free vibration and inserted samples exceed the limit on the number of samples.
 
     Examples
     --------
@@ -160,9 +160,11 @@ def floor_motion(record: Record, storey: Storey) -> Record:
     """
     checks.instance(record, Record)
     checks.instance(storey, Storey)
+    # 1e-9: a ratio that is whole up to rounding needs no further subdivision
     subdivisions = max(1, math.ceil(POINTS_PER_PERIOD * record.dt / storey.period_s - 1e-9))
     dt = record.dt / subdivisions
-    items = N_("samples of a storey's motion")
+    items = N_("samples of floor motion")
+    # checked before allocation, and again with the free vibration
     check_limit(items, (record.samples - 1) * subdivisions * len(record.components), "SEISBLOCK_READ_SAMPLES")
     rows = [_interpolate(component.acceleration, subdivisions) for component in record.components]
     n_ringdown = max(
@@ -177,18 +179,18 @@ def floor_motion(record: Record, storey: Storey) -> Record:
 
 
 def _interpolate(row: FloatArray, subdivisions: int) -> FloatArray:
-    """Return samples with others on the straight lines between them, so that each interval has so many parts."""
+    """Return samples with each interval linearly subdivided into `subdivisions` parts."""
     if subdivisions == 1:
         return row
     return np.interp(np.arange((row.size - 1) * subdivisions + 1) / subdivisions, np.arange(row.size), row)
 
 
 def _floor_acceleration(component: Component, ground: FloatArray, dt: float, storey: Storey) -> FloatArray:
-    """Return the absolute acceleration of the storey along a component, (n,), m/s^2."""
+    """Return the absolute floor acceleration along a component, (n,), m/s^2."""
     if component.is_vertical:
         return ground
     absolute = _absolute_acceleration(oscillator_path(ground, dt, storey.omega, storey.damping), storey)
-    # of the oscillator itself as it is, bit by bit
+    # share 1: return the oscillator's own acceleration without the rounding of the sum below
     return absolute if storey.share == 1.0 else ground + storey.share * (absolute - ground)
 
 
@@ -199,26 +201,27 @@ def _absolute_acceleration(path: Sequence[FloatArray], storey: Storey) -> FloatA
 
 
 def _ringdown_samples(ground: FloatArray, dt: float, storey: Storey) -> int:
-    """Return how many samples the oscillator swings on until its acceleration is a thousandth of its peak."""
+    """Return the number of samples of free vibration until its acceleration is RINGDOWN_RATIO of the peak."""
     u, v = path = oscillator_path(ground, dt, storey.omega, storey.damping)
     largest = float(np.abs(_absolute_acceleration(path, storey)).max())
     decay = storey.damping * storey.omega
-    # the free swing is Re(C exp(s t)); its acceleration s^2 C exp(s t), and |s| is the natural frequency
+    # free vibration Re(C exp(s t)) has the acceleration Re(s^2 C exp(s t)), and |s| is the natural frequency
     damped_omega = storey.omega * math.sqrt(1.0 - storey.damping**2)
     final = storey.omega**2 * math.hypot(float(u[-1]), (float(v[-1]) + decay * float(u[-1])) / damped_omega)
     if final <= RINGDOWN_RATIO * largest or final == 0.0:
         return 0
+    # exponential decay with rate zeta*omega from the state at the end of the record
     return math.ceil(math.log(final / (RINGDOWN_RATIO * max(largest, final))) / (decay * dt))
 
 
 FLOOR_MOTION_HISTORY = N_(
     "floor motion T {period:g} s, damping {damping:g}{height} (absolute acceleration of a linear oscillator from rest{model}; {kept})"
 )
-"""What is said of a record that is the motion of a storey."""
+"""Template of the history entry written by :func:`floor_motion`."""
 
 
 def is_floor_motion(record: Record) -> bool:
-    """Return whether a record is the motion of a storey, not of the ground.
+    """Return whether a record is a floor motion.
 
     Examples
     --------
@@ -231,20 +234,21 @@ def is_floor_motion(record: Record) -> bool:
 
 
 def _history_entry(storey: Storey, subdivisions: int, ringdown_s: float) -> str:
-    """Return the line of the history."""
     if subdivisions > 1:
         details = lazy_gettext(
-            "vertical as it was; {count} samples for each, and {after:.4g} s more of free swing", count=subdivisions, after=ringdown_s
+            "vertical unchanged; {count} sub-intervals per sample, {after:.4g} s of free vibration appended",
+            count=subdivisions,
+            after=ringdown_s,
         )
     else:
-        details = lazy_gettext("vertical as it was; {after:.4g} s more of free swing", after=ringdown_s)
+        details = lazy_gettext("vertical unchanged; {after:.4g} s of free vibration appended", after=ringdown_s)
     has_height = storey.height is not None
     return lazy_gettext(
         FLOOR_MOTION_HISTORY,
         period=storey.period_s,
         damping=storey.damping,
-        height=lazy_gettext(", height {height:g}", height=storey.height) if has_height else "",
-        model=lazy_gettext(", mode in a straight line, even mass: {share:g} of it relative to the ground", share=storey.share)
+        height=lazy_gettext(", height ratio {height:g}", height=storey.height) if has_height else "",
+        model=lazy_gettext(", linear mode shape, uniform mass: {share:g} times the relative acceleration", share=storey.share)
         if has_height
         else "",
         kept=details,

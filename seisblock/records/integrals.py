@@ -1,4 +1,4 @@
-"""Velocity and displacement of a piecewise linear acceleration, exactly, in the memory of what is returned."""
+"""Exact velocity and displacement of a piecewise linear acceleration, chunk by chunk."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.core.typing import FloatArray
 
 
 def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
-    """Return the velocity at the samples from rest, exact for a piecewise linear acceleration.
+    """Return the velocity at the samples, starting from rest; exact for a piecewise linear acceleration.
 
     Parameters
     ----------
@@ -32,19 +32,20 @@ def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
 
 
 def velocities(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> Iterator[tuple[int, FloatArray]]:
-    """Yield :func:`integrate` piece by piece, two of which share a sample: the sample at which a piece begins, and the piece.
+    """Yield chunks of :func:`integrate` as (index of the first sample, velocity); chunks overlap by one sample.
 
     Parameters
     ----------
     acceleration, dt
         As in :func:`integrate`.
     initial_velocity : float, m/s
-        Added to each of them.
+        Added to every velocity.
     """
     carry = 0.0
     for begin, end in _blocks(acceleration.size):
         velocity = _velocity_block(acceleration[begin : end + 1], dt, carry)
         carry = float(velocity[-1])
+        # added after the carry is stored, so that it enters once
         velocity += initial_velocity
         yield begin, velocity
 
@@ -73,7 +74,7 @@ def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float
 
 
 def displacements(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> Iterator[tuple[int, FloatArray]]:
-    """Yield :func:`integrate_twice` piece by piece, from its second sample on: the sample at which a piece begins, and the piece.
+    """Yield chunks of :func:`integrate_twice` from the second sample on, as (index of the first sample, displacement).
 
     Parameters
     ----------
@@ -83,6 +84,7 @@ def displacements(acceleration: FloatArray, dt: float, initial_velocity: float =
     carry = 0.0
     for begin, velocity in velocities(acceleration, dt, initial_velocity):
         a = acceleration[begin : begin + velocity.size]
+        # exact double integral of a linear acceleration over each interval
         steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
         steps[0] += carry
         np.cumsum(steps, out=steps)
@@ -91,16 +93,17 @@ def displacements(acceleration: FloatArray, dt: float, initial_velocity: float =
 
 
 def _velocity_block(acceleration: FloatArray, dt: float, initial: float) -> FloatArray:
-    """Return the velocity at some samples that follow each other, from that at the first."""
+    """Return the velocity at consecutive samples from the velocity `initial` at the first."""
     velocity = np.empty(acceleration.size)
     velocity[0] = initial
     steps = 0.5 * dt * (acceleration[1:] + acceleration[:-1])
+    # the carry enters the cumulative sum, so the result does not depend on the chunk size
     steps[0] += initial
     np.cumsum(steps, out=velocity[1:])
     return velocity
 
 
 def _blocks(samples: int) -> Iterator[tuple[int, int]]:
-    """Yield first and last sample of pieces that share their ends: sums go on from piece to piece, in the memory of one."""
+    """Yield first and last sample of chunks that share their end samples."""
     for begin in range(0, samples - 1, CHUNK_SIZE):
         yield begin, min(begin + CHUNK_SIZE, samples - 1)

@@ -1,4 +1,4 @@
-"""The input of a solver: ground acceleration along, across and up, on one clock."""
+"""Input motion of a solver: ground acceleration along, across and up at common times."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ ACROSS: Final = 1
 UP: Final = 2
 
 ALL_AZIMUTHS = "all-azimuths"
-"""What asks for every direction in the place of a component."""
+"""Component name that requests all directions."""
 
 MAX_SAMPLING_INTERVAL = 0.1
-"""A sampling interval beyond this, s, is none of ground motion: a rate, or another unit."""
+"""Longest plausible sampling interval of ground motion, s; beyond it a rate or another unit was probably given."""
 
 LONG_MOTION_SAMPLES = 2**20
-"""Samples (three hours at 100 Hz) beyond which nothing holds a motion or a trajectory whole that need not."""
+"""Number of samples (three hours at 100 Hz) beyond which motions and trajectories are processed in segments."""
 
 SEGMENT_SAMPLES = 2**18
-"""Samples of a long motion that are looked at at a time."""
+"""Samples per segment of a long motion."""
 
 
 MotionRows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[slice], FloatArray], FloatArray]
-"""Along, across and up, in one array or each in its own; the one across may be what makes a part of it."""
+"""Accelerations along, across and up: one (3, n) array or a tuple; the row across may be a function of a slice."""
 
 
 class MotionSegment(NamedTuple):
-    """Samples of a motion that follow each other: which one is the first, their rows, (3, k), m/s^2, and how many follow after them."""
+    """Consecutive samples of a motion: index of the first, accelerations (3, k), m/s^2, and number of later samples."""
 
     first: int
     acceleration: FloatArray
@@ -49,21 +49,21 @@ class MotionSegment(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Motion(PlotMixin):
-    """Ground acceleration that a body feels, piecewise linear between samples.
+    """Ground acceleration acting on a body, piecewise linear between samples.
 
     Parameters
     ----------
     rows : (3, n) array or three (n,) arrays, m/s^2
-        Along +x, across (+y, 90 degrees counter-clockwise of x seen from above), up (+z). Kept read-only; arrays of their own are not
-        copied, and the one across may be a function that makes a part of it, a slice, each time that is asked for.
+        Along +x, across (+y, 90 degrees counter-clockwise of x seen from above), up (+z). Stored read-only; contiguous float64 arrays are
+        not copied. The row across may be a function that returns the samples of a slice.
     dt : float, s
         Sampling interval.
     name : str
-        Which direction of the record +x is (``EW``, ``37`` for an azimuth...).
+        Direction of +x in the record (component code such as ``EW``, or azimuth such as ``37``).
     start_s : float, s
         Time of the first sample, counted from the record's first sample as read.
     record : Record or None
-        Where it comes from.
+        Source record.
     """
 
     rows: MotionRows
@@ -82,12 +82,12 @@ class Motion(PlotMixin):
         arrays = [row for row in rows if not callable(row)]
         shape = rows.shape if isinstance(rows, np.ndarray) else (len(rows), *arrays[0].shape)
         if len(shape) != 2 or shape[0] != 3 or any(row.shape != shape[1:] for row in arrays):
-            raise ParameterError("a motion has three rows (along, across, up), found shape {shape}", shape=str(shape))
+            raise ParameterError("expected three rows (along, across, up), found shape {shape}", shape=str(shape))
         if shape[1] < 2:
             raise ParameterError("a motion needs at least 2 samples, found {count}", count=shape[1])
         checks.positive("the sampling interval", self.dt, "s")
         if not all(np.isfinite(row).all() for row in arrays):
-            raise ParameterError("a motion must hold finite numbers only")
+            raise ParameterError("accelerations of a motion must be finite")
 
     @classmethod
     def from_arrays(
@@ -98,19 +98,19 @@ class Motion(PlotMixin):
         Parameters
         ----------
         horizontal, vertical : (n,) array, m/s^2
-            Ground acceleration along +x, and upwards where there is any.
+            Ground acceleration along +x and, optionally, upwards.
         dt, name, start_s
             As for the class.
 
         Raises
         ------
         ParameterError
-            If an array is no row of finite numbers, the two differ in length, or the interval is not positive.
+            If an array is not 1-D and finite, the lengths differ, or the interval is not positive.
 
         Warns
         -----
         UserWarning
-            If it reaches more than 5 g, or the interval is more than 0.1 s: the unit is probably another.
+            If the peak exceeds 5 g or the interval exceeds 0.1 s, which suggests another unit.
         """
         along = checks.float_vector("the horizontal acceleration", horizontal)
         rows = np.zeros((3, along.size))
@@ -118,7 +118,9 @@ class Motion(PlotMixin):
         if vertical is not None:
             up = checks.float_vector("the vertical acceleration", vertical)
             if up.shape != along.shape:
-                raise ParameterError("horizontal and vertical differ in length: {along} and {up} samples", along=along.size, up=up.size)
+                raise ParameterError(
+                    "horizontal and vertical accelerations differ in length: {along} and {up} samples", along=along.size, up=up.size
+                )
             rows[UP] = up
         motion = cls(rows, dt, name=name, start_s=start_s)
         if called_externally(1):
@@ -133,7 +135,7 @@ class Motion(PlotMixin):
 
     @property
     def transverse(self) -> FloatArray:
-        """Ground acceleration across +x, (n,), m/s^2; a long motion makes it anew each time."""
+        """Ground acceleration across +x, (n,), m/s^2; recomputed on each access for long motions."""
         return _slice_row(self.rows[ACROSS], slice(None))
 
     @property
@@ -144,12 +146,12 @@ class Motion(PlotMixin):
 
     @property
     def acceleration(self) -> FloatArray:
-        """The three rows as one read-only array, (3, n), m/s^2; a long motion makes it anew each time."""
+        """Accelerations along, across and up, (3, n), m/s^2, read-only; recomputed on each access for long motions."""
         return self.rows if isinstance(self.rows, np.ndarray) else readonly(np.stack([self.horizontal, self.transverse, self.vertical]))
 
     @property
     def azimuth_deg(self) -> float | None:
-        """Azimuth of +x, degrees clockwise from north; None where it is not known."""
+        """Azimuth of +x, degrees clockwise from north; None if unknown."""
         try:
             return float(self.name)
         except ValueError:
@@ -163,22 +165,23 @@ class Motion(PlotMixin):
 
     @property
     def is_long(self) -> bool:
-        """Whether it has so many samples that nothing should hold a copy of it, or a trajectory through it, that need not."""
+        """True if the motion should be processed in segments rather than copied."""
         return self.samples > LONG_MOTION_SAMPLES
 
     def segments(self, active: Sequence[bool], first_sample: int = 0) -> Iterator[MotionSegment]:
-        """Yield the samples in the order of time: all at once, or stretch by stretch where they are many.
+        """Yield the motion in time order: in one segment, or in several if it is long.
 
         Parameters
         ----------
-        acting : three bool
-            Whether a row is wanted; of a long motion the others are zero.
-        first : int
-            Sample to begin with, at the latest.
+        active : three bool
+            Rows to compute; the other rows of a long motion are zero.
+        first_sample : int
+            Start of the first segment of a long motion, at the latest its last interval.
         """
         if not self.is_long:
             yield MotionSegment(0, self.acceleration, 0)
             return
+        # segments share their end samples: the last of one is the first of the next
         last = self.samples - 1
         for begin in range(min(first_sample, last - 1), last, SEGMENT_SAMPLES):
             end = min(begin + SEGMENT_SAMPLES, last)
@@ -195,29 +198,29 @@ class Motion(PlotMixin):
 
 
 def _slice_row(row: FloatArray | Callable[[slice], FloatArray], part: slice) -> FloatArray:
-    """Return some samples of a row, or of one that is made part by part."""
+    """Return samples of a row given as an array or as a function of a slice."""
     return row(part) if callable(row) else row[part]
 
 
 def motion_of(record: Record, component: str) -> Motion:
-    """Return the motion whose +x is a component's positive direction, or an azimuth.
+    """Return the motion whose +x axis is a component's positive direction or an azimuth.
 
     Parameters
     ----------
     record : Record
-        Its vertical component, when there is one, becomes the third row; when there is none that row is zero.
+        Source; a missing vertical component gives a row of zeros.
     component : str
         Code of a horizontal component, or an azimuth in degrees clockwise from north, for example ``37``.
 
     Raises
     ------
     ComponentError
-        If there is no such component, or an azimuth is asked of a record without two oriented horizontals.
+        If there is no such component, or an azimuth is requested from a record without two oriented horizontals.
 
     Warns
     -----
     UserWarning
-        If a program asks, and it reaches more than 5 g, of which the record's doubts say nothing, or its interval is more than 0.1 s.
+        If called from outside the package and the interval exceeds 0.1 s, or the peak exceeds 5 g without a quality flag of the record.
 
     Examples
     --------
@@ -232,6 +235,7 @@ def motion_of(record: Record, component: str) -> Motion:
     zeros = np.zeros(record.samples)
     up = zeros if record.vertical is None else record.vertical.acceleration
     if record.samples > LONG_MOTION_SAMPLES:
+        # a long motion keeps the row across as a function, which saves a third of its memory
         rows: MotionRows = (along, across or zeros, up)
     else:
         rows = readonly(np.stack([along, zeros if across is None else across(slice(None)), up]))
@@ -242,20 +246,22 @@ def motion_of(record: Record, component: str) -> Motion:
 
 
 def _warn_units(motion: Motion, depth: int) -> None:
-    """Warn of a motion that a program gives in another unit, by its size or its interval."""
+    """Warn if peak or sampling interval suggest another unit."""
     is_flagged = motion.record is not None and any(flag.kind == "size" for flag in motion.record.doubts)
+    # max and -min instead of abs: no temporary array
     peak = max(max(float(row.max()), -float(row.min())) for row in (motion.horizontal, motion.vertical))
     if peak > IMPLAUSIBLE_PGA and not is_flagged:
         warn_external(
-            lazy_gettext("a motion reaches {peak:.4g} m/s^2, more than 5 g: is it in m/s^2? 1 gal is 0.01 m/s^2", peak=peak), depth
+            lazy_gettext("peak acceleration {peak:.4g} m/s^2 exceeds 5 g; check the unit (expected m/s^2; 1 gal = 0.01 m/s^2)", peak=peak),
+            depth,
         )
     if motion.dt > MAX_SAMPLING_INTERVAL:
-        text = "the sampling interval is {dt:g} s: is it in s, and no rate in Hz? ground motion is sampled every 0.1 s or more often"
+        text = "sampling interval {dt:g} s exceeds 0.1 s; check the unit (interval in s, not rate in Hz)"
         warn_external(lazy_gettext(text, dt=motion.dt), depth)
 
 
 def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
-    """Return the acceleration along a direction and, when known, what makes parts of that 90 degrees counter-clockwise of it."""
+    """Return the acceleration along a direction, and a function for slices of the row 90 degrees counter-clockwise."""
     azimuth = _parse_azimuth(component)
     if azimuth is not None and not any(c.code == component for c in record.horizontals):
         checks.azimuth(azimuth, error=ComponentError)
@@ -264,7 +270,7 @@ def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callab
         selected = record.component(component) if component_match is None else component_match
         if selected.is_vertical:
             raise ComponentError(
-                "{component} is vertical; choose a horizontal direction: {codes}",
+                "component {component} is vertical; choose a horizontal component: {codes}",
                 component=component,
                 codes=[c.code for c in record.horizontals],
             )
@@ -275,27 +281,29 @@ def _horizontal_rows(record: Record, component: str) -> tuple[FloatArray, Callab
         pair = oriented_pair(record)
         along = selected.acceleration
     else:
+        # a single oriented horizontal still gives its opposite direction, without the transverse row
         opposite = _recorded_component(record, "", azimuth + 180.0)
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
             return readonly(-opposite.acceleration), None
         pair = oriented_pair(record)
+        # the row across lies 90 degrees counter-clockwise of the row along
         along = acceleration_at_azimuth(pair, azimuth)
     return along, azimuth_projection(pair, azimuth - 90.0)
 
 
 def _parse_azimuth(component: str) -> float | None:
-    """Return an azimuth in degrees when the text is a number."""
+    """Return an azimuth in degrees if the text is a number, else None."""
     try:
         azimuth = float(component)
     except ValueError:
         return None
     if not np.isfinite(azimuth):
-        raise ComponentError("the azimuth must be a finite number of degrees, found {component!r}", component=component)
+        raise ComponentError("azimuth must be a finite number of degrees, found {component!r}", component=component)
     return azimuth
 
 
 def _recorded_component(record: Record, component: str, azimuth: float) -> Component | None:
-    """Return the horizontal that was recorded towards an azimuth, or has that number for its name and no known direction."""
+    """Return the horizontal recorded towards an azimuth, or named by that number without a known azimuth."""
     for candidate in record.horizontals:
         code_matches = candidate.azimuth_deg is None and candidate.code == component
         if code_matches or candidate.azimuth_deg == azimuth % 360.0:

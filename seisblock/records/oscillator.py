@@ -1,4 +1,4 @@
-"""The exact step of a damped oscillator over ground that moves in straight lines from sample to sample, and its path along a record."""
+"""Exact time stepping of a damped linear oscillator under piecewise linear ground acceleration."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from seisblock.core.typing import FloatArray
 
 
 def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
-    """Return what one step makes of displacement, velocity and the ground's accelerations at its two ends, (4, 4), first two rows.
+    """Return the step matrix for displacement, velocity and the accelerations at both ends, (4, 4), first two rows used.
 
-    The equation u'' + 2 h w u' + w^2 u = -a(t) with a straight line of a is a linear system of (u, u', a, a'), whose exponential is the
-    exact step ([NigamJennings1969]_ eq. (2.7)).
+    u'' + 2 h w u' + w^2 u = -a(t) with a(t) linear is a linear system in (u, u', a, a'); its matrix exponential is the exact step
+    ([NigamJennings1969]_ eq. (2.7)).
 
     Parameters
     ----------
@@ -24,33 +24,34 @@ def exact_step(dt: float, omega: float, damping: float) -> FloatArray:
     omega : float, rad/s
         Undamped natural frequency.
     damping : float
-        Ratio to critical, 0 <= damping < 1.
+        Damping ratio, 0 <= damping < 1.
     """
     system = np.zeros((4, 4))
     system[0, 1] = system[2, 3] = 1.0
     system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
     step = _matrix_exponential(system * dt)
+    # the fourth variable is the slope (a1 - a0)/dt
     step[:2, 3] /= dt
-    step[:2, 2] -= step[:2, 3]  # what the samples at its two ends do to a step
+    step[:2, 2] -= step[:2, 3]  # from (a, a') to the samples at both ends
     return step
 
 
 def oscillator_path(ground: FloatArray, dt: float, omega: float, damping: float) -> tuple[FloatArray, FloatArray]:
-    """Return displacement and velocity of an oscillator relative to the ground at the samples, from rest, (n,) each, m and m/s.
+    """Return relative displacement, m, and velocity, m/s, of an oscillator starting from rest, (n,) each.
 
-    Exact where the ground's acceleration is a straight line from sample to sample ([NigamJennings1969]_ eq. (2.7)).
+    Exact for a piecewise linear ground acceleration ([NigamJennings1969]_ eq. (2.7)).
 
     Parameters
     ----------
     ground : (n,) array, m/s^2
         Acceleration of the ground.
     dt, omega, damping
-        As of :func:`exact_step`.
+        As in :func:`exact_step`.
     """
     step = exact_step(dt, omega, damping)
     path = np.zeros((2, ground.size))
     for begin in range(0, max(ground.size - 1, 1), CHUNK_SIZE):
-        # a piece at a time: Ctrl-C is heard between two
+        # in chunks: an interrupt is handled between two kernel calls
         _integrate(
             step, ground[begin : begin + CHUNK_SIZE + 1], path[0, begin : begin + CHUNK_SIZE + 1], path[1, begin : begin + CHUNK_SIZE + 1]
         )
@@ -59,7 +60,7 @@ def oscillator_path(ground: FloatArray, dt: float, omega: float, damping: float)
 
 @kernel("void(float64[:, ::1], Array(float64, 1, 'C', readonly=True), float64[::1], float64[::1])")
 def _integrate(step, ground, u, v):
-    """Follow an oscillator over some samples, from the state that stands at the first."""
+    """Step an oscillator through the samples from the state at the first."""
     for k in range(ground.size - 1):
         forcing = step[0, 2] * ground[k] + step[0, 3] * ground[k + 1]
         u[k + 1] = step[0, 0] * u[k] + step[0, 1] * v[k] + forcing
@@ -68,7 +69,9 @@ def _integrate(step, ground, u, v):
 
 
 def _matrix_exponential(matrix: FloatArray) -> FloatArray:
-    """Return the exponential of a small matrix, by its series and by squaring; scipy's asks a threaded library, a hundred times slower."""
+    """Return the exponential of a small matrix by Taylor series with scaling and squaring."""
+    # scipy.linalg.expm calls threaded BLAS and is about 100 times slower for a 4 x 4 matrix
+    # scaling and squaring: the series converges to double precision for a norm of at most 1
     halvings = max(math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1.0))), 0)
     small = matrix / 2.0**halvings
     total = term = np.eye(matrix.shape[0])

@@ -1,4 +1,4 @@
-"""What is done to records before they are used: one frozen list of steps that any number of records can go through."""
+"""Preparation of records before analysis: demean, high-pass, scaling, floor motion, window."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from seisblock.records.record import Record
 
 @dataclass(frozen=True)
 class Preparation:
-    """Mean, high-pass, scale, floor and window, in this order.
+    """Processing steps applied to records: mean, high-pass, scale, floor motion and window, in this order.
 
     Parameters
     ----------
     demean : bool or None
-        Whether the mean of each component is removed; None removes it where the format's counts carry an offset (K-NET, KiK-net).
+        Remove the mean of each component; None removes it for formats whose counts carry an offset (K-NET, KiK-net).
     highpass_hz : float or None, Hz
         Corner of :func:`~seisblock.records.process.highpass`.
     scale : float
         Factor on all components.
     target_pga : float or None, m/s^2
-        Peak that the largest of `components` shall have after that; all components are scaled alike.
+        Target peak of the largest of `components` after these steps; all components are scaled by the same factor.
     components : tuple of str
-        Codes or azimuths among which that peak is looked for; all horizontals when empty.
+        Codes or azimuths that define the peak; all horizontals when empty.
     window : (float or None, float or None) or None, s
-        First and last instant kept, counted from the record's first sample as read; None is the record's own end.
+        Start and end, counted from the record's first sample as read; None keeps the end of the record.
     floor : Storey or None
-        What stands on a storey of a building feels :func:`~seisblock.records.floor_motion.floor_motion` of that. The scale is that of
-        the ground, a target PGA too; the window is cut out of the storey's motion, which knows what came before it.
+        Replace the ground motion by :func:`~seisblock.records.floor_motion.floor_motion`. Scale and target PGA refer to the ground; the
+        window is extracted from the floor motion and includes the response to earlier shaking.
 
     Raises
     ------
@@ -59,24 +59,24 @@ class Preparation:
         object.__setattr__(self, "components", (self.components,) if isinstance(self.components, str) else tuple(self.components))
         checks.nonzero("the scale factor", self.scale)
         if self.highpass_hz is not None:
-            checks.positive("the corner of the high-pass", self.highpass_hz, "Hz")
+            checks.positive("the high-pass corner", self.highpass_hz, "Hz")
         if self.target_pga is not None:
             checks.positive("the target PGA", self.target_pga, "m/s^2")
         if self.floor is not None:
             checks.instance(self.floor, Storey)
 
     def apply(self, record: Record) -> Record:
-        """Return a record that went through the steps, each of which is told in its ``history``.
+        """Return the processed record; each step adds an entry to ``history``.
 
         Parameters
         ----------
         record : Record
-            As it was read; it stays as it is.
+            Record as read; not modified.
 
         Raises
         ------
         ParameterError
-            If the corner lies above half the sampling rate, nothing can be scaled, or the floor swings for ever.
+            If the corner exceeds half the sampling rate, the components are zero, or the floor motion exceeds the limit on samples.
         ComponentError
             If there is no such component.
         RecordError

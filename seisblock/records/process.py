@@ -1,4 +1,4 @@
-"""What may be done to a record between reading and solving: pure functions, each of which logs itself in ``history``."""
+"""Processing of records: pure functions that add an entry to ``history``."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from seisblock.records.rotation import acceleration_at_azimuth, oriented_pair
 
 
 def demean(record: Record) -> Record:
-    """Subtract from each component its mean over the whole record held here.
+    """Subtract the mean of each component over the whole record.
 
-    K-NET and KiK-net counts carry an offset of up to tens of gal, which would push a block for ever; NIED defines its own
-    header maximum on the record less this mean.
+    K-NET and KiK-net counts carry an offset of up to tens of gal, which would act as a constant force on a body. NIED defines the header
+    maximum on the record minus this mean.
 
     Parameters
     ----------
     record : Record
-        Any record; cut a window after this, not before, if the offset of the whole is meant.
+        Record; demean before cropping to remove the offset of the whole record.
 
     Examples
     --------
@@ -45,20 +45,19 @@ def demean(record: Record) -> Record:
 
 
 def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
-    """Keep the samples of a window; their times do not change.
+    """Return the samples in a time window; sample times do not change.
 
     Parameters
     ----------
     record : Record
-        Its ``offset_s`` moves, so that times go on counting from the first sample as read.
+        Record; ``offset_s`` of the result keeps times relative to the first sample as read.
     start_s, end_s : float or None, s
-        First and last instant kept, counted from the record's first sample as read; samples on them are kept. None is the
-        record's own end.
+        Start and end, counted from the record's first sample as read, both included. None keeps the end of the record.
 
     Raises
     ------
     RecordError
-        If the window lies outside the record or holds fewer than two samples.
+        If the window lies outside the record or contains fewer than two samples.
 
     Examples
     --------
@@ -73,21 +72,23 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     end = record_end if end_s is None else checks.finite("the end of the window", end_s, "s", error=RecordError)
     window = lazy_gettext("window {start:g}:{end:g} s", start=start, end=end)
     if not start < end:
-        raise RecordError("{window}: its start must come before its end, both in s from the first sample", window=window)
+        raise RecordError("{window}: start must be before end (s from the first sample)", window=window)
+    # tolerance for window ends on a sample, whose time is rounded
     slack = 1e-6 * record.dt
     if start < record_start - slack or end > record_end + slack:
         source = record.source or lazy_gettext("record")
         raise RecordError(
-            "{where}: the {window} lies outside the record, which runs from {first:g} to {last:g} s",
+            "{where}: {window} lies outside the record ({first:g} to {last:g} s)",
             where=source,
             window=window,
             first=record_start,
             last=record_end,
         )
+    # 1e-6 of a sample: a window end on a sample includes it in spite of rounding
     begin = int(np.ceil((start - record_start) / record.dt - 1e-6))
     stop = int(np.floor((end - record_start) / record.dt + 1e-6)) + 1
     if stop - begin < 2:
-        raise RecordError("{window} holds fewer than 2 samples at {dt:g} s: make it longer", window=window, dt=record.dt)
+        raise RecordError("{window}: fewer than 2 samples at an interval of {dt:g} s; lengthen the window", window=window, dt=record.dt)
     return _apply(
         record,
         lambda c: c.acceleration[begin:stop],
@@ -97,13 +98,13 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
 
 
 def scale(record: Record, factor: float) -> Record:
-    """Multiply every component by one factor.
+    """Multiply all components by one factor.
 
     Parameters
     ----------
     record : Record
     factor : float
-        Finite; by 1 nothing is done, and nothing is said to be.
+        Finite; 1 returns the record unchanged, without a history entry.
 
     Raises
     ------
@@ -123,16 +124,16 @@ def scale(record: Record, factor: float) -> Record:
 
 
 def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:
-    """Multiply every component by the one factor that gives the largest of some components the asked peak.
+    """Scale all components by the factor that gives the largest of the selected components the target peak.
 
     Parameters
     ----------
     record : Record
-        All components are scaled alike, so that their ratios are kept.
+        Record; the ratios between components are preserved.
     target : float, m/s^2
-        Peak absolute acceleration to reach, positive.
+        Target peak absolute acceleration, positive.
     component : str or sequence of str, optional
-        Codes or azimuths (degrees) among which the largest peak shall have it; by default all horizontals.
+        Codes or azimuths (degrees) that define the peak; by default all horizontals.
 
     Raises
     ------
@@ -151,17 +152,17 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
     if component is None:
-        selected, candidates = largest_horizontal(record), lazy_gettext("the largest horizontal")
+        selected, candidates = largest_horizontal(record), lazy_gettext("largest horizontal")
     else:
         names = (component,) if isinstance(component, str) else tuple(component)
         selected, candidates = (
             max((select_component(record, name) for name in names), key=_peak),
-            lazy_gettext("the largest of {names}", names=names),
+            lazy_gettext("largest of {names}", names=names),
         )
     peak = _peak(selected)
     if peak == 0.0:
         raise ParameterError(
-            "component {code} is zero throughout: no factor gives it a peak of {target:g} m/s^2", code=selected.code, target=target
+            "component {code} is zero throughout and cannot be scaled to {target:g} m/s^2", code=selected.code, target=target
         )
     factor = target / peak
     entry = lazy_gettext(
@@ -176,31 +177,31 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
 
 
 def select_component(record: Record, name: str) -> Component:
-    """Return a component by its code, or the horizontal towards an azimuth.
+    """Return a component by code, or the horizontal component at an azimuth.
 
     Parameters
     ----------
     record : Record
-        Codes come first: a record whose component is called ``90`` gives that one.
+        Record; a component with the code ``90`` takes precedence over the azimuth 90.
     name : str
         Code in any case, or degrees clockwise from north such as ``37``.
 
     Raises
     ------
     ComponentError
-        If there is no such component; the message lists those there are.
+        If there is no such component; the message lists the available codes.
     """
     if name.upper() in (code.upper() for code in record.codes):
         return record.component(name)
     try:
         azimuth = float(name)
     except ValueError:
-        return record.component(name)  # raises, and lists the codes
+        return record.component(name)  # raises with the list of codes
     return component_at_azimuth(record, checks.azimuth(azimuth, error=ComponentError))
 
 
 def largest_horizontal(record: Record) -> Component:
-    """Return the horizontal component with the largest absolute acceleration; the first when they tie.
+    """Return the horizontal component with the largest peak acceleration; the first of equals.
 
     Raises
     ------
@@ -215,22 +216,21 @@ def largest_horizontal(record: Record) -> Component:
 
 
 def highpass(record: Record, hz: float) -> Record:
-    """Remove what is slower than a corner frequency, without delay.
+    """High-pass all components with zero phase.
 
-    An offset and a drift leave nothing (:func:`seisblock.records.filters.highpass_samples`): the line through the ends of the record is
-    taken off, then a Butterworth filter of order 4 is run forwards and backwards (half the amplitude at the corner), with mirrored ends.
+    The line through the ends of the record is removed, which eliminates offset and drift; then a Butterworth filter of order 4 runs
+    forwards and backwards (half amplitude at the corner) over mirrored ends, see :func:`seisblock.records.filters.highpass_samples`.
 
     Parameters
     ----------
     record : Record
-        Any record.
     hz : float, Hz
         Corner frequency, between 0 and half the sampling rate.
 
     Raises
     ------
     ParameterError
-        If the corner lies outside that range, or so low that it needs more padding than is allowed.
+        If the corner lies outside that range, or the padding exceeds its limit.
 
     Examples
     --------
@@ -246,19 +246,19 @@ def highpass(record: Record, hz: float) -> Record:
 
 
 def component_at_azimuth(record: Record, azimuth_deg: float) -> Component:
-    """Return the ground acceleration towards an azimuth as a component named after it.
+    """Return the ground acceleration towards an azimuth as a component named by the azimuth.
 
     Parameters
     ----------
     record : Record
-        Needs two horizontals of known azimuth, which need not be orthogonal.
+        Record with two horizontals of known azimuth, not necessarily orthogonal.
     azimuth_deg : float, degrees
         Clockwise from north.
 
     Raises
     ------
     ComponentError
-        If the record lacks those two.
+        If the record has fewer than two horizontals of known azimuth.
 
     Examples
     --------
@@ -268,24 +268,24 @@ def component_at_azimuth(record: Record, azimuth_deg: float) -> Component:
     """
     checks.instance(record, Record)
     if isinstance(azimuth_deg, str) or not np.isfinite(azimuth_deg):
-        raise ComponentError("the azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
+        raise ComponentError("azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
     return Component(f"{azimuth_deg:g}", acceleration_at_azimuth(oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
 
 
 def rotate(record: Record, azimuth_deg: float) -> Record:
-    """Turn the two horizontals to an azimuth and to 90 degrees clockwise of it; the vertical stays.
+    """Rotate the two horizontals to an azimuth and to 90 degrees clockwise of it; the vertical is unchanged.
 
     Parameters
     ----------
     record : Record
-        Needs two horizontals of known azimuth.
+        Record with two horizontals of known azimuth.
     azimuth_deg : float, degrees
         Azimuth of the first new component, clockwise from north; the codes are the azimuths.
 
     Raises
     ------
     ComponentError
-        If the record lacks those two.
+        If the record has fewer than two horizontals of known azimuth.
 
     Examples
     --------
@@ -296,15 +296,14 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
     pair = [component_at_azimuth(record, azimuth_deg), component_at_azimuth(record, azimuth_deg + 90.0)]
     vertical = [] if record.vertical is None else [record.vertical]
     return record.with_components(
-        [*pair, *vertical], lazy_gettext("horizontals turned to {one} and {other} degrees", one=pair[0].code, other=pair[1].code)
+        [*pair, *vertical], lazy_gettext("horizontals rotated to {one} and {other} degrees", one=pair[0].code, other=pair[1].code)
     )
 
 
 def _peak(component: Component) -> float:
-    """Return the peak absolute acceleration of a component, m/s^2."""
     return float(np.abs(component.acceleration).max())
 
 
 def _apply(record: Record, transform: Callable[[Component], FloatArray], entry: str, **changes: object) -> Record:
-    """Return the record with new samples for each component, and what was done in its history."""
+    """Return the record with transformed samples of each component and a new history entry."""
     return record.with_components([replace(c, acceleration=transform(c)) for c in record.components], entry, **changes)

@@ -1,4 +1,4 @@
-"""What the samples of a record say against it: offset, size, flat peaks, held values, spikes, jumps, dead and copied rows, directions."""
+"""Quality control of samples: offset, size, clipping, constant runs, spikes, jumps, duplicates, directions."""
 
 from __future__ import annotations
 
@@ -17,26 +17,28 @@ from seisblock.records.qc_spikes import find_spikes_and_jumps
 from seisblock.records.record import Component, Record
 
 IMPLAUSIBLE_PGA = 50.0
-"""A peak beyond this (m/s^2, about 5 g) has hardly been recorded on the ground: the unit is probably wrong."""
+"""Peak, m/s^2 (about 5 g), hardly ever recorded on the ground; larger values suggest a wrong unit."""
 
 OFFSET_RATIO = 0.1
-"""A mean beyond this share of the peak is an offset."""
+"""Ratio of mean to peak beyond which an offset is flagged."""
 
 MIN_FLAT_SAMPLES = 4
-"""Least samples of one value at the peak that make it flat."""
+"""Minimum number of equal samples at the peak that count as clipped."""
 
 MIN_HOLD_S = 0.1
-"""Shortest stretch of one value in the midst of shaking that is told, s; eight samples at least."""
+"""Shortest run of one value during shaking that is flagged, s; at least eight samples."""
 
 EDGE_RATIO = 0.03
-"""A step into or out of a flat stretch beyond this share of the peak is a break, not the resolution of the instrument."""
+"""Step at the edge of a flat run, as a ratio of the peak, beyond which the run is not due to instrument resolution."""
 
 SMOOTHNESS_RATIO = 0.15
-"""Third differences below this share of the first are those of a pulse by a formula (of a sine of twenty samples a tenth). Bundled shaking,
-cut anywhere, is so smooth and about to cross zero 1 time in 150 at most, El Centro, which is straight lines, 1 time in 13."""
+"""Ratio of third to first differences below which samples are those of an analytic pulse (a tenth for a sine of 20 samples).
+
+Of the bundled records, cut at any sample, at most 1 in 150 is so smooth and about to cross zero; of El Centro, which is piecewise
+linear, 1 in 13."""
 
 MAX_SKEW_DEG = 1.0
-"""How far from perpendicular two horizontals may be before it is said, degrees."""
+"""Largest deviation of two horizontals from perpendicular without a flag, degrees."""
 
 _NEIGHBOURHOOD = 20
 _MIN_PULSE_SAMPLES = 8
@@ -44,12 +46,12 @@ _MAX_LISTED = 5
 
 
 def run_qc(record: Record) -> Record:
-    """Return a record with the doubts that its samples and its header raise, after those it has.
+    """Return the record with quality flags from samples and header appended to its existing flags.
 
     Parameters
     ----------
     record : Record
-        As read, before anything is done to it.
+        Record as read, before processing.
     """
     flags = [flag for component in record.components for flag in _check_component(component, record.dt)]
     flags += [*_check_duplicates(record), *_check_directions(record), *check_metadata(record)]
@@ -57,7 +59,7 @@ def run_qc(record: Record) -> Record:
 
 
 def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
-    """Yield the doubts that one row of samples raises."""
+    """Yield the flags of one component."""
     a, code = component.acceleration, component.code
     peak = max(float(a.max()), -float(a.min()))
     if peak == 0.0:
@@ -66,7 +68,7 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
     if abs(mean) > OFFSET_RATIO * peak:
         yield QCFlag("offset", _offset_message(code, mean, peak), code)
     if peak > IMPLAUSIBLE_PGA:
-        text = lazy_gettext("{component}: a PGA of {pga:.4g} m/s^2 is more than 5 g; is the unit right?", component=code, pga=peak)
+        text = lazy_gettext("{component}: PGA {pga:.4g} m/s^2 exceeds 5 g; check the unit", component=code, pga=peak)
         yield QCFlag("size", text, code)
     starts, ends = _find_flat_runs(a)
     if starts.size:
@@ -74,7 +76,7 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
     spikes, jumps = find_spikes_and_jumps(a)
     if spikes.size:
         text = lazy_gettext(
-            "{component}: {count} lone spike(s), samples far from their neighbours (at {times} s); they are kept as they are",
+            "{component}: {count} isolated spike(s) (at {times} s); samples not corrected",
             component=code,
             count=spikes.size,
             times=_format_times(spikes, dt),
@@ -82,8 +84,8 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
         yield QCFlag("spike", text, code)
     if jumps.size:
         text = lazy_gettext(
-            "{component}: {count} isolated jump(s) (at {times} s), as where pieces of a record were overwritten or left out "
-            "(JMA announced such on 2015-12-04); the samples are kept as they are",
+            "{component}: {count} isolated step(s) (at {times} s), possibly overwritten or missing samples (JMA notice of "
+            "2015-12-04); samples not corrected",
             component=code,
             count=jumps.size,
             times=_format_times(jumps, dt),
@@ -92,10 +94,8 @@ def _check_component(component: Component, dt: float) -> Iterator[QCFlag]:
 
 
 def _offset_message(code: str, mean: float, peak: float) -> str:
-    """Return what is said of an offset."""
     return lazy_gettext(
-        "{component}: the mean, {mean:.4g} gal, is {share:.0%} of the peak: an offset, which moves whatever stands there; "
-        "remove the mean, or high-pass the record",
+        "{component}: mean {mean:.4g} gal is {share:.0%} of the peak (offset); remove the mean or high-pass the record",
         component=code,
         mean=mean / GAL,
         share=abs(mean) / peak,
@@ -103,7 +103,7 @@ def _offset_message(code: str, mean: float, peak: float) -> str:
 
 
 def _find_flat_runs(a: FloatArray) -> tuple[IntArray, IntArray]:
-    """Return first and last sample of each stretch of equal samples that is long enough to be looked at."""
+    """Return first and last index of each run of at least MIN_FLAT_SAMPLES equal samples."""
     is_repeat = np.concatenate(([False], a[1:] == a[:-1], [False]))
     edges = np.flatnonzero(is_repeat[1:] != is_repeat[:-1])
     starts, ends = edges[::2], edges[1::2]
@@ -112,20 +112,22 @@ def _find_flat_runs(a: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: IntArray, ends: IntArray) -> Iterator[QCFlag]:
-    """Yield the doubts that stretches of equal samples raise: flat peaks, and values held in the midst of shaking."""
+    """Yield flags for clipped peaks and for constant values during shaking."""
     step_in = np.where(starts > 0, np.abs(a[starts] - a[np.maximum(starts - 1, 0)]), 0.0)
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
+    # clipped: at an extreme of the record, entered and left by steep steps
     at_peak = np.isin(a[starts], (a.max(), a.min())) & (np.abs(a[starts]) > 0.5 * peak)
     is_clipped = at_peak & (np.minimum(step_in, step_out) > EDGE_RATIO * peak)
     if is_clipped.any():
         text = lazy_gettext(
-            "{component}: {count} flat peak(s) of {longest} equal samples at most (at {times} s): the instrument or the file is clipped",
+            "{component}: {count} flat peak(s) of up to {longest} equal samples (at {times} s): instrument or file clipped",
             component=code,
             count=int(is_clipped.sum()),
             longest=int((ends - starts)[is_clipped].max()) + 1,
             times=_format_times(starts[is_clipped], dt),
         )
         yield QCFlag("clipped", text, code)
+    # 7.5 intervals: eight equal samples, with a margin for rounding
     is_long = (ends - starts) * dt >= max(MIN_HOLD_S, 7.5 * dt)
     holds = [
         i
@@ -139,8 +141,8 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
     ]
     if holds:
         text = lazy_gettext(
-            "{component}: {count} stretch(es) of one value in the midst of shaking (from {times} s, {longest:.3g} s at most): "
-            "a gap that was filled, or samples that were lost",
+            "{component}: {count} interval(s) of constant value during shaking (from {times} s, up to {longest:.3g} s): filled gap "
+            "or lost samples",
             component=code,
             count=len(holds),
             times=_format_times(starts[holds], dt),
@@ -150,60 +152,63 @@ def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: I
 
 
 def _is_shaking(samples: FloatArray, peak: float) -> bool:
-    """Return whether some samples beside a stretch are those of shaking."""
+    """Return whether samples next to a flat run are those of shaking."""
     return samples.size >= _NEIGHBOURHOOD // 2 and float(np.median(np.abs(np.diff(samples)))) > 0.002 * peak
 
 
 def _ends_at_rest(samples: FloatArray, value: float) -> bool:
-    """Return whether a smooth pulse, and no recorded shaking, ends in zeros: its last samples, gone on with, arrive there."""
+    """Return whether samples end like an analytic pulse that reaches zero, not like recorded shaking."""
     zeros = np.flatnonzero(samples == 0.0)
     pulse = samples[zeros[-1] :] if zeros.size else samples
     if value != 0.0 or pulse.size < _MIN_PULSE_SAMPLES:
         return False
+    # analytic pulses have small third differences; recorded shaking does not
     is_smooth = np.median(np.abs(np.diff(pulse, 3))) < SMOOTHNESS_RATIO * np.median(np.abs(np.diff(pulse)))
+    # quadratic extrapolation to the first sample of the run
     extrapolated = 3.0 * (pulse[-1] - pulse[-2]) + pulse[-3]
     tolerance = EDGE_RATIO * float(np.abs(pulse).max())
     return bool(is_smooth and min(pulse[-1], extrapolated) - tolerance <= 0.0 <= max(pulse[-1], extrapolated) + tolerance)
 
 
 def _check_duplicates(record: Record) -> Iterator[QCFlag]:
-    """Yield the doubts about rows beside each other: all that are still, one that is while others shake, one that is a copy of another."""
+    """Yield flags for all-zero records, dead channels and identical components."""
     active = [c for c in record.components if c.acceleration.any()]
     if not active:
-        yield QCFlag("held", lazy_gettext("every sample of every component is 0: nothing moves on such ground"))
+        yield QCFlag("held", lazy_gettext("all samples of all components are 0: no ground motion"))
     for code in (c.code for c in record.components if active and c not in active):
         yield QCFlag(
-            "held", lazy_gettext("{component}: every sample is 0 while others shake: a channel that was dead", component=code), code
+            "held", lazy_gettext("{component}: all samples are 0 while other components are not: dead channel", component=code), code
         )
     for first, second in combinations(active, 2):
         if np.array_equal(first.acceleration, second.acceleration):
-            text = lazy_gettext("{one} and {other} hold the same samples: one is a copy of the other", one=first.code, other=second.code)
+            text = lazy_gettext("{one} and {other} are identical: one is a copy of the other", one=first.code, other=second.code)
             yield QCFlag("directions", text)
 
 
 def _check_directions(record: Record) -> Iterator[QCFlag]:
-    """Yield the doubts about the directions of a record: azimuths that are no right angle apart, or without a vertical component."""
+    """Yield flags for horizontals that are not perpendicular and for a missing vertical component."""
     if record.vertical is None and len(record.horizontals) > 2:
-        text = lazy_gettext("none of the components {codes} is known to be vertical: all are taken as horizontal", codes=record.codes)
+        text = lazy_gettext("no vertical component identified among {codes}; all treated as horizontal", codes=record.codes)
         yield QCFlag("directions", text)
     oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(oriented) != 2:
         return
     first, second = oriented
+    # modulo 180: opposite directions are the same axis
     angle = abs((first.azimuth_deg or 0.0) - (second.azimuth_deg or 0.0)) % 180.0
     if abs(angle - 90.0) > MAX_SKEW_DEG:
         text = lazy_gettext(
-            "the horizontals {one} and {other} are not perpendicular, {apart:g} degrees apart",
+            "horizontals {one} and {other} are not perpendicular ({apart:g} degrees apart)",
             one=first.code,
             other=second.code,
             apart=angle,
         )
         yield QCFlag("directions", text)
     if record.vertical is None and {first.code, second.code} != {"NS", "EW"}:
-        text = lazy_gettext("the horizontals {one} and {other} come without a vertical component", one=first.code, other=second.code)
+        text = lazy_gettext("horizontals {one} and {other} without a vertical component", one=first.code, other=second.code)
         yield QCFlag("directions", text)
 
 
 def _format_times(indices: IntArray, dt: float) -> str:
-    """Return some times in words, s, the first few."""
+    """Return the first few times, s, as text."""
     return ", ".join(f"{i * dt:.2f}" for i in indices[:_MAX_LISTED]) + (", ..." if len(indices) > _MAX_LISTED else "")

@@ -1,4 +1,4 @@
-"""What a header says against itself: a place that is not on the Earth, a record that is not of its earthquake."""
+"""Quality control of header metadata: coordinates, and record start against origin time."""
 
 from __future__ import annotations
 
@@ -11,21 +11,24 @@ from seisblock.records.record import Record
 from seisblock.records.site import MAX_LATITUDE, MAX_LONGITUDE, format_local_time, get_earthquake, get_site
 
 ORIGIN_TIME_TOLERANCE = timedelta(seconds=60)
-"""Old headers tell the origin time to the minute."""
+"""Old headers give the origin time to the minute."""
 
 MAX_TRAVEL_TIME = timedelta(hours=1)
-"""No strong shaking arrives later."""
+"""Longest plausible travel time of strong shaking."""
 
 
 def check_metadata(record: Record) -> Iterator[QCFlag]:
-    """Yield what the header of a record says that cannot be."""
+    """Yield flags for coordinates out of range and for a record start that does not match the origin time."""
     site, earthquake = get_site(record), get_earthquake(record)
-    locations = {lazy_gettext("the station"): site} | ({lazy_gettext("the epicentre"): earthquake} if earthquake else {})
+    locations = {lazy_gettext("station"): site} | ({lazy_gettext("epicentre"): earthquake} if earthquake else {})
     for label, location in locations.items():
         for degrees, limit in ((location.latitude_deg, MAX_LATITUDE), (location.longitude_deg, MAX_LONGITUDE)):
             if degrees is not None and abs(degrees) > limit:
                 yield QCFlag(
-                    "header", lazy_gettext("{what} lies at {degrees:g} degrees, beyond {most:g}", what=label, degrees=degrees, most=limit)
+                    "header",
+                    lazy_gettext(
+                        "{what} coordinate {degrees:g} degrees out of range (limit {most:g})", what=label, degrees=degrees, most=limit
+                    ),
                 )
     origin = earthquake.origin_time if earthquake else None
     if origin is None or record.start is None:
@@ -33,7 +36,7 @@ def check_metadata(record: Record) -> Iterator[QCFlag]:
     end = record.start + timedelta(seconds=record.samples * record.dt)
     if end < origin - ORIGIN_TIME_TOLERANCE or record.start > origin + MAX_TRAVEL_TIME:
         text = lazy_gettext(
-            "the record begins at {start}, its earthquake at {origin}: one of the two is wrong",
+            "record start {start} and origin time {origin} do not match: one of them is wrong",
             start=format_local_time(record, record.start),
             origin=format_local_time(record, origin),
         )

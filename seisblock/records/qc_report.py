@@ -1,8 +1,9 @@
-"""Records that a careful reader doubts: the doubts as sentences, or as a refusal."""
+"""Quality flags of records as sentences or as an error."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 
 from seisblock.core.errors import RecordError
 from seisblock.core.i18n import lazy_gettext
@@ -10,7 +11,7 @@ from seisblock.records.record import Record
 
 
 def qc_summary(records: Sequence[Record]) -> list[str]:
-    """Return the doubts about some records, a sentence each, with the record's name where there are several.
+    """Return the messages of the flags of records, prefixed by the station where there are several records.
 
     Parameters
     ----------
@@ -23,16 +24,21 @@ def qc_summary(records: Sequence[Record]) -> list[str]:
 
 
 def require_clean(record: Record) -> None:
-    """Raise where a careful reader would doubt.
+    """Raise `RecordError` if a record has quality flags.
 
     Raises
     ------
     RecordError
-        If there are doubts about the record; the message holds them all.
+        If the record has quality flags; the message lists them all.
     """
     if record.doubts:
         raise RecordError(
-            "{record} is doubtful, and doubtful records are refused: {doubts}",
+            "{record}: quality flags raised, and flagged records are excluded: {doubts}",
             record=record.source or record.station or "record",
-            doubts=[flag.message for flag in record.doubts],
+            doubts=reduce(_join_messages, (flag.message for flag in record.doubts)),
         )
+
+
+def _join_messages(first: str, second: str) -> str:
+    """Return two messages as one, separated as the language requires when displayed."""
+    return lazy_gettext("{first}; {second}", first=first, second=second)

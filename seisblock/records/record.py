@@ -1,4 +1,4 @@
-"""A record as it was read: station, start, components, and what was done to it since."""
+"""Strong-motion record: station, start, components, processing history and quality flags."""
 
 from __future__ import annotations
 
@@ -17,26 +17,27 @@ from seisblock.records.azimuth import parse_bearing
 from seisblock.records.qc_flags import QCFlag
 
 HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
-"""Azimuth, in degrees clockwise from north, of the positive direction of the two standard horizontals."""
+"""Azimuth of the positive direction of the two standard horizontals, degrees clockwise from north."""
 
 VERTICAL = "UD"
 """Code of the vertical component, positive up."""
 
 MAX_ACCELERATION = 1e9
-"""No number beyond this, m/s^2, is an acceleration of the ground: squares of it would leave the range of numbers."""
+"""Largest accepted acceleration, m/s^2; keeps squares of samples within the range of floating-point numbers."""
 
 
 def as_readonly(values: ArrayLike) -> FloatArray:
     """Return `values` as a read-only, C-contiguous float64 array, copied only when it must be."""
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.flags.writeable:
+        # a view protects a fresh conversion; an array of the caller is copied before it is locked
         array = array.view() if array is not values else array.copy()
         array.flags.writeable = False
     return array
 
 
 def readonly(array: FloatArray) -> FloatArray:
-    """Return an array that nobody else holds, read-only from now on: :func:`as_readonly` does not copy it."""
+    """Mark an array as read-only and return it; the caller must hold the only reference."""
     array.flags.writeable = False
     return array
 
@@ -48,9 +49,9 @@ class Component:
     Parameters
     ----------
     code : str
-        ``NS``, ``EW`` or ``UD`` (positive north, east, up), else the name the file gives.
+        ``NS``, ``EW`` or ``UD`` (positive north, east, up), else the name in the file.
     acceleration : (n,) array, m/s^2
-        Ground acceleration; kept read-only.
+        Ground acceleration, read-only.
     azimuth_deg : float or None
         Azimuth of the positive direction, degrees clockwise from north; None when vertical or unknown.
     """
@@ -63,14 +64,14 @@ class Component:
         object.__setattr__(self, "acceleration", as_readonly(self.acceleration))
         if self.acceleration.ndim != 1:
             raise RecordError(
-                "component {code}: expected one row of samples, found {count} dimensions", code=self.code, count=self.acceleration.ndim
+                "component {code}: expected a 1-D array of samples, found {count} dimensions", code=self.code, count=self.acceleration.ndim
             )
         if self.azimuth_deg is None and self.code in HORIZONTAL_AZIMUTHS:
             object.__setattr__(self, "azimuth_deg", HORIZONTAL_AZIMUTHS[self.code])
 
     @property
     def is_vertical(self) -> bool:
-        """Whether this is the vertical component."""
+        """True for the vertical component."""
         return self.code == VERTICAL
 
 
@@ -81,7 +82,7 @@ class Record(PlotMixin):
     Parameters
     ----------
     components : sequence of Component
-        All of one length; codes are unique.
+        Components of equal length with unique codes.
     dt : float, s
         Sampling interval.
     station : str
@@ -89,15 +90,15 @@ class Record(PlotMixin):
     start : datetime or None
         Time of the first sample as read, UTC.
     offset_s : float, s
-        Time of the first sample held here after the first sample as read (cutting a window moves it).
+        Time of the first sample relative to the first sample as read (nonzero after cropping).
     source, sha256, format : str
-        File, digest of its bytes, and name of the format it was read as.
+        File, digest of its bytes, and name of the format.
     history : tuple of str
-        What was done to the samples since they were read, oldest first.
+        Processing of the samples since reading, oldest first.
     metadata : mapping
-        What else the header said (epicentre, magnitude, header's own maximum...).
-    doubts : tuple of Doubt
-        What a careful reader notices before he believes it, by the file and by the samples as read.
+        Further header entries (epicentre, magnitude, header maximum...).
+    doubts : tuple of QCFlag
+        Quality flags of the file and of the samples as read.
     """
 
     components: tuple[Component, ...]
@@ -116,23 +117,23 @@ class Record(PlotMixin):
         object.__setattr__(self, "components", tuple(self.components))
         source = self.source or lazy_gettext("record")
         if not self.components:
-            raise RecordError("{where}: there is no component in it", where=source)
+            raise RecordError("{where}: no components", where=source)
         checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or lazy_gettext("record"))
         lengths = {c.code: c.acceleration.size for c in self.components}
         if len(lengths) != len(self.components):
-            raise RecordError("{where}: component codes repeat: {codes}", where=source, codes=self.codes)
+            raise RecordError("{where}: duplicate component codes: {codes}", where=source, codes=self.codes)
         if len(set(lengths.values())) != 1:
             counts = [f"{code} {n}" for code, n in lengths.items()]
             raise RecordError(
-                "{where}: components differ in length ({found} samples): give files of one recording", where=source, found=counts
+                "{where}: components differ in length ({found} samples); give the files of one recording", where=source, found=counts
             )
         if self.samples < 2:
-            raise RecordError("{where}: needs at least 2 samples, found {found}", where=source, found=self.samples)
+            raise RecordError("{where}: at least 2 samples required, found {found}", where=source, found=self.samples)
         for component in self.components:
             invalid = np.flatnonzero(~np.isfinite(component.acceleration))
             if invalid.size:
                 raise RecordError(
-                    "{where}: component {code} holds {count} samples that are not numbers, the first at index {first}",
+                    "{where}: {count} non-finite samples in component {code}, the first at index {first}",
                     where=source,
                     code=component.code,
                     count=invalid.size,
@@ -140,12 +141,12 @@ class Record(PlotMixin):
                 )
             size = max(float(component.acceleration.max()), -float(component.acceleration.min()))
             if size > MAX_ACCELERATION:
-                text = "{where}: component {code} reaches {size:.3g} m/s^2, which is no acceleration of the ground"
+                text = "{where}: component {code} reaches {size:.3g} m/s^2, beyond any ground acceleration"
                 raise RecordError(text, where=source, code=component.code, size=size)
 
     @property
     def carries_offset(self) -> bool:
-        """Whether its format's counts carry an offset, so that a mean is no motion of the ground."""
+        """True if the counts of the format carry an instrument offset."""
         return bool(self.metadata.get("carries_offset"))
 
     @property
@@ -179,22 +180,22 @@ class Record(PlotMixin):
         return next((c for c in self.components if c.is_vertical), None)
 
     def component(self, code: str) -> Component:
-        """Return the component of that code.
+        """Return the component with a code, in any case.
 
         Raises
         ------
         ComponentError
-            If there is none; the message lists those there are.
+            If there is no such component; the message lists the available codes.
         """
         for candidate in self.components:
             if candidate.code.upper() == code.upper():
                 return candidate
         source, azimuth = self.source or lazy_gettext("record"), parse_bearing(code)
         if azimuth is not None:
-            text = "{source}: no component {code!r}; it has {codes}; an azimuth is in degrees clockwise from north: write {azimuth:g}"
+            text = "{source}: no component {code!r}; available: {codes}; for an azimuth in degrees clockwise from north, write {azimuth:g}"
             raise ComponentError(text, source=source, code=code, codes=self.codes, azimuth=azimuth)
-        raise ComponentError("{source}: no component {code!r}; it has {codes}", source=source, code=code, codes=self.codes)
+        raise ComponentError("{source}: no component {code!r}; available: {codes}", source=source, code=code, codes=self.codes)
 
     def with_components(self, components: Sequence[Component], entry: str, **changes: object) -> Record:
-        """Return a record with other samples, and `entry` added to its history."""
+        """Return a record with other components and `entry` appended to its history."""
         return replace(self, components=tuple(components), history=(*self.history, entry), **changes)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Ground acceleration towards any azimuth, from two horizontals of known direction."""
+"""Ground acceleration towards any azimuth from two horizontals of known azimuth."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.records.record import Component, Record, readonly
 
 
 def oriented_pair(record: Record) -> tuple[Component, Component]:
-    """Return two horizontals of known azimuth, from which any other direction follows.
+    """Return the first two horizontals of known azimuth.
 
     Examples
     --------
@@ -23,7 +23,7 @@ def oriented_pair(record: Record) -> tuple[Component, Component]:
     oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(oriented) < 2:
         raise ComponentError(
-            "{source}: turning to an azimuth needs two horizontal components of known direction; it has {codes}",
+            "{source}: rotation requires two horizontal components of known azimuth; available: {codes}",
             source=record.source or lazy_gettext("record"),
             codes=record.codes,
         )
@@ -31,24 +31,25 @@ def oriented_pair(record: Record) -> tuple[Component, Component]:
 
 
 def acceleration_at_azimuth(pair: tuple[Component, Component], azimuth_deg: float) -> FloatArray:
-    """Return the acceleration towards an azimuth from two horizontals, which need not be orthogonal."""
+    """Return the acceleration towards an azimuth from two horizontals, not necessarily orthogonal, (n,), m/s^2."""
     return azimuth_projection(pair, azimuth_deg)(slice(None))
 
 
 def azimuth_projection(pair: tuple[Component, Component], azimuth_deg: float) -> Callable[[slice], FloatArray]:
-    """Return what makes parts of the acceleration towards an azimuth from two horizontals."""
+    """Return a function that gives slices of the acceleration towards an azimuth from two horizontals."""
     component_1, component_2 = pair
-    # for exact axes keep the samples bit by bit: "numbers round-trip"
+    # recorded directions return the samples themselves, without rounding errors of the projection
     for component in pair:
         if component.azimuth_deg == azimuth_deg % 360.0:
             return component.acceleration.__getitem__
     a, b, t = (math.radians(angle or 0.0) for angle in (component_1.azimuth_deg, component_2.azimuth_deg, azimuth_deg))
     span = math.sin(b - a)
+    # the projection divides by the sine of the angle between the components
     if abs(span) < 1e-6:
-        raise ComponentError("the two horizontal components are parallel: no other direction follows from them")
+        raise ComponentError("the two horizontal components are parallel and cannot be rotated")
 
     def project(part: slice) -> FloatArray:
-        # north/east of the ground from its two projections, then projected on the azimuth
+        # north and east accelerations solved from the two components, then projected on the azimuth
         acceleration = component_1.acceleration[part] * (math.sin(b - t) / span)
         acceleration += component_2.acceleration[part] * (math.sin(t - a) / span)
         return readonly(acceleration)

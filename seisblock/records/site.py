@@ -1,4 +1,4 @@
-"""Where and when a record was made, and of what earthquake, as far as its file says."""
+"""Site and earthquake of a record, from header metadata."""
 
 from __future__ import annotations
 
@@ -21,30 +21,30 @@ UTC_OFFSETS = {
     "AKDT": timedelta(hours=-8),
     "HST": timedelta(hours=-10),
 }
-"""Clocks of the networks whose files tell local time, ahead of UTC; a reader names it in ``metadata["clock"]``."""
+"""Offsets from UTC of the clocks in headers; readers store the name in ``metadata["clock"]``."""
 
 
 HALF_A_SECOND = timedelta(seconds=0.5)
 
 MAX_LATITUDE, MAX_LONGITUDE = 90.0, 360.0
-"""Degrees beyond which nothing lies on the Earth; longitudes are told from -180 as well as to 360."""
+"""Limits of valid coordinates, degrees; longitudes run from -180 or to 360."""
 
 EARTH_RADIUS_KM = 6371.0
-"""Mean radius of the Earth."""
+"""Mean radius of the Earth, km."""
 
 
 @dataclass(frozen=True)
 class Site:
-    """Where a record was made.
+    """Recording site.
 
     Parameters
     ----------
     code, name : str
-        Empty where the file has none.
+        Empty if not in the file.
     latitude_deg, longitude_deg : float or None
-        Degrees north and east.
+        Latitude north and longitude east, degrees.
     height_m : float or None
-        Above the sea.
+        Height above sea level.
     """
 
     code: str = ""
@@ -55,18 +55,18 @@ class Site:
 
     @property
     def label(self) -> str:
-        """Code and name, as far as they are known."""
+        """Code and name, as far as known."""
         return " ".join(dict.fromkeys(part for part in (self.code, self.name) if part))
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """Latitude and longitude, None where they are not known or not on the Earth."""
+        """Latitude and longitude, degrees; None if unknown or invalid."""
         return valid_coordinates(self.latitude_deg, self.longitude_deg)
 
 
 @dataclass(frozen=True)
 class Earthquake:
-    """What shook.
+    """Source earthquake of a record.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class Earthquake:
     depth_km : float or None
     magnitude : float or None
     name : str
-        As the file calls it, empty where it does not.
+        Name in the file; may be empty.
     """
 
     origin_time: datetime | None = None
@@ -89,21 +89,21 @@ class Earthquake:
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """Latitude and longitude of the epicentre, None where they are not known or not on the Earth."""
+        """Latitude and longitude of the epicentre, degrees; None if unknown or invalid."""
         return valid_coordinates(self.latitude_deg, self.longitude_deg)
 
 
 def get_site(record: Record) -> Site:
-    """Return where a record was made."""
+    """Return the recording site."""
     name = record.metadata.get("station_name")
     latitude, longitude, height = (_metadata_number(record, f"station_{key}") for key in ("latitude_deg", "longitude_deg", "height_m"))
     if not latitude and not longitude:
-        latitude = longitude = None  # zeros for both are how some networks say that they do not know
+        latitude = longitude = None  # some networks write zeros for unknown coordinates
     return Site(record.station, name if isinstance(name, str) else "", latitude, longitude, height)
 
 
 def matches_station(record: Record, station: str) -> bool:
-    """Return whether a record is of a station, by its code or its name, in capitals or not.
+    """Return whether `station` is the code or the name of a record's station, ignoring case.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def matches_station(record: Record, station: str) -> bool:
 
 
 def source_name(record: Record) -> str:
-    """Return the name of a record's file without its folder, as it stands in what is printed for others; empty where there is none.
+    """Return the file name of a record without its folder; may be empty.
 
     Examples
     --------
@@ -128,7 +128,7 @@ def source_name(record: Record) -> str:
 
 
 def get_earthquake(record: Record) -> Earthquake | None:
-    """Return what shook, or None where the file does not say, or has zeros for all it might."""
+    """Return the source earthquake; None if the header has no nonzero coordinates, depth or magnitude."""
     origin = record.metadata.get("origin_time")
     latitude, longitude, depth = (_metadata_number(record, f"event_{key}") for key in ("latitude_deg", "longitude_deg", "depth_km"))
     magnitude = _metadata_number(record, "magnitude")
@@ -140,7 +140,7 @@ def get_earthquake(record: Record) -> Earthquake | None:
 
 
 def epicentral_distance_km(record: Record) -> float | None:
-    """Return how far the station is from the epicentre, km: as the file says, else along the great circle between their coordinates."""
+    """Return the epicentral distance, km, from the header or else from the coordinates; None if unknown."""
     distance = _metadata_number(record, "epicentral_distance_km")
     if distance is not None:
         return distance
@@ -151,7 +151,7 @@ def epicentral_distance_km(record: Record) -> float | None:
 
 
 def valid_coordinates(latitude: float | None, longitude: float | None) -> tuple[float, float] | None:
-    """Return latitude and longitude, degrees, None where one is missing or they are not on the Earth.
+    """Return latitude and longitude, degrees; None if missing or out of range.
 
     Examples
     --------
@@ -164,7 +164,7 @@ def valid_coordinates(latitude: float | None, longitude: float | None) -> tuple[
 
 
 def unwrap_longitude(longitude: float, reference: float) -> float:
-    """Return a longitude by the name, turns of 360 degrees away, that lies nearest to another: a map may cross the date line.
+    """Return a longitude shifted by multiples of 360 degrees to be nearest to `reference`.
 
     Examples
     --------
@@ -175,7 +175,7 @@ def unwrap_longitude(longitude: float, reference: float) -> float:
 
 
 def great_circle_km(start: tuple[float, float], end: tuple[float, float]) -> float:
-    """Return how far two places are apart on a sphere of the Earth's mean radius, km; places are latitude and longitude, degrees.
+    """Return the great-circle distance, km, of two points (latitude, longitude), degrees.
 
     Examples
     --------
@@ -183,12 +183,13 @@ def great_circle_km(start: tuple[float, float], end: tuple[float, float]) -> flo
     10008
     """
     (lat_1, lon_1), (lat_2, lon_2) = ([radians(degrees) for degrees in place] for place in (start, end))
+    # haversine formula: accurate for small distances, unlike the arc cosine
     haversine = sin((lat_2 - lat_1) / 2.0) ** 2 + cos(lat_1) * cos(lat_2) * sin((lon_2 - lon_1) / 2.0) ** 2
     return 2.0 * EARTH_RADIUS_KM * asin(min(sqrt(haversine), 1.0))
 
 
 def format_local_time(record: Record, moment: datetime | None) -> str:
-    """Return a moment as the record's own network tells time, to the second, with the name of the clock; empty where it is unknown."""
+    """Return a time in the clock of the record's network, to the second, with the clock's name; may be empty."""
     if moment is None:
         return ""
     clock = str(record.metadata.get("clock", "UTC"))
@@ -196,6 +197,5 @@ def format_local_time(record: Record, moment: datetime | None) -> str:
 
 
 def _metadata_number(record: Record, key: str) -> float | None:
-    """Return a number of the header, or None."""
     value = record.metadata.get(key)
     return float(value) if isinstance(value, int | float) else None

@@ -1,4 +1,4 @@
-"""The evidence: one module per paper, each exporting CASES."""
+"""Validation cases: one module per paper, each with a tuple `CASES`."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ PAPERS: tuple[str, ...] = (
 
 
 def cases(paper: str | None = None) -> list[Case]:
-    """Return the cases of one paper's module, or of all."""
+    """Return the cases of one module, or of all."""
     names = PAPERS if paper is None else (paper,)
     return [case for name in names for case in importlib.import_module(f"seisblock.validation.{name}").CASES]
 
 
 def cases_of(papers: Sequence[str] = ()) -> list[Case]:
-    """Return the cases whose citation begins with any of the names given, whatever their capitals; all without a name.
+    """Return the cases whose citation key starts with any of the given names, case-insensitive; all cases without a name.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def cases_of(papers: Sequence[str] = ()) -> list[Case]:
     for name in papers:
         if not name or not any(paper.lower().startswith(name.lower()) for paper in paper_keys):
             available = list(paper_keys)
-            raise ParameterError("no validation case cites {name!r}; there are cases of {there_are}", name=name, there_are=available)
+            raise ParameterError("no validation case for {name!r}; available papers: {there_are}", name=name, there_are=available)
     return [case for case in all_cases if not papers or any(case.paper.lower().startswith(name.lower()) for name in papers)]
 
 

@@ -1,4 +1,4 @@
-"""Where between two numbers a claim begins or ceases to hold."""
+"""Threshold of a monotone condition by bisection."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Callable
 
 
 def bisect_threshold(claim: Callable[[float], bool], low: float, high: float, *, tolerance: float = 1e-15) -> float:
-    """Return where between two numbers a claim that holds at one of them only changes, by bisection.
+    """Return the number between two bounds at which a condition changes.
 
     Parameters
     ----------
     claim : callable
-        What a run with this number shows.
+        Condition, evaluated by a run with this number.
     low, high : float
-        Numbers at which it shows different things.
+        Bounds with different values of the condition.
     tolerance : float
-        How near the answer must be.
+        Absolute error of the result.
     """
     from scipy.optimize import bisect
 

@@ -1,4 +1,4 @@
-"""A validation case: one number of a paper, what the program makes of it, what that is worth, and the verdict."""
+"""Validation case: a value from a paper, the program's value, tolerance, kind of evidence and verdict."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from seisblock.core.i18n import N_
 from seisblock.references import find_citations
 
 EXACT = 1e-12
-"""Relative tolerance where both sides are closed forms: round-off and nothing else."""
+"""Relative tolerance between two closed forms: round-off only."""
 
 CONVERGED = 1e-8
-"""Relative tolerance where one side is integrated: the error of the reference integration."""
+"""Relative tolerance if one side is integrated numerically: the error of the reference integration."""
 
 REPRODUCIBLE = 1e-6
-"""Relative tolerance of a difference that comes out alike on every machine."""
+"""Relative tolerance of a difference that is reproducible on every machine."""
 
 Verdict = Literal["holds", "differs", "fails"]
 
 VERDICTS: tuple[Verdict, ...] = ("fails", "differs", "holds")
-"""What matters most first."""
+"""Verdicts, the most important first."""
 
 EvidenceKind = Literal["computed", "print", "rebuilt", "derived"]
 
 EVIDENCE_KINDS: dict[EvidenceKind, str] = {
-    "computed": N_("computed by the program, against what the paper states"),
-    "rebuilt": N_("computed from an input that was rebuilt, or stands in for the paper's own"),
-    "derived": N_("computed by the program, against what was derived here"),
-    "print": N_("the print checked against itself"),
+    "computed": N_("program against the paper"),
+    "rebuilt": N_("program with reconstructed or substitute input"),
+    "derived": N_("program against an independent derivation"),
+    "print": N_("consistency of printed values"),
 }
-"""What a case is worth as evidence, the most first, in words."""
+"""Kinds of evidence, the strongest first, with their description."""
 
 
 def expected_difference(value: float, tolerance: float = 0.0) -> tuple[float, float]:
-    """Return today's value of a difference, and how near it must stay: by default within :data:`REPRODUCIBLE` of itself.
+    """Return today's value of a difference and its tolerance, by default :data:`REPRODUCIBLE` relative.
 
     Parameters
     ----------
@@ -61,27 +61,25 @@ class Case:
     where : str
         Paper and locator in the citation grammar: ``[Sugimoto2017]_ eq. (1b)``.
     quantity, unit : str
-        What is compared, in words, and its SI unit (``1`` for none).
+        Compared quantity and its SI unit (``1`` for none).
     expected : float, or a callable that returns one
-        The paper's value, or that of the independent derivation; one that takes time to derive is a callable.
+        The paper's value, or that of an independent derivation; a callable if it takes time.
     tolerance : float
-        Largest admissible absolute difference, in `unit`: half the last digit printed, a closed form's round-off, or a
-        stated reading error.
+        Largest admissible absolute difference, in `unit`: half the last printed digit, round-off of a closed form, or a reading error.
     compute : callable
         Returns the program's value, a float in `unit`.
     status : "holds" or "differs"
-        What is claimed. "differs" cases lie outside `tolerance`: the note says why, and `today` by how much. One that starts to
-        agree, or to differ by another amount, fails, so that the explanation is looked at again.
+        Claim. "differs" cases lie outside `tolerance`: the note states the cause, and `today` the value. A case that starts to agree, or
+        to differ by another amount, fails, so that its explanation is reviewed.
     note : str
-        Provenance of the expected value, and for "differs" the explanation.
+        Source of the expected value, and for "differs" the cause.
     kind : "computed", "rebuilt", "derived" or "print"
-        What it is worth: whether the program runs from the paper's own input against the paper's own statement; from an input that had
-        to be rebuilt or replaced; against a value that the paper does not state but that follows from it; or whether the print is only
-        checked against itself.
+        Kind of evidence: program with the paper's input against the paper's value; with a reconstructed or substitute input; against a
+        value derived independently; or consistency of printed values.
     today : (float, float) or None
-        For "differs": the program's value when the difference was explained, and how near it must stay, see :func:`expected_difference`.
+        For "differs": the program's value at the time of the explanation, and its tolerance, see :func:`expected_difference`.
     quick : bool
-        Whether it belongs to ``validate --quick``.
+        Whether the case belongs to ``validate --quick``.
     """
 
     key: str
@@ -99,11 +97,11 @@ class Case:
 
     def __post_init__(self) -> None:
         if self.status == "differs" and not self.note:
-            raise ParameterError("case {key}: a difference needs its explanation in the note", key=self.key)
+            raise ParameterError("case {key}: `note` required: the cause of the difference", key=self.key)
 
     @property
     def paper(self) -> str:
-        """Key of the paper."""
+        """Citation key of the paper."""
         return find_citations([self.where])[0]
 
     @property
@@ -112,23 +110,23 @@ class Case:
         return re.sub(r"^\[\w+\]_\s*", "", self.where)
 
     def run(self) -> CaseResult:
-        """Compute the value and judge it; what cannot be computed fails."""
+        """Compute the value and its verdict; a case that raises an error of this package fails."""
         expected = float(self.expected() if callable(self.expected) else self.expected)
         try:
-            computed = float(self.compute())
+            value = float(self.compute())
         except SeisblockError:
-            computed = math.nan
-        inside = abs(computed - expected) <= self.tolerance
+            value = math.nan
+        inside = abs(value - expected) <= self.tolerance
         verdict: Verdict = "fails"
         if self.status == "holds" and inside:
             verdict = "holds"
-        elif self.status == "differs" and not inside and self._matches_explanation(computed):
+        elif self.status == "differs" and not inside and self._matches_explanation(value):
             verdict = "differs"
-        return CaseResult(self, expected, computed, verdict)
+        return CaseResult(self, expected, value, verdict)
 
-    def _matches_explanation(self, computed: float) -> bool:
-        """Whether a value that differs is the one that was explained."""
-        return math.isfinite(computed) if self.today is None else abs(computed - self.today[0]) <= self.today[1]
+    def _matches_explanation(self, value: float) -> bool:
+        """Return whether a differing value equals the explained one within its tolerance."""
+        return math.isfinite(value) if self.today is None else abs(value - self.today[0]) <= self.today[1]
 
 
 @dataclass(frozen=True)
@@ -142,21 +140,21 @@ class CaseResult:
 
     @property
     def error(self) -> float:
-        """Computed less expected, in the case's unit."""
+        """Computed minus expected value, in the case's unit."""
         return self.computed - self.expected
 
 
 def sort_by_verdict(results: Sequence[CaseResult]) -> list[CaseResult]:
-    """Return the results with what fails first, then what differs; otherwise in their order."""
+    """Return the results sorted by verdict: failed, differing, holding; stable within a verdict."""
     return sorted(results, key=lambda result: VERDICTS.index(result.verdict))
 
 
 def count_verdicts(results: Sequence[CaseResult]) -> dict[Verdict, int]:
-    """Return how many cases got each verdict."""
+    """Return the number of cases per verdict."""
     counter = Counter(result.verdict for result in results)
     return {verdict: counter[verdict] for verdict in VERDICTS}
 
 
 def count_verdicts_by_kind(results: Sequence[CaseResult]) -> dict[EvidenceKind, dict[Verdict, int]]:
-    """Return how many cases of each kind got each verdict."""
+    """Return the number of cases per kind of evidence and verdict."""
     return {kind: count_verdicts([result for result in results if result.case.kind == kind]) for kind in EVIDENCE_KINDS}

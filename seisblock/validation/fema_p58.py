@@ -1,8 +1,8 @@
-"""FEMA P-58, nine overturning fragilities of unanchored bookcases and filing cabinets: one constant times those of the rocking block.
+"""FEMA P-58: nine overturning fragilities of unanchored bookcases and filing cabinets as a constant times those of the rocking block.
 
-Sizes and medians are those that the descriptions of the components print ([FEMAP58]_ table of components E.20.22, as in the library of
-models behind pelicun). The motions behind P-58's medians are not told: [Boore2003]_ records of magnitude 7 at 20 km on rock stand in for them,
-so that the constant is the suite's (1.26 to 1.57 were found under seven), and what is evidence is that it is one number.
+Sizes and medians are printed in the descriptions of the components ([FEMAP58]_ table of components E.20.22, as in the model library of
+pelicun). The ground motions behind the medians are not documented: [Boore2003]_ records of magnitude 7 at 20 km on rock are used
+instead. The constant depends on the suite (1.26 to 1.57 for seven suites); the evidence is that a single number fits all nine.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ SHELVES = {
     "E.20.22.125a": (18.6, 67.75, 0.526),
 }
 """Bookcases of two to six shelves, vertical cabinets of two and four drawers, lateral ones of two and four: depth along the shaking and
-height, inches, and the median peak floor velocity at which they fall, m/s."""
+height, inches, and median peak floor velocity of overturning, m/s."""
 
 SCATTER_TOLERANCE = 0.05
-"""Of the ratio of the medians, its standard deviation over its mean: what one constant may scatter by."""
+"""Admissible standard deviation of the ratios of the medians over their mean."""
 
 RECORDS = 40
 PGV_LEVELS = np.geomspace(0.1, 5.0, 24)
-"""Peak velocities that each motion is scaled to, m/s."""
+"""Peak velocities to which each motion is scaled, m/s."""
 
 
 @cache
@@ -48,7 +48,7 @@ def ratios() -> FloatArray:
     bodies = {name: Block(depth * INCH, height * INCH) for name, (depth, height, _) in SHELVES.items()}
     study = run_fragility(synthetic_suite(7.0, 20.0, RECORDS), bodies, "rock", im="pgv", levels=PGV_LEVELS, bootstrap=2)
     medians = {curve.body: curve.median or np.nan for curve in study.curves}
-    return np.array([medians[name] / printed for name, (_, _, printed) in SHELVES.items()])
+    return np.array([medians[name] / p58_median for name, (_, _, p58_median) in SHELVES.items()])
 
 
 def constant() -> float:
@@ -57,7 +57,7 @@ def constant() -> float:
 
 
 def scatter() -> float:
-    """Return how much the nine ratios scatter, a share of their mean."""
+    """Return the standard deviation of the nine ratios over their mean."""
     return float(ratios().std() / ratios().mean())
 
 
@@ -65,20 +65,20 @@ CASES = (
     Case(
         "fema-p58-scatter",
         "[FEMAP58]_ table of components E.20.22.102a to 125a",
-        "scatter of nine medians, the rocking block's over those printed, a share of their mean",
+        "coefficient of variation of nine ratios of medians, rocking block over P-58",
         "1",
         0.0,
         SCATTER_TOLERANCE,
         scatter,
         kind="rebuilt",
-        note="forty synthetic records of magnitude 7 at 20 km stand in for the motions behind P-58; 0 would be one constant, and the "
-        "medians themselves go from 0.25 to 1.23 m/s",
+        note="40 synthetic records of magnitude 7 at 20 km instead of the motions behind P-58; 0 means a constant ratio; the medians "
+        "themselves range from 0.25 to 1.23 m/s",
         quick=False,
     ),
     Case(
         "fema-p58-constant",
         "[FEMAP58]_ table of components E.20.22.102a to 125a",
-        "mean of nine medians, the rocking block's over those printed",
+        "mean of nine ratios of medians, rocking block over P-58",
         "1",
         1.0,
         0.05,
@@ -86,10 +86,10 @@ CASES = (
         status="differs",
         kind="rebuilt",
         today=(1.3616, 0.005),
-        note="a sharp rigid block that rocks in its plane takes more than P-58 says of its shelves: 1.26 to 1.57 times, by the suite "
-        "(1.26 under white noise, 1.47 under the far-field records of P-695, 1.57 under eighteen of pySLAMMER's and of magnitude 7.5); their "
-        "edges, contents and walls are not told",
+        note="a rigid block with sharp edges that rocks in its plane resists 1.26 to 1.57 times the medians of P-58, depending on the "
+        "suite (1.26 for white noise, 1.47 for the far-field records of P-695, 1.57 for 18 records of pySLAMMER and for magnitude "
+        "7.5); cause unknown: P-58 does not document edges, contents and walls of the shelves",
         quick=False,
     ),
 )
-"""One constant, and which."""
+"""Scatter and mean of the ratios."""

@@ -1,4 +1,4 @@
-"""Fujino, Sasaki and Hakuno (1978), sliding of a friction-controlled mass: the evidence."""
+"""Validation against Fujino, Sasaki and Hakuno (1978): sliding of a rigid mass with friction."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from seisblock.validation.fujino_equations import EQUATIONS
 from seisblock.validation.fujino_figures import FIGURES
 
 CASES = (*EQUATIONS, *FIGURES)
-"""Every case of this paper."""
+"""All cases of this paper."""

@@ -1,4 +1,4 @@
-"""Furukawa et al. (2009) on the pile of stones: thresholds under sines, and the shaking table of table 5, by our own distinct elements."""
+"""Validation of `stack` against [Furukawa2009]_: overturning thresholds of a pile under sines, and the shaking table of table 5."""
 
 from __future__ import annotations
 
@@ -32,37 +32,38 @@ SAO_FELL = {
     ("6-upper", True): 0.0,
     ("7", True): 1.0,
 }
-"""Whether the sao fell on the shaking table ([Furukawa2009]_ table 5(c)), for each level, plain and dowelled."""
+"""Overturning of the sao on the shaking table ([Furukawa2009]_ table 5(c)), by level, without and with a dowel."""
 
 MOTION_COUNT = 12
 SHARE_TOLERANCE = 0.25
-"""Three motions of twelve: what the draw of a motion may change."""
+"""Three motions of twelve: effect of the random draw of a motion."""
 
 HEIGHT_STEP = RATIOS[1] - RATIOS[0]
-"""Heights of the upper stone come in steps of H/B 0.1875."""
+"""Step of H/B of the tested upper stones, 0.1875."""
 
 SAMPLING_S, SAMPLE_COUNT = 0.01, 1500
 
 FRICTION = (
-    "strict Coulomb friction of 0.438 lets the lower stones slide at 430 gal, and what stands on them feels no more; "
-    "the paper shows no such limit. "
+    "strict Coulomb friction of 0.438: the lower stones slide at 430 gal and transmit no more to the stones above, a limit that the "
+    "paper does not show. "
 )
 
 
 def kobe_like(level: str, seed: int) -> Motion:
-    """Return noise of a strong-motion shape whose components have PGA and PGV of table 4 ([Furukawa2009]_ table 4)."""
+    """Return enveloped noise with the PGA and PGV of each component of [Furukawa2009]_ table 4."""
     rng = np.random.default_rng(seed)
     pga, pgv = LEVELS[level]
     return Motion(np.array([_component(rng, a, v) for a, v in zip(pga, pgv, strict=True)]), SAMPLING_S, name=f"Kobe-like, {level}")
 
 
 def _component(rng: np.random.Generator, pga: float, pgv: float) -> FloatArray:
-    """Return band-limited noise under an envelope; the band is moved until PGV fits PGA."""
+    """Return band-limited noise under an envelope; the band is shifted until PGV fits PGA."""
     from scipy.signal import butter, sosfiltfilt
 
     noise = rng.normal(size=SAMPLE_COUNT)
     time = SAMPLING_S * np.arange(SAMPLE_COUNT)
     envelope = np.clip(time / 2.0, 0.0, 1.0) ** 2 * np.exp(-np.clip(time - 7.0, 0.0, None) / 2.0)
+    # bisection of the centre frequency, Hz: at a given PGA a lower band has a higher PGV
     low, high = 0.1, 8.0
     acceleration: FloatArray = noise
     for _ in range(25):
@@ -76,7 +77,7 @@ def _component(rng: np.random.Generator, pga: float, pgv: float) -> FloatArray:
 
 
 def _fallen_stones(pile: Pile, motion: Motion) -> tuple[str, ...]:
-    """Return what falls by the paper's own law: springs at 5 x 5 points of each joint."""
+    """Return the stones that fall with the paper's contact law: springs at 5 x 5 points of each joint."""
     return solve_stack(pile, motion, law=SPRINGS, points=5, stop_at_fall=True).outcome.overturned
 
 
@@ -89,7 +90,7 @@ def share_fallen(level: str, reinforced: bool) -> float:
 
 
 def threshold(reinforced: bool, frequency: float, pga: float) -> float:
-    """Return H/B of the most squat sao that a sine fells; more than any when none falls."""
+    """Return the smallest H/B of a sao that overturns under a sine; above the largest if none does."""
     pile: Pile = load_pile("wagata", reinforced=reinforced).without("mizubachi")
     study = criterion_study(pile, frequencies=(frequency,), pgas=(pga,))
     ratio = study.thresholds[0].ratio
@@ -99,12 +100,12 @@ def threshold(reinforced: bool, frequency: float, pga: float) -> float:
 TABLE_5_DIFFERS = {
     ("6-lower", False): (
         0.5,
-        "one motion on the table; of such noise a third to a half of the motions fell it, and the paper's own criterion has this cell on "
-        "the line (table 5(b))",
+        "one motion on the shaking table; a third to a half of such noise motions overturn the sao, and the paper's own criterion is "
+        "borderline in this cell (table 5(b))",
     ),
-    ("7", True): (0.0, FRICTION + "With 0.7 for 0.438 nine of the twelve motions fell it"),
+    ("7", True): (0.0, FRICTION + "With 0.7 the sao overturns in 9 of 12 motions"),
 }
-"""Cells of table 5 that differ: the share that falls today, and why."""
+"""Differing cells of table 5: today's share of falls, and the cause."""
 
 SINES = (
     (False, 1.0, 3.0),
@@ -115,21 +116,21 @@ SINES = (
     (False, 1.0, 10.0),
     (True, 1.0, 5.0),
 )
-"""Whether dowels are in, frequency (Hz) and PGA (m/s^2)."""
+"""Dowels (true or false), frequency (Hz) and PGA (m/s^2)."""
 
 SINES_DIFFER = {
     (False, 1.5, 3.0): (
         2.5625,
-        "the pile needs no more at 1.5 Hz than at 1 Hz, nor does a rigid block on the outermost points; (9) rises by 12 %",
+        "eq. (9) rises by 12 % from 1 to 1.5 Hz; the pile, and a rigid block on the outermost points, show no such rise; cause unknown",
     ),
     (False, 3.0, 6.0): (
         3.5,
-        "the pile needs less than (9) says at 3 Hz; a rigid block on the outermost points gives a(3 Hz) = 2307 gal, (9) 2451",
+        "the pile overturns below eq. (9) at 3 Hz, as does a rigid block on the outermost points, a(3 Hz) = 2307 gal against 2451; cause unknown",
     ),
-    (False, 1.0, 10.0): (1.8125, FRICTION + "Nothing below H/B 1.6 falls at any amplitude"),
-    (True, 1.0, 5.0): (3.125, FRICTION + "Where nothing slides 2.94 falls; and p of (10) is a digit off: with 1362.9 gal it says 2.81"),
+    (False, 1.0, 10.0): (1.8125, FRICTION + "No stone below H/B 1.6 overturns at any amplitude"),
+    (True, 1.0, 5.0): (3.125, FRICTION + "Without sliding the result is 2.94; eq. (10) with p = 1362.9 gal (printed: 1162.9) gives 2.81"),
 }
-"""Sines that differ: H/B of the most squat stone that falls today, and why."""
+"""Differing sines: today's smallest H/B that falls, and the cause."""
 
 
 def _table_5_case(level: str, reinforced: bool) -> Case:
@@ -139,13 +140,13 @@ def _table_5_case(level: str, reinforced: bool) -> Case:
     return Case(
         f"furukawa-pile-table-5-{stones}-{level}",
         "[Furukawa2009]_ table 5(c)",
-        f"share of {MOTION_COUNT} motions of JMA {level}, with PGA and PGV of table 4, that fell the sao of the {stones} pile",
+        f"share of {MOTION_COUNT} motions of JMA {level}, PGA and PGV of table 4, that overturn the sao of the {stones} pile",
         "1",
         SAO_FELL[level, reinforced],
         SHARE_TOLERANCE,
         partial(share_fallen, level, reinforced),
         status="holds" if today is None else "differs",
-        note=explanation or "the table's own motion is not to be had",
+        note=explanation or "the motion of the shaking table is not available",
         kind="rebuilt",
         today=None if today is None else expected_difference(today, SHARE_TOLERANCE),
         quick=False,
@@ -153,23 +154,23 @@ def _table_5_case(level: str, reinforced: bool) -> Case:
 
 
 def _sine_case(reinforced: bool, frequency: float, pga: float) -> Case:
-    """Return the case of one sine: the threshold of the pile beside (9) or (10)."""
+    """Return the case of one sine: threshold of the pile against eq. (9) or (10)."""
     today, explanation = SINES_DIFFER.get((reinforced, frequency, pga), (None, ""))
     fit, equation = furukawa_fit(reinforced)
     return Case(
         f"furukawa-pile-{equation[1:-1]}-{frequency:g}-hz-{100 * pga:g}-gal",
         f"[Furukawa2009]_ eq. {equation}",
-        f"H/B of the most squat sao felled by 20 s of {100 * pga:g} gal at {frequency:g} Hz, {'dowelled' if reinforced else 'plain'} pile",
+        f"smallest H/B of a sao overturned by 20 s of {100 * pga:g} gal at {frequency:g} Hz, {'dowelled' if reinforced else 'plain'} pile",
         "1",
         float(overturning_ratio(pga, frequency, fit)),
         1.5 * HEIGHT_STEP,
         partial(threshold, reinforced, frequency, pga),
         status="holds" if today is None else "differs",
-        note=explanation or "a fit, within one and a half steps of the heights tried",
+        note=explanation or "fitted curve; tolerance: 1.5 steps of the tested heights",
         today=None if today is None else expected_difference(today, HEIGHT_STEP),
         quick=False,
     )
 
 
 CASES = (*(_table_5_case(*cell) for cell in SAO_FELL), *(_sine_case(*sine) for sine in SINES))
-"""Every case of this paper on the pile."""
+"""Cases of this paper on the pile."""

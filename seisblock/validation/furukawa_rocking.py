@@ -1,8 +1,9 @@
-"""[Furukawa2009]_ fig. 6 against one rigid rocking block: what of eq. (9) plain rocking explains.
+"""Validation against [Furukawa2009]_ fig. 6: a(f) of a single rocking block against eq. (8).
 
-The stones of table 1 (8 sun wide, 10 to 52 sun high) stand on a rigid base under 20 s of sine, 100 to 1300 gal by 100, as in the paper's
-runs; a(f) is the least-squares hyperbola through the least H/B that overturns, where some stone of the range stands. Once the block turns
-about its own edges, once about edges 0.1 of its width in from each side, as the contact points of the paper's discrete elements do.
+The stones of table 1 (8 sun wide, 10 to 52 sun high) stand on a rigid base under 20 s of sine, 100 to 1300 gal in steps of 100, as in the
+paper's runs. a(f) is the least-squares hyperbola through the smallest H/B that overturns, for amplitudes at which some stone of the range
+remains standing. The block rocks about its own edges, or about edges worn by 0.1 of its width per side, the position of the contact
+points of the paper's discrete elements.
 """
 
 from __future__ import annotations
@@ -22,20 +23,20 @@ from seisblock.validation.case import Case, expected_difference
 GRAVITY = 9.8
 WIDTH = 8 * SUN
 HEIGHTS = tuple(sun * SUN for sun in np.arange(10.0, 52.1, 1.5))
-"""The 29 stones of table 1, m."""
+"""Heights of the 29 stones of table 1, m."""
 
 AMPLITUDES = tuple(float(a) for a in range(1, 14))
-"""100 to 1300 gal, m/s^2."""
+"""100 to 1300 gal, in m/s^2."""
 
 DURATION, STEP = 20.0, 0.005
 FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
 
 VERDICT_TOLERANCE = 0.01
-"""Share by which a(f) may move where one of its verdicts, which are chaotic, falls otherwise on another machine."""
+"""Relative change of a(f) if one of its chaotic verdicts changes on another machine."""
 
 
 def least_ratio(frequency: float, amplitude: float, inset: float) -> float | None:
-    """Return the least H/B of table 1 that a sine overturns; None when none falls."""
+    """Return the smallest H/B of table 1 that overturns under a sine; None if none does."""
     t = np.arange(round(DURATION / STEP) + 1) * STEP
     sine = Motion.from_arrays(amplitude * np.sin(2 * math.pi * frequency * t), STEP)
     for height in HEIGHTS:
@@ -54,28 +55,28 @@ def rocking_level(frequency: float, inset: float) -> float:
 
 
 def _expected(frequency: float) -> float:
-    """Return a(f) of eq. (8)."""
+    """Return a(f) by [Furukawa2009]_ eq. (8)."""
     return float(overturning_level(frequency))
 
 
 CASES = (
     *(
         Case(
-            f"furukawa-rocking-inset-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block with edges worn by 0.1 of its width per side",
+            f"furukawa-rocking-inset-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block with edge wear of 0.1 of its width per side",
             "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.1), quick=False,
-            note="expected: eq. (8); the tolerance of 10 % is ours: eq. (8) is itself a fit through six points",
+            note="expected: eq. (8); tolerance 10 %, chosen here, since eq. (8) is itself a fit to six points",
         )
         for f in FREQUENCIES
     ),
     *(
         Case(
-            f"furukawa-rocking-edges-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block that turns about its edges",
+            f"furukawa-rocking-edges-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block with sharp edges",
             "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.0), status="differs", quick=False,
             today=expected_difference(today, VERDICT_TOLERANCE * today),
-            note="differs: a stone that turns about its edges resists 26 to 48 % more than eq. (9) says; the contact points of the discrete "
-            "elements lie inside the edges, and the pile below moves",
+            note="a stone that rocks about its edges resists 26 to 48 % more than eq. (9), whose discrete elements have contact points inside "
+            "the edges and a moving pile below",
         )
         for f, today in zip(FREQUENCIES, (10.616413, 10.794164, 11.948047, 16.956284, 25.292126, 32.698110), strict=True)
     ),
 )  # fmt: skip
-"""What plain rocking makes of eq. (9)."""
+"""Single rocking block against the criterion."""

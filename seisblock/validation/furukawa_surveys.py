@@ -1,4 +1,4 @@
-"""Table 6 of [Furukawa2009]_, repaired: shaking and overturning rates after the western Tottori earthquake of 2000."""
+"""Table 6 of [Furukawa2009]_, corrected: shaking and overturning rates after the 2000 western Tottori earthquake."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from seisblock.core.units import GAL, KINE
 
 @dataclass(frozen=True)
 class SurveyedRate:
-    """One row of table 6; the scan's lost digits follow from f = PGA/(2 pi PGV).
+    """One row of table 6; digits lost in the scan follow from f = PGA/(2 pi PGV).
 
     Parameters
     ----------
@@ -20,7 +20,7 @@ class SurveyedRate:
     rate : float
         Surveyed around the station.
     estimate, estimate_reinforced : float or None
-        Read by the authors off figs. 16 and 17; None where the scan lost it.
+        Read by the authors from figs. 16 and 17; None if illegible in the scan.
     """
 
     name: str
@@ -50,4 +50,4 @@ SURVEYS = (
     SurveyedRate("Hino", 927, 113, 1.31, 0.90, 1.0, None),
     SurveyedRate("Sakaiminato", 213, 90, 0.38, 0.36, None, None),
 )
-"""Its six rows, in the order printed. The last row's estimates, 0.05 and 0, contradict the other rows and are left out."""
+"""Rows of table 6 in printed order. The estimates of the last row, 0.05 and 0, contradict the other rows and are omitted."""

@@ -1,4 +1,4 @@
-"""Okumura et al. (1987), uplift of a block on corner springs: the evidence, section by section."""
+"""Validation against Okumura et al. (1987): uplift of a block on corner springs."""
 
 from __future__ import annotations
 
@@ -7,4 +7,4 @@ from seisblock.validation.okumura_modes import MODES
 from seisblock.validation.okumura_records import RECORDS
 
 CASES = (*MODES, *HARMONIC, *RECORDS)
-"""Every case of this paper."""
+"""All cases of this paper."""

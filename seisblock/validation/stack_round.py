@@ -1,6 +1,6 @@
-"""Round stones of a pile beside closed forms: cylinders go round on their rims, rock and roll, drums roll down a slope, coins roll on, what slips rolls.
+"""Validation of `stack` for cylinders: precession on the rim, rocking and rolling, rolling down a slope, and sliding to rolling.
 
-No shaking: each is let go in the motion that the closed form belongs to, and is followed with the steps of a pile.
+Each cylinder is released in the motion of the closed form, without shaking, and integrated with the steps of a pile.
 """
 
 from __future__ import annotations
@@ -26,53 +26,53 @@ from seisblock.validation.case import CONVERGED, Case
 RADIUS = 0.2
 STEP = 2e-3
 NO_SLIP_FRICTION = 5.0
-"""Friction at which nothing slips."""
+"""Friction coefficient that excludes sliding."""
 
 RIM_CASES = ((1e-3, 0.5), (1e-3, 0.1), (0.1, 0.3), (0.2, 0.4), (1.6, 0.1))
 """Height, m, and lean, rad, of a disk, of drums and of a column."""
 
 RATE_TOLERANCE = 2e-4
-"""Relative tolerance of a rate: the error of steps of 2 ms, which falls with their square."""
+"""Relative tolerance of a rate: error of steps of 2 ms, second order in the step."""
 
 DISTANCE_TOLERANCE = 1e-5
-"""Tolerance of a way, m: the same."""
+"""Tolerance of a distance, m: error of steps of 2 ms."""
 
 TURNS = 5
 SECONDS = 1.0
 ROCKING_LEAN, OUT_OF_PLANE_RATE, UPRIGHT_TIME = 0.05, 1e-3, 0.1
-"""Lean, rad, from which a drum rocks; its rate out of the plane, rad/s; and the time by which it has come upright, s."""
+"""Lean, rad, from which a drum rocks; its out-of-plane rate, rad/s; and the time by which it has come upright, s."""
 
 FINE_STEP = 1e-4
-"""Step, s, of a drum that rolls from one side of its rim to the other within half a millisecond."""
+"""Step, s, for a drum that rolls to the opposite side of its rim within half a millisecond."""
 
 TURN_TOLERANCE = 0.02
-"""Tolerance of the angle by which its lean turns, rad: that of the rate out of the plane, which vanishes with it."""
+"""Tolerance of the rotation of the lean, rad: the effect of the out-of-plane rate, with which it vanishes."""
 
 SLOPE = 0.2
 """Angle of the slope, rad."""
 
 SPEED = 2.0
 LOW_FRICTION = 0.3
-"""Friction of the drum that is thrown without a spin."""
+"""Friction coefficient of the drum thrown without spin."""
 
 LYING_AXES = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """Axes of a cylinder on its side, its own axis along y."""
 
 
 def drum(height: float) -> PileStone:
-    """Return a cylinder of the radius of this module; a disk where it is low."""
+    """Return a cylinder of the radius of this module; a disk if it is low."""
     return PileStone("drum", 2.0 * RADIUS, 2.0 * RADIUS, height, shape=ROUND)
 
 
 def ground_at_rest(seconds: float, step: float = STEP) -> Motion:
-    """Return ground that stands still, a sample a step."""
+    """Return a motion without shaking, one sample per step."""
     return Motion.from_arrays(np.zeros(math.ceil(seconds / step) + 1), step)
 
 
 def release(
     stone: PileStone, axes: FloatArray, height: float, velocity: FloatArray, spin: FloatArray, motion: Motion, mu: float = NO_SLIP_FRICTION
 ) -> SimulationResult:
-    """Follow one stone that begins in motion: its own axes as columns, the height of its centre, velocity, m/s, and spin, rad/s."""
+    """Return the result of a stone released in motion: axes (columns), height, m, velocity, m/s, and spin, rad/s."""
     from scipy.spatial.transform import Rotation
 
     pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGE_POINTS)
@@ -86,11 +86,11 @@ def release(
 
 
 def rim_rate(stone: PileStone, lean: float) -> float:
-    """Return the rate at which a cylinder whose centre stays at rest goes round on its rim, rad/s ([Moffatt2000]_ eq. (1)).
+    """Return the precession rate of a cylinder on its rim whose centre is at rest, rad/s ([Moffatt2000]_ eq. (1)).
 
-    The spin lies along the line from the centre to the point of contact; the moment of the weight about the centre turns the angular
-    momentum: Omega^2 = g (R cos - h/2 sin) / (sin (A cos - C sin h/(2R))), with A = (3 R^2 + h^2)/12 and C = R^2/2 the squared radii of
-    gyration across and along the axis (derived here for any height); 4 g/(R sin) for a thin disk.
+    The spin is along the line from the centre to the contact point; the moment of the weight about the centre turns the angular momentum:
+    Omega^2 = g (R cos - h/2 sin) / (sin (A cos - C sin h/(2R))), with A = (3 R^2 + h^2)/12 and C = R^2/2 the squared radii of gyration
+    across and along the axis (derived here for any height); 4 g/(R sin) for a thin disk.
     """
     s, c, half = math.sin(lean), math.cos(lean), 0.5 * stone.height
     transverse_squared, axial_squared = (3.0 * RADIUS**2 + stone.height**2) / 12.0, 0.5 * RADIUS**2
@@ -98,20 +98,20 @@ def rim_rate(stone: PileStone, lean: float) -> float:
 
 
 def _axis(end: SimulationResult, seconds: float) -> tuple[FloatArray, FloatArray]:
-    """Return times, s, (n,), and the axis, (n, 3), of the one stone that was followed."""
+    """Return times, s, (n,), and the axis of the stone, (n, 3)."""
     inside = end.track.time <= seconds
     w, x, y, z = end.track.quaternions[inside, 0].T
     return end.track.time[inside], np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]).T
 
 
 def tilted_axes(lean: float) -> FloatArray:
-    """Return the axes of a cylinder that leans, as columns."""
+    """Return the axes of a leaning cylinder as columns."""
     s, c = math.sin(lean), math.cos(lean)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 def roll_on_rim(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, SimulationResult]:
-    """Return the times, s, (n,), and the axis, (n, 3), of a cylinder let go as it goes round on its rim, through some turns; and its end."""
+    """Return times, s, (n,), the axis, (n, 3), and the result of a cylinder released in precession, over some turns."""
     rate, s, c, half = rim_rate(stone, lean), math.sin(lean), math.cos(lean), 0.5 * stone.height
     axes = tilted_axes(lean)
     spin = rate * s * (half / RADIUS * axes[:, 2] - axes[:, 0])
@@ -123,9 +123,9 @@ def roll_on_rim(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, 
 def turn_angle(stone: PileStone) -> float:
     """Return the angle by which the lean of a cylinder turns that rocks almost in a plane, rad ([SrinivasanRuina2008]_).
 
-    It does not strike the ground with the far side of its rim, but rolls there along it in no time. For small leans f towards q the speeds
-    of that are those of a point in the plane: 2 T/m = (A + R^2) f'^2 + A f^2 q'^2, with A the squared radius of gyration about a diameter of
-    the base; straight lines turn q by pi sqrt((A + R^2)/A) (derived here).
+    The far side of the rim does not strike: the cylinder rolls there along the rim almost instantly. For small leans f in the direction q the
+    velocities are those of a point in the plane, 2 T/m = (A + R^2) f'^2 + A f^2 q'^2, with A the squared radius of gyration about a diameter
+    of the base; straight lines turn q by pi sqrt((A + R^2)/A) (derived here).
     """
     gyration_squared = (3.0 * RADIUS**2 + stone.height**2) / 12.0 + 0.25 * stone.height**2
     return math.pi * math.sqrt((gyration_squared + RADIUS**2) / gyration_squared)
@@ -134,12 +134,13 @@ def turn_angle(stone: PileStone) -> float:
 def rock_and_roll(
     stone: PileStone, out_of_plane_rate: float = OUT_OF_PLANE_RATE, step: float = FINE_STEP
 ) -> tuple[float, float, SimulationResult]:
-    """Return the angle by which the lean of a cylinder turns, rad, the lean that it reaches then over that it came from, and its end."""
+    """Return the rotation of the lean of a rocking cylinder, rad, its new lean over the initial one, and the result."""
     axes, spin = tilted_axes(ROCKING_LEAN), np.array([-out_of_plane_rate, 0.0, 0.0])
     foot = RADIUS * axes[:, 0] - 0.5 * stone.height * axes[:, 2]
     end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, ground_at_rest(2.0 * UPRIGHT_TIME, step))
     time, axis = _axis(end, 2.0 * UPRIGHT_TIME)
     lean = np.hypot(axis[:, 0], axis[:, 1])
+    # smallest lean: passage through the upright position; the next maximum is the lean on the other side
     upright = int(np.argmin(np.where(time < UPRIGHT_TIME, lean, np.inf)))
     back = upright + int(np.argmax(lean[upright:]))
     angle = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
@@ -147,19 +148,20 @@ def rock_and_roll(
 
 
 def simulated_turn_angle(stone: PileStone) -> float:
-    """Return the angle by which the lean of a cylinder turns that rocks almost in a plane, rad."""
+    """Return the simulated angle by which the lean of a rocking cylinder turns, rad."""
     return rock_and_roll(stone)[0]
 
 
 def simulated_rim_rate(height: float, lean: float) -> float:
-    """Return the mean rate at which a cylinder goes round through some turns, rad/s."""
+    """Return the mean precession rate of a cylinder over some turns, rad/s."""
     time, axis, _ = roll_on_rim(drum(height), lean)
     angle = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
     return float(abs(angle[-1] - angle[0]) / np.ptp(time))
 
 
 def roll_down_slope() -> tuple[float, SimulationResult]:
-    """Return what a drum on its side gains on a slope, m/s^2, and its end; the slope is a weight that does not point down."""
+    """Return the acceleration of a drum on its side on a slope, m/s^2, and the result; the slope is an inclined gravity."""
+    # a slope is level ground under inclined gravity: g sin along x, and the vertical component reduced to g cos
     even = np.full(round(SECONDS / STEP) + 1, STANDARD_GRAVITY)
     motion = Motion.from_arrays(-even * math.sin(SLOPE), STEP, vertical=even * (math.cos(SLOPE) - 1.0))
     end = release(drum(2.0 * RADIUS), LYING_AXES, RADIUS, np.zeros(3), np.zeros(3), motion)
@@ -169,12 +171,12 @@ def roll_down_slope() -> tuple[float, SimulationResult]:
 
 
 def simulated_slope_acceleration() -> float:
-    """Return what a drum on its side gains on a slope, m/s^2."""
+    """Return the acceleration of a drum on its side on a slope, m/s^2."""
     return roll_down_slope()[0]
 
 
 def roll_on_level(height: float, speed: float = SPEED, rolls: bool = True, mu: float = NO_SLIP_FRICTION) -> tuple[FloatArray, FloatArray]:
-    """Return times, s, (n,), and centres, m, (n, 3), of a cylinder on its side that rolls, or is thrown without a spin."""
+    """Return times, s, (n,), and centres, m, (n, 3), of a cylinder on its side that rolls, or is thrown without spin."""
     spin = np.array([0.0, speed / RADIUS if rolls else 0.0, 0.0])
     end = release(drum(height), LYING_AXES, RADIUS, np.array([speed, 0.0, 0.0]), spin, ground_at_rest(SECONDS), mu)
     inside = end.track.time <= SECONDS
@@ -182,13 +184,14 @@ def roll_on_level(height: float, speed: float = SPEED, rolls: bool = True, mu: f
 
 
 def rolling_distance(height: float, rolls: bool = True, mu: float = NO_SLIP_FRICTION) -> float:
-    """Return how far a cylinder on its side gets, m."""
+    """Return the distance covered by a cylinder on its side, m."""
     _, centres = roll_on_level(height, rolls=rolls, mu=mu)
     return float(centres[-1, 0])
 
 
 def thrown_distance() -> float:
-    """Return how far a drum gets that is thrown without a spin: friction turns it until it rolls, with two thirds of its speed, m."""
+    """Return the distance of a drum thrown without spin, m: friction spins it up until it rolls at two thirds of its speed."""
+    # sliding lasts until the circumferential speed equals the decreasing speed: v0 / (3 mu g)
     slips = SPEED / (3.0 * LOW_FRICTION * STANDARD_GRAVITY)
     return SPEED * slips - 0.5 * LOW_FRICTION * STANDARD_GRAVITY * slips**2 + 2.0 / 3.0 * SPEED * (SECONDS - slips)
 
@@ -199,30 +202,30 @@ def _rim_case(height: float, lean: float) -> Case:
     return Case(
         f"stack-round-rim-{height:g}-m-{lean:g}-rad",
         "[Moffatt2000]_ eq. (1)",
-        f"rate at which a cylinder of radius {RADIUS:g} m and height {height:g} m goes round on its rim, {lean:g} rad from lying flat",
+        f"precession rate of a cylinder on its rim, radius {RADIUS:g} m, height {height:g} m, base inclined by {lean:g} rad",
         "rad/s",
         expected,
         RATE_TOLERANCE * expected,
         partial(simulated_rim_rate, height, lean),
-        note="expected: the closed form for any height, derived here; the paper's is that of a thin disk. Steps of 2 ms",
+        note="expected: closed form for any height, derived here (the paper: thin disk); steps of 2 ms",
         kind="derived",
         quick=False,
     )
 
 
 def _can_case() -> Case:
-    """Return the case of a drum that seems to rock."""
+    """Return the case of a rocking drum."""
     stone = drum(2.0 * RADIUS)
     return Case(
         "stack-round-can",
         "[SrinivasanRuina2008]_",
-        "angle by which the lean of a drum turns that rocks almost in a plane: it rolls to the other side of its rim and does not strike with it",
+        "rotation of the lean of a drum that rocks almost in a plane and rolls to the opposite side of its rim",
         "rad",
         turn_angle(stone),
         TURN_TOLERANCE,
         partial(simulated_turn_angle, stone),
-        note="expected: pi sqrt(1 + m R^2/I), I about a diameter of the base, derived here. Steps of 0.1 ms: it rolls across within half a "
-        "millisecond; a step ends where its lowest point has wandered far",
+        note="expected: pi sqrt(1 + m R^2/I), I about a diameter of the base, derived here; steps of 0.1 ms, since the drum rolls across "
+        "within 0.5 ms",
         kind="derived",
         quick=False,
     )
@@ -238,7 +241,7 @@ def _rolling_case(key: str, quantity: str, unit: str, expected: float, tolerance
         expected,
         tolerance,
         compute,
-        note="expected: closed form of rolling without slip",
+        note="expected: closed form of rolling",
         kind="derived",
         quick=False,
     )
@@ -249,11 +252,11 @@ SLOPE_ACCELERATION = 2.0 / 3.0 * STANDARD_GRAVITY * math.sin(SLOPE)
 CASES = (
     *(_rim_case(*stone) for stone in RIM_CASES),
     _can_case(),
-    _rolling_case("slope", "acceleration of a drum that rolls down a slope of 0.2 rad, two thirds of g sin", "m/s^2", SLOPE_ACCELERATION, CONVERGED * SLOPE_ACCELERATION, simulated_slope_acceleration),
-    _rolling_case("coin", "way of a coin that rolls at 2 m/s, after 1 s", "m", SPEED * SECONDS, DISTANCE_TOLERANCE, partial(rolling_distance, 1e-3)),
+    _rolling_case("slope", "acceleration of a drum rolling down a slope of 0.2 rad, (2/3) g sin(0.2)", "m/s^2", SLOPE_ACCELERATION, CONVERGED * SLOPE_ACCELERATION, simulated_slope_acceleration),
+    _rolling_case("coin", "distance of a coin rolling at 2 m/s, after 1 s", "m", SPEED * SECONDS, DISTANCE_TOLERANCE, partial(rolling_distance, 1e-3)),
     _rolling_case(
-        "thrown", "way of a drum thrown at 2 m/s without a spin, which slips until it rolls with two thirds of that, after 1 s; friction 0.3",
+        "thrown", "distance of a drum thrown at 2 m/s without spin, after 1 s; friction 0.3, finally rolling at 2/3 of the speed",
         "m", thrown_distance(), DISTANCE_TOLERANCE, partial(rolling_distance, 2.0 * RADIUS, rolls=False, mu=LOW_FRICTION),
     ),
 )  # fmt: skip
-"""Every case on round stones."""
+"""Cases on cylinders."""

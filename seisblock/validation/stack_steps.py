@@ -1,4 +1,4 @@
-"""The stepping of `stack`: an impact leaves what Housner's block keeps at any step, and a pile that is shaken down creates no energy."""
+"""Validation of the integration of `stack`: restitution of a rocking block at several steps, and energy balance of a collapsing pile."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from seisblock.validation.furukawa_pile import kobe_like
 
 ALPHA = math.atan(0.25)
 START_LEAN = 0.6
-"""Lean from which the block is let go, over its critical angle."""
+"""Lean at release over the overturning angle."""
 
 STIFF_CONTACT = PileContact(stiffness=1e10)
 BLOCK = Pile("block", (PileStone("block", 0.24, 0.24, 0.96),), mu=5.0)
 
 
 def lean_after_impact() -> float:
-    """Return the lean after one impact over the critical angle, in closed form ([Housner1963]_)."""
+    """Return the lean after one impact over the overturning angle, in closed form ([Housner1963]_)."""
     energy_ratio = (1.0 - 1.5 * math.sin(ALPHA) ** 2) ** 2
-    raised = math.cos(ALPHA * (1.0 - START_LEAN)) - math.cos(ALPHA)
-    return 1.0 - math.acos(math.cos(ALPHA) + energy_ratio * raised) / ALPHA
+    rise = math.cos(ALPHA * (1.0 - START_LEAN)) - math.cos(ALPHA)
+    return 1.0 - math.acos(math.cos(ALPHA) + energy_ratio * rise) / ALPHA
 
 
 def simulated_lean_after_impact(law: str, step: float) -> float:
-    """Return the lean after one impact over the critical angle, stepped."""
+    """Return the simulated lean after one impact over the overturning angle."""
     ground = Motion.from_arrays(np.zeros(161), 0.005)
     contact = STIFF_CONTACT if law == SPRINGS else None
     response = solve_stack(BLOCK, ground, law=law, contact=contact, step=step, tilts={"block": START_LEAN * ALPHA})
@@ -42,7 +42,7 @@ def simulated_lean_after_impact(law: str, step: float) -> float:
 
 
 def energy_created(law: str, points: int) -> float:
-    """Return the energy that a pile of five stones creates as it is shaken down, over its weight times its height."""
+    """Return the energy created by the integration of a collapsing pile of five stones, over its weight times height."""
     pile = load_pile("wagata")
     outcome = solve_stack(pile, kobe_like("7", 0), law=law, points=points).outcome
     weight = STANDARD_GRAVITY * sum(stone.mass for stone in pile.stones)
@@ -51,11 +51,11 @@ def energy_created(law: str, points: int) -> float:
 
 def _impact_case(law: str, step: float, tolerance: float) -> Case:
     """Return the case of one impact at one step."""
-    laws = "rigid stones" if law == RIGID else "springs of 1e10 N/m^3"
+    laws = "rigid contact" if law == RIGID else "springs of 1e10 N/m^3"
     return Case(
         f"stack-steps-{law}-{step * 1e3:g}-ms",
         "[Housner1963]_ rocking",
-        f"lean after one impact over alpha, H/B 4 let go at 0.6 alpha; {laws}, steps of {step * 1e3:g} ms",
+        f"tilt after one impact over alpha, H/B 4, released at 0.6 alpha; {laws}, steps of {step * 1e3:g} ms",
         "1",
         lean_after_impact,
         tolerance,
@@ -67,17 +67,17 @@ def _impact_case(law: str, step: float, tolerance: float) -> Case:
 
 
 def _energy_case(law: str, points: int) -> Case:
-    """Return the case of the energy that one law creates."""
-    laws = "rigid stones on their edges" if law == RIGID else "springs at 5 x 5 points"
+    """Return the case of the energy balance with one contact law."""
+    laws = "rigid contact at the edges" if law == RIGID else "springs at 5 x 5 points"
     return Case(
         f"stack-energy-{law}",
         "[Jean1999]_ section 3" if law == RIGID else "[Furukawa2009]_ section 3(1)",
-        f"energy created over weight times height, a gravestone shaken down at JMA 7; {laws}",
+        f"created energy over weight times height, collapse of a gravestone at JMA 7; {laws}",
         "1",
         0.0,
         1e-5 if law == RIGID else 1e-4,
         partial(energy_created, law, points),
-        note="whatever the shaking does, friction, dashpots and impacts take energy and never give any",
+        note="friction, dashpots and impacts only dissipate energy",
         kind="derived",
         quick=False,
     )
@@ -92,4 +92,4 @@ CASES = (
     _energy_case(RIGID, 2),
     _energy_case(SPRINGS, 5),
 )
-"""Every case on the stepping of piles."""
+"""Cases on the integration of piles."""

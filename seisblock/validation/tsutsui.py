@@ -1,4 +1,4 @@
-"""[Tsutsui]_: table 1, equation (4) against the exact velocity step."""
+"""Validation against [Tsutsui]_: table 1, and equation (4) against the exact velocity step."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TABLE = ((2.5, 4.70, 2.0, 0.75, 0.78), (3.0, 6.00, 2.5, 0.76, 0.71), (4.0, 6.10
 
 
 def printed_velocity(ratio: float) -> float:
-    """Return v2 with the factor 0.8 that the paper rounds sqrt(2/pi) to, m/s ([Tsutsui]_ eq. (4), second form)."""
+    """Return v2 with the paper's factor 0.8, rounded from sqrt(2/pi), m/s ([Tsutsui]_ eq. (4), second form)."""
     return 0.8 * tsutsui_velocity(WIDTH, ratio * WIDTH, GRAVITY)
 
 
@@ -32,14 +32,14 @@ CASES = (
     *(
         Case(
             f"tsutsui-table1-v1-{ratio:g}", "[Tsutsui]_ table 1", f"v1 = a/(pi f), lambda = 1/{ratio:g}", "m/s", v1, _ROUNDING,
-            partial(tsutsui_sine_velocity, a, f), note="printed in whole cm/s",
+            partial(tsutsui_sine_velocity, a, f), note="printed in integer cm/s",
         )
         for ratio, a, f, v1, _ in _TABLE
     ),
     *(
         Case(
             f"tsutsui-table1-v2-{ratio:g}", "[Tsutsui]_ table 1", f"v2 = 0.8 sqrt(b lambda g), lambda = 1/{ratio:g}", "m/s", v2, _ROUNDING,
-            partial(printed_velocity, ratio), note="printed in whole cm/s; b = 0.242 m, g = 9.8 m/s^2; the table's head says (1)",
+            partial(printed_velocity, ratio), note="printed in integer cm/s; b = 0.242 m, g = 9.8 m/s^2; the heading of the table cites eq. (1)",
         )
         for ratio, _, _, _, v2 in _TABLE
     ),
@@ -48,10 +48,10 @@ CASES = (
             f"tsutsui-eq4-{ratio:g}", "[Tsutsui]_ eq. (4)", f"overturning velocity, lambda = 1/{ratio:g}", "m/s",
             exact_velocity(ratio), 0.01 * exact_velocity(ratio),
             partial(tsutsui_velocity, WIDTH, ratio * WIDTH, GRAVITY, cosine=True), status="differs", kind="derived", today=expected_difference(today),
-            note="differs: expected is the exact velocity step sqrt((8/3) g R (1 - cos alpha))/cos alpha; (4) takes the restoring force for a "
-            "cosine and leaves out the block's own inertia, and lies 4 to 8 % below it",
+            note="eq. (4) approximates the restoring force by a cosine and neglects the block's own inertia: 4 to 8 % below the exact velocity "
+            "step sqrt((8/3) g R (1 - cos alpha))/cos alpha (expected value)",
         )
         for (ratio, *_), today in zip(_TABLE, (0.7771248168, 0.7094146536, 0.6143711118), strict=True)
     ),
 )  # fmt: skip
-"""What the paper states."""
+"""Cases of this paper."""

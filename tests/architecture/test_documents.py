@@ -95,7 +95,7 @@ def test_files_that_are_named_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
     named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
     named -= {name for name in named if any(word in name for word in PLACEHOLDERS)}
-    folders = ("seisblock", "tests", "docs", "sample_records", ".ci")
+    folders = ("seisblock", "tests", "docs", "sample_records", ".ci", ".github")
     paths = [*ROOT.glob("*"), *(path for folder in folders for path in (ROOT / folder).rglob("*"))]
     there = ["/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir() for path in paths]
     assert sorted(name for name in named if name != "utils.py" and not any(path.endswith("/" + name) for path in there)) == []

@@ -257,5 +257,5 @@ def test_what_the_library_calls_a_parameter_is_an_option_here(tmp_path, monkeypa
     assert told in CliRunner().invoke(main, words).stderr
     told_in_japanese = CliRunner().invoke(main, ["--lang", "ja", *words]).stderr
     assert "`" not in told_in_japanese and "--" in told_in_japanese
-    with pytest.raises(InputError, match="give the sampling interval, `dt`"):
+    with pytest.raises(InputError, match="give the sampling interval with `dt`"):
         read(tmp_path / "bare.csv")

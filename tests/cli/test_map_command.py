@@ -39,7 +39,7 @@ def test_the_document(answered):
     shares = [entry["probability"] for entry in entries[:6]]
     assert shares == sorted(shares, reverse=True) and shares[0] == 1.0
     text = " ".join(document["warnings"])
-    assert "SYA0020410231756" in text and "is cut short" in text
+    assert "SYA0020410231756" in text and "file truncated" in text
     assert "SYN 合成波形 SYNTHETIC: its file does not say where it is: it is listed, and on no map" in text
 
 
@@ -88,7 +88,7 @@ def test_what_is_shown(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("words", "code", "says"),
     [
-        (["EMPTY"], 3, "no record in this folder"),
+        (["EMPTY"], 3, "no record found in this folder"),
         (["hanmer_springs_2016", "shafter_1989"], 3, "these records are of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
         (["shafter_1989", "--cemetery", "aoyama.csv", "--block", "gravestone"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "friction required"),

@@ -140,7 +140,7 @@ def test_two_records_are_told_apart(run, sines, tmp_path):
         (["--velocity-highpass", "-1"], 2, "positive"),
         (["--velocity-highpass", "100"], 3, "half the sampling rate"),
         (["--component", "XX"], 3, "NS, EW, UD"),
-        (["--window", "5:70"], 3, "runs from 0 to 60 s"),
+        (["--window", "5:70"], 3, "lies outside the record (0 to 60 s)"),
         (["--animate", "a.gif"], 2, "No such option '--animate'"),
     ],
 )

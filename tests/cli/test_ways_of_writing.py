@@ -44,7 +44,7 @@ def test_a_bearing_is_answered_with_its_azimuth(name, azimuth):
     """The message says what to write; a record that has a component of that name has it, and names that are none are listed alone."""
     done = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--component", name])
     assert done.exit_code == 3
-    assert f"an azimuth is in degrees clockwise from north: write {azimuth}" in " ".join(done.stderr.split())
+    assert f"for an azimuth in degrees clockwise from north, write {azimuth}" in " ".join(done.stderr.split())
     with pytest.raises(ComponentError) as told:
         read("synthetic_jma.csv").component("N95E")
     assert "azimuth" not in str(told.value)

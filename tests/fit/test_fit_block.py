@@ -164,7 +164,7 @@ def test_what_is_no_outcome_is_refused():
     """Nor what is no motion."""
     with pytest.raises(KindError, match="Observation is needed, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
-    with pytest.raises(KindError, match="Motion is needed"):
+    with pytest.raises(KindError, match="expected a Motion"):
         Observation("pulse.csv", True)
     with pytest.raises(ParameterError, match="weight of an outcome must be zero or more, found nan"):
         Observation(pulse(1.0, 1.0), True, weight=float("nan"))

@@ -60,7 +60,7 @@ def judge_knet(data: bytes, record: Record) -> str:
     if duration is None or rate is None or maximum is None:
         return "a header that is no number was believed"
     if round(duration * rate) != record.samples:
-        return f"{record.samples} samples where the header promises {duration * rate:g}"
+        return f"{record.samples} samples where the header states {duration * rate:g}"
     row = 100 * record.components[0].acceleration
     peak = float(np.abs(row - row.mean()).max())
     return f"a peak of {peak:.4f} where the header says {maximum:g}" if abs(peak - maximum) > 0.0012 else ""
@@ -74,7 +74,7 @@ def judge_knet_csv(data: bytes, record: Record) -> str:
     if duration is None:
         return "a duration that is no number was believed"
     if round(duration / record.dt) != record.samples:
-        return f"{record.samples} samples where the header promises {duration / record.dt:g}"
+        return f"{record.samples} samples where the header states {duration / record.dt:g}"
     return f"{record.dt} s where the header says {rate} Hz" if rate and abs(1 / rate - record.dt) > 1e-6 else ""
 
 
@@ -91,14 +91,14 @@ def judge_promised(data: bytes, record: Record) -> str:
     """Compare the count with the one that the header of the first component promises."""
     stated = re.search(_PROMISES, data, re.IGNORECASE)
     found = record.samples if stated is None else int(stated[1] or stated[2])
-    return "" if found == record.samples else f"{record.samples} samples where the header promises {found}"
+    return "" if found == record.samples else f"{record.samples} samples where the header states {found}"
 
 
 def judge_cwa(data: bytes, record: Record) -> str:
     """Compare count and extremes with the header's."""
     stated = re.search(rb"RecordLength\(sec\):\s*([\d.]+)", data)
     if stated and abs(float(stated[1]) / record.dt - record.samples) > 2.0:
-        return f"{record.samples} samples where the header promises {float(stated[1])} s"
+        return f"{record.samples} samples where the header states {float(stated[1])} s"
     for letter, code in zip("UNE", ("UD", "NS", "EW"), strict=True):
         told = re.search(rf"AmplitudeMAX. {letter}:\s*([\d.]+)~\s*(-[\d.]+)\s".encode(), data)
         row = 100 * record.component(code).acceleration
@@ -111,8 +111,8 @@ def judge_jma(data: bytes, record: Record) -> str:
     """JMA ends each line and publishes whole seconds."""
     seconds = record.samples * record.dt
     if abs(seconds - round(seconds)) > 0.3 * record.dt:
-        return f"{record.samples} samples are no whole number of seconds"
-    return "" if data.endswith((b"\n", b"\r", b",")) or not data.rstrip(b" ,\t") else "the last line has no end"
+        return f"{record.samples} samples are not a whole number of seconds"
+    return "" if data.endswith((b"\n", b"\r", b",")) or not data.rstrip(b" ,\t") else "no line end after the last line"
 
 
 def judge_clock(data: bytes, record: Record) -> str:

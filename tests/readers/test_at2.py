@@ -85,7 +85,7 @@ def test_old_headers_are_read(tmp_path):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (lambda t: "\n".join(t.split("\n")[:50]), "promises 1000 samples (NPTS), it holds"),
+        (lambda t: "\n".join(t.split("\n")[:50]), "states 1000 samples (NPTS), file contains"),
         (lambda t: "\n".join(t.split("\n")[:4]), "no samples"),
         (lambda t: t.replace(".2248424E-02", "NaN"), "line 5: expected accelerations in g, found 'NaN'"),
         (lambda t: t.replace("DT=   .0200", "DT=   .0000"), "line 4"),

@@ -97,7 +97,7 @@ def test_a_lost_decimal_point(layout, tmp_path):
     rows = _rows(100)
     assert "point" not in doubts(tmp_path, LAYOUTS[layout](rows))[0]
     kinds, told = doubts(tmp_path, LAYOUTS[layout](_lost(rows)))
-    assert "point" in kinds and re.search(r"3 number\(s\) have no decimal point \(the first in line \d+: -0187\)", told)
+    assert "point" in kinds and re.search(r"3 number\(s\) without a decimal point \(first: -0187 in line \d+\)", told)
 
 
 def test_numbers_without_needless_zeros_are_no_lost_points(tmp_path):
@@ -137,12 +137,12 @@ def test_a_jma_time_beyond_the_calendar(tmp_path):
 @pytest.mark.parametrize(
     ("name", "changes", "told"),
     [
-        ("NIG0990410231756.NS", {}, "the name says NIG099, the header NIG019"),
-        ("NIG0190410231756.EW", {}, "the name says EW, the header NS"),
-        ("any.NS", {"Record Time": "2003/10/23 17:56:20"}, "one of the two is wrong"),
-        ("any.NS", {"Record Time": "2004/10/23 19:56:20"}, "one of the two is wrong"),
-        ("any.NS", {"Station Lat.": "97.3054"}, "the station lies at 97.3054 degrees"),
-        ("any.NS", {"Long.": "1388.70"}, "the epicentre lies at 1388.7 degrees"),
+        ("NIG0990410231756.NS", {}, "file name (NIG099) and header (NIG019) disagree"),
+        ("NIG0190410231756.EW", {}, "file name (EW) and header (NS) disagree"),
+        ("any.NS", {"Record Time": "2003/10/23 17:56:20"}, "one of them is wrong"),
+        ("any.NS", {"Record Time": "2004/10/23 19:56:20"}, "one of them is wrong"),
+        ("any.NS", {"Station Lat.": "97.3054"}, "station coordinate 97.3054 degrees"),
+        ("any.NS", {"Long.": "1388.70"}, "epicentre coordinate 1388.7 degrees"),
     ],
 )
 def test_a_knet_header_against_its_name_and_itself(name, changes, told, tmp_path):
@@ -173,20 +173,20 @@ def test_a_knet_csv_whose_clocks_differ(tmp_path):
 
 def test_a_knet_csv_in_another_unit(tmp_path):
     """It was read as gal whatever stood there."""
-    with pytest.raises(UnitError, match="'E-W\\(m/s2\\)' is in m/s2"):
+    with pytest.raises(UnitError, match="unit m/s2 in column 'E-W\\(m/s2\\)'"):
         knet_csv(lambda data: data.replace(b"E-W(gal)", b"E-W(m/s2)"), tmp_path)
 
 
 def test_a_jma_header_of_two_units(tmp_path):
     """One gal is a cm/s/s."""
-    with pytest.raises(UnitError, match="states two units"):
+    with pytest.raises(UnitError, match="two units"):
         doubts(tmp_path, FORMATS["jma"].data.replace(b"gal(cm/s/s)", b"gal(m/s/s)"))
 
 
 @pytest.mark.parametrize("column", ["NS (gal) [g]", "ns_gal (m/s2)"])
 def test_a_column_of_two_units(column, tmp_path):
     """The last one was believed."""
-    with pytest.raises(UnitError, match="states two units, gal and"):
+    with pytest.raises(UnitError, match="two units, gal and"):
         doubts(tmp_path, FORMATS["comma"].data.replace(b"NS (gal)", column.encode()))
 
 
@@ -223,6 +223,6 @@ def test_a_dead_and_a_copied_channel(tmp_path):
     """Zeros while others shake; the samples of another component."""
     ns, ew, _ = ROWS
     dead = doubts(tmp_path, WRITERS["comma"]([ns, ew, 0.0 * ns]))
-    assert dead[0] == {"held"} and "UD: every sample is 0" in dead[1]
+    assert dead[0] == {"held"} and "UD: all samples are 0" in dead[1]
     copied = doubts(tmp_path, WRITERS["comma"]([ns, ns, ew]))
-    assert copied[0] == {"directions"} and "NS and EW hold the same samples" in copied[1]
+    assert copied[0] == {"directions"} and "NS and EW are identical" in copied[1]

@@ -71,15 +71,15 @@ def test_content_decides_not_the_name(tmp_path):
 @pytest.mark.parametrize(
     ("text", "error", "says"),
     [
-        (JMA_HEADER[:60], RecordFormatError, "cut short"),
-        (JMA_HEADER.split(" UNIT")[0], RecordFormatError, "cut short: 4 lines"),
+        (JMA_HEADER[:60], RecordFormatError, "header incomplete"),
+        (JMA_HEADER.split(" UNIT")[0], RecordFormatError, "header incomplete: 4 lines"),
         (JMA_HEADER, RecordFormatError, "no samples"),
         (JMA_HEADER.replace("gal(cm/s/s)", "volt"), UnitError, "line 5: unknown unit 'volt'"),
         (JMA_HEADER.replace("100Hz", "fast") + JMA_BODY, RecordFormatError, "line 4"),
         (JMA_HEADER.replace("2000 10 06", "2000 13 06") + JMA_BODY, RecordFormatError, "line 6"),
-        (JMA_HEADER + "1,2,3\r\n1,nan,3\r\n", RecordFormatError, "line 9: column EW holds 'nan'"),
-        (JMA_HEADER + "1,2,3\r\n1,,3\r\n", RecordFormatError, "line 9: the cell of column EW is empty"),
-        (JMA_HEADER + "1,2,3\r\n1,2\r\n", RecordFormatError, "line 9: the cell of column UD is empty"),
+        (JMA_HEADER + "1,2,3\r\n1,nan,3\r\n", RecordFormatError, "line 9: expected a finite number in column EW, found 'nan'"),
+        (JMA_HEADER + "1,2,3\r\n1,,3\r\n", RecordFormatError, "line 9: empty cell in column EW"),
+        (JMA_HEADER + "1,2,3\r\n1,2\r\n", RecordFormatError, "line 9: empty cell in column UD"),
         (JMA_HEADER + "1,2,3\r\n\r\n1,2,x3\r\n", RecordFormatError, "line 10: expected a number in column UD, found 'x3'"),
         (JMA_HEADER + "1,2,3\r\n1,234,2,3\r\n", RecordFormatError, "line 9: expected 3 cells, found 4"),
     ],
@@ -101,7 +101,7 @@ def test_overwritten_pieces_are_told_and_left_alone(tmp_path):
     record = read(write(tmp_path, "\r\n".join(lines)))
     told = [doubt for doubt in record.doubts if doubt.component == "NS"]
     assert [doubt.kind for doubt in told] == ["jump"]
-    assert "1 isolated jump(s) (at 30.00 s)" in told[0].message and "2015-12-04" in told[0].message
+    assert "1 isolated step(s) (at 30.00 s)" in told[0].message and "2015-12-04" in told[0].message
     ns = record.component("NS").acceleration
     np.testing.assert_array_equal(ns[3000:3050], ns[3200:3250])
 
@@ -116,7 +116,7 @@ def test_overwritten_pieces_are_told_and_left_alone(tmp_path):
         (lambda text: "\r\n".join(text.split("\r\n")[:3000] + text.split("\r\n")[3001:]), ["count"]),
         (lambda text: text[: text.index("\r\n", len(text) // 2) - 1], ["cut", "count"]),
     ],
-    ids=["whole", "no line end", "cut in the last number", "seven lines short", "a line is missing", "half"],
+    ids=["whole", "no line end", "cut in the last number", "seven lines short", "line missing", "half"],
 )
 def test_a_cut_file_is_doubted(tmp_path, spoil, kinds):
     """JMA ends every line and publishes whole seconds: what does not is told."""

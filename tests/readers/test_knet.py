@@ -113,9 +113,9 @@ def test_a_wrong_header_maximum_is_told(tmp_path):
 @pytest.mark.parametrize(
     ("text", "kind", "says"),
     [
-        (knet([1000 + i % 37 for i in range(210)], duration="2"), "count", "the header promises 200 samples, the file holds 210"),
-        (knet(duration="2x"), "header", "Duration Time is no number ('2x')"),
-        (knet(maximum="-.-"), "header", "Max. Acc. is no number ('-.-')"),
+        (knet([1000 + i % 37 for i in range(210)], duration="2"), "count", "header states 200 samples, file contains 210"),
+        (knet(duration="2x"), "header", "Duration Time '2x' is not a number"),
+        (knet(maximum="-.-"), "header", "Max. Acc. '-.-' is not a number"),
     ],
 )
 def test_a_header_that_cannot_judge_is_doubted(tmp_path, text, kind, says):
@@ -128,9 +128,9 @@ def test_a_header_that_cannot_judge_is_doubted(tmp_path, text, kind, says):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (knet().partition("Sampling")[0], "line 11: expected 'Sampling Freq(Hz)', the file ends: a K-NET header has 17 lines"),
+        (knet().partition("Sampling")[0], "line 11: expected 'Sampling Freq(Hz)', found the end of the file: K-NET header (17 lines)"),
         (knet([]), "no samples"),
-        (knet(duration="60"), "promises 6000 samples (60 s at 100 Hz), it holds 200"),
+        (knet(duration="60"), "states 6000 samples (60 s at 100 Hz), file contains 200"),
         (knet().replace("1037", " abc"), "line 18: expected counts, found 'abc'"),
         (knet().replace("1037", " nan"), "line 18: expected counts, found 'nan'"),
         (knet(direction="N45E"), "line 13: expected a direction"),
@@ -155,7 +155,7 @@ def test_components_of_unequal_length_or_start_are_refused(tmp_path):
     with pytest.raises(RecordError, match="NS 200, EW 100"):
         read(tmp_path / "a.NS")
     (tmp_path / "a.EW").write_text(knet(direction="E-W", time="2004/10/23 17:56:21"))
-    with pytest.raises(RecordError, match="starts differ"):
+    with pytest.raises(RecordError, match="start times differ"):
         read([tmp_path / "a.NS", tmp_path / "a.EW"])
     assert len(read_all([tmp_path / "a.NS", tmp_path / "a.EW"])) == 2
 
@@ -170,14 +170,14 @@ def test_knet_csv_keeps_its_offset_and_its_true_time(tmp_path):
     assert record.metadata["carries_offset"] is True
     assert record.metadata["magnitude"] == 3.8
     np.testing.assert_array_equal(record.component("NS").acceleration, [-0.1856, -0.186, -0.1863])
-    with pytest.raises(UnitError, match="gal by its own header"):
+    with pytest.raises(UnitError, match="header unit gal contradicts"):
         read(path, units="g")
 
 
 def test_knet_csv_counts_against_its_own_duration(tmp_path):
     """The header says 60 s, three samples follow: told; a duration that is no number as well."""
     path = tmp_path / "download.csv"
-    for text, says in ((KNET_CSV, "promises 6000 samples, the file holds 3"), (KNET_CSV.replace("#60", "#6O"), "no number ('6O')")):
+    for text, says in ((KNET_CSV, "states 6000 samples, file contains 3"), (KNET_CSV.replace("#60", "#6O"), "'6O' is not a number")):
         path.write_text(text)
         assert any(says in doubt.message for doubt in read(path).doubts)
     path.write_text(KNET_CSV.replace("#60", "#0.03"))
@@ -196,7 +196,7 @@ def test_kik_net_csv_has_two_sensors(tmp_path):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (KNET_CSV.split("#Time")[0], "cut short"),
+        (KNET_CSV.split("#Time")[0], "header incomplete"),
         ("".join(KNET_CSV.partition("26.10\n#Time,RelativeTime(s),N-S(gal),E-W(gal),U-D(gal)\n")[:2]), "no samples"),
         (KNET_CSV.replace("-18.60,-1.38", "-18.60,--"), "line 18: expected a number in column E-W(gal), found '--'"),
         (KNET_CSV.replace(",0.02,", ",0.03,"), "uneven"),

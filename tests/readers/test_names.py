@@ -39,7 +39,7 @@ def test_a_nested_bundle_of_several_stations_needs_one(tmp_path):
     outer.write_bytes(tar({"20041023175600.knt.tar.gz": inner, "20041023175600.all.img.tar.gz": tar(plots, mode="w:gz")}))
     with pytest.raises(ComponentError, match="NIG019, NIG017"):
         read(outer)
-    with pytest.raises(ComponentError, match="no station 'TKY001'; it holds NIG019, NIG017"):
+    with pytest.raises(ComponentError, match="no station 'TKY001'; available: NIG019, NIG017"):
         read(outer, station="TKY001")
     record = read(outer, station="nig017")
     assert (record.station, record.codes) == ("NIG017", ("NS", "EW", "UD"))
@@ -56,7 +56,7 @@ def test_what_other_packers_packed_is_unpacked(suffix, pack, tmp_path):
     alone.write_bytes(pack(plain.encode()))
     assert read(alone).samples == 400
     alone.write_bytes(pack(plain.encode())[:-20])
-    with pytest.raises(RecordFormatError, match="damaged or encrypted archive"):
+    with pytest.raises(RecordFormatError, match="archive damaged or encrypted"):
         read(alone)
 
 
@@ -73,8 +73,8 @@ def test_a_users_zip_with_folders(tmp_path):
 @pytest.mark.parametrize(
     ("data", "says"),
     [
-        (zipped({"readme.txt": b"nothing here"}), "only readme.txt"),
-        (zipped({"plot.png": b"x"}), "nothing but plots"),
+        (zipped({"readme.txt": b"nothing here"}), "contents: readme.txt"),
+        (zipped({"plot.png": b"x"}), "plots only"),
         (gzip.compress(bytes(range(256)))[:100], "damaged"),
         (zipped(station_files("NIG019"))[:-200], "damaged"),
     ],
@@ -91,20 +91,20 @@ def test_bundles_without_a_record_or_damaged(tmp_path, data, says):
 
 def test_missing_files_directories_and_empty_files(tmp_path):
     """Each has its class; a missing one lists the samples and is a FileNotFoundError too."""
-    with pytest.raises(RecordNotFoundError, match="no such file, and no bundled sample") as caught:
+    with pytest.raises(RecordNotFoundError, match="no such file or bundled sample") as caught:
         read(tmp_path / "nothing.csv")
     assert isinstance(caught.value, FileNotFoundError)
-    with pytest.raises(RecordError, match="is a directory"):
+    with pytest.raises(RecordError, match="is a folder"):
         read(tmp_path)
     for content in (b"", b"\r\n \n"):
         (tmp_path / "empty.csv").write_bytes(content)
-        with pytest.raises(RecordError, match="is empty"):
+        with pytest.raises(RecordError, match="empty file"):
             read(tmp_path / "empty.csv")
     with pytest.raises(RecordNotFoundError):
         read("a\x00b")
     with pytest.raises(RecordNotFoundError):
         read("x" * 5000)
-    with pytest.raises(ParameterError, match="no file was named"):
+    with pytest.raises(ParameterError, match="no record given"):
         read([])
 
 
@@ -168,7 +168,7 @@ def test_counts_of_ascii_headers_are_compared(tmp_path, waveform):
     obspy.Stream([trace]).write(str(path), format=waveform)
     assert read(path, units="mm/s2").doubts == ()
     path.write_text(path.read_text().replace(" 300 samples", " 301 samples"))
-    assert [doubt.message for doubt in read(path, units="mm/s2").doubts] == ["_ABC__HNZ_: the header states 301 samples, 300 follow"]
+    assert [doubt.message for doubt in read(path, units="mm/s2").doubts] == ["_ABC__HNZ_: header states 301 samples, file contains 300"]
 
 
 def test_gse_is_not_read(tmp_path):
@@ -178,7 +178,7 @@ def test_gse_is_not_read(tmp_path):
     path = tmp_path / "a.gse"
     obspy.Stream([trace]).write(str(path), format="GSE2")
     for options in ({}, {"units": "gal"}, {"units": "gal", "format": "GSE2"}, {"units": "gal", "format": "OBSPY:GSE2"}):
-        with pytest.raises(RecordFormatError, match=r"GSE2? is not read here, .* convert the record"):
+        with pytest.raises(RecordFormatError, match=r"GSE2? not supported .*; convert the record"):
             read(path, **options)
 
 
@@ -188,7 +188,7 @@ def test_several_files_are_several_records_in_order(tmp_path):
     records = read_all([sample_path(), tmp_path / "a.csv", "elcentro_1940_ns"])
     assert [r.format for r in records] == ["JMA-CSV", "CSV", "CSV"]
     assert [len(r.components) for r in records] == [3, 1, 1]
-    with pytest.raises(ParameterError, match=r"a\.csv is named 2 times among the records"):
+    with pytest.raises(ParameterError, match=r"a\.csv is given 2 times"):
         read_all([sample_path(), tmp_path / "a.csv", tmp_path / "a.csv"])
     one = read([tmp_path / "a.csv"])
     assert one.source == str(tmp_path / "a.csv")
@@ -203,5 +203,5 @@ def test_one_record_from_files_of_one_component_each(tmp_path):
     record = read([tmp_path / "ew.csv", tmp_path / "ns.csv"])
     assert record.codes == ("NS", "EW")
     assert record.sha256 == hashlib.sha256((tmp_path / "ew.csv").read_bytes() + (tmp_path / "ns.csv").read_bytes()).hexdigest()
-    with pytest.raises(RecordError, match="repeat"):
+    with pytest.raises(RecordError, match="duplicate"):
         read([tmp_path / "ns.csv", tmp_path / "ns.csv"])

@@ -158,7 +158,7 @@ def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
     else:
         text = make(rows, names=names, places=places)
     path = written(tmp_path, text)
-    with pytest.raises(ComponentError, match=r"2 stations: choose one with `station`: .*Free field, .*Roof, west"):
+    with pytest.raises(ComponentError, match=r"2 stations; select one with `station`: .*Free field, .*Roof, west"):
         read(path)
     code = "SYN1" if make is None else "00001"
     ground, roof = read(path, station=f"{code} free field"), read(path, station=f"{code} Roof, west")
@@ -183,16 +183,16 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (UNEVEN, "uneven samples .volume 1, pairs of time and acceleration.: take volume 2"),
-        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "uneven samples in the layout of USC: take corrected"),
-        ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n", "response spectra .volume 3.: take volume 2"),
-        (layouts.cosmos(ROWS[0], title="Raw acceleration counts", level=0, unit=50), "raw counts .volume 0.: take volume 1 or 2"),
-        (layouts.cosmos(ROWS[0], title="Velocity data"), "a velocity: take the file of accelerations"),
-        (layouts.cosmos(ROWS[0], unit=3), "uneven samples, pairs of time and acceleration: take volume 2"),
-        (layouts.smc(ROWS[0], title="1 UNCORRECTED ACCELEROGRAM"), "whose samples are uneven: take the corrected"),
-        (layouts.smc(ROWS[0], title="3 VELOCITY"), "a velocity: take the corrected accelerogram"),
-        (layouts.smc(ROWS[0], title="*"), "raw counts do: take the corrected accelerogram"),
-        (layouts.esm(ROWS[0], data="VELOCITY"), "VELOCITY by its own header: take the file of accelerations"),
+        (UNEVEN, "unevenly sampled pairs of time and acceleration .volume 1.: use volume 2"),
+        ("FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\nEARTHQUAKE\n", "unevenly sampled data in USC format"),
+        ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n", "response spectra .volume 3.: use volume 2"),
+        (layouts.cosmos(ROWS[0], title="Raw acceleration counts", level=0, unit=50), "raw counts .volume 0.: use volume 1 or 2"),
+        (layouts.cosmos(ROWS[0], title="Velocity data"), "velocity: use the acceleration file"),
+        (layouts.cosmos(ROWS[0], unit=3), "unevenly sampled pairs of time and acceleration: use volume 2"),
+        (layouts.smc(ROWS[0], title="1 UNCORRECTED ACCELEROGRAM"), "unevenly sampled accelerogram: use the corrected"),
+        (layouts.smc(ROWS[0], title="3 VELOCITY"), "velocity: use the corrected accelerogram"),
+        (layouts.smc(ROWS[0], title="*"), "raw counts.: use the corrected accelerogram"),
+        (layouts.esm(ROWS[0], data="VELOCITY"), "header states VELOCITY: use the acceleration file"),
     ],
 )  # fmt: skip
 def test_what_is_no_even_acceleration_is_refused_by_name(text, says, tmp_path):
@@ -203,7 +203,7 @@ def test_what_is_no_even_acceleration_is_refused_by_name(text, says, tmp_path):
 
 def test_units_that_are_no_acceleration_are_refused(tmp_path):
     """Volts in COSMOS, and CSMIP's samples in a unit that nobody knows."""
-    with pytest.raises(UnitError, match="unknown unit of acceleration"):
+    with pytest.raises(UnitError, match="unknown acceleration unit"):
         read(written(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
     with pytest.raises(UnitError, match="'volts'"):
         read(written(tmp_path, layouts.csmip(ROWS, volume=1).replace("UNITS: G)", "UNITS: volts)")))
@@ -213,7 +213,7 @@ def test_units_that_are_no_acceleration_are_refused(tmp_path):
     ("text", "says"),
     [
         (layouts.geonet(ROWS).replace("Component N80W", "Component    "), "line 99: expected a component such as N10E or Up"),
-        (layouts.smc(ROWS[0]).replace("|synthetic", "synthetic"), "line 28: expected one of 1 comments"),
+        (layouts.smc(ROWS[0]).replace("|synthetic", "synthetic"), "line 28: expected one of 1 comment lines"),
         (layouts.esm(ROWS[0]).replace("NDATA: 600", "NDATA: many"), "expected the number of samples, found 'many'"),
         (layouts.cosmos(ROWS[0]).replace("(8F10.5)", "(8F11.5)"), "expected 8 numbers of 11 characters each"),
         (layouts.csmip(ROWS).replace("CHAN  2: 360", "CHAM  2: 360"), "expected a station or a channel"),

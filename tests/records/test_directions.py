@@ -52,5 +52,5 @@ def test_the_opposite_of_one_horizontal_is_its_negative():
 
 
 def test_another_azimuth_still_needs_two():
-    with pytest.raises(ComponentError, match="needs two horizontal components of known direction"):
+    with pytest.raises(ComponentError, match="requires two horizontal components of known azimuth"):
         motion_of(record(("340", ONE, 340.0)), "341")

@@ -65,7 +65,7 @@ def test_one_preparation_serves_many_records_and_the_target_finds_the_largest_ho
     ("asked", "error", "says"),
     [
         ({"scale": float("nan")}, ParameterError, "the scale factor must be a finite number"),
-        ({"highpass_hz": 0.0}, ParameterError, "the corner of the high-pass must be positive"),
+        ({"highpass_hz": 0.0}, ParameterError, "the high-pass corner must be positive"),
         ({"target_pga": -1.0}, ParameterError, "the target PGA must be positive, found -1 m/s"),
         ({"target_pga": 1.0, "components": "XX"}, ComponentError, "no component 'XX'"),
         ({"window": (30.0, 40.0)}, RecordError, "outside the record"),

@@ -119,7 +119,7 @@ def test_a_coarse_record_gets_samples_in_between():
     expected = absolute_by_scipy(ground, SHAKING.dt, storey.omega, storey.damping)
     found = floor.component("NS").acceleration[::4][: ground.size]
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-10 * np.abs(expected).max())
-    assert "4 samples for each" in floor.history[-1]
+    assert "4 sub-intervals per sample" in floor.history[-1]
 
 
 def test_an_azimuth_may_be_asked_for_before_or_after():
@@ -147,15 +147,15 @@ def test_the_floor_comes_after_the_scale_and_before_the_window():
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("", "is no storey: expected its period T in s"),
-        ("zeta=0.05", "is no storey"),
-        ("T=0.6,T=0.7", "is no storey"),
-        ("T=0.6,h=1", "is no storey"),
-        ("T=x", "is no storey"),
-        ("T=0", "the period of the storey must be positive"),
-        ("T=nan", "the period of the storey must be positive"),
-        ("T=1,zeta=0", r"the damping of the storey must lie in \(0, 1\), found 0"),
-        ("T=1,height=1.2", r"the height of the storey, a share of the building's, must lie in \(0, 1\], found 1.2"),
+        ("", "invalid floor '': expected the period T in s"),
+        ("zeta=0.05", "invalid floor"),
+        ("T=0.6,T=0.7", "invalid floor"),
+        ("T=0.6,h=1", "invalid floor"),
+        ("T=x", "invalid floor"),
+        ("T=0", "the period of the building must be positive"),
+        ("T=nan", "the period of the building must be positive"),
+        ("T=1,zeta=0", r"the damping ratio of the building must lie in \(0, 1\), found 0"),
+        ("T=1,height=1.2", r"the height ratio of the floor must lie in \(0, 1\], found 1.2"),
     ],
 )
 def test_what_is_no_storey_is_refused_in_a_sentence(text, says):
@@ -167,7 +167,7 @@ def test_what_is_no_storey_is_refused_in_a_sentence(text, says):
 @pytest.mark.parametrize("storey", [Storey(5.0, 1e-9), Storey(1e-9)])
 def test_a_storey_that_never_rests_is_refused(storey):
     """More samples than may be kept, after the record or between its own."""
-    with pytest.raises(ParameterError, match=r"samples of a storey's motion, and 200000000 are allowed"):
+    with pytest.raises(ParameterError, match=r"samples of floor motion, and 200000000 are allowed"):
         floor_motion(SHAKING, storey)
 
 
@@ -183,7 +183,7 @@ def test_the_command_line_tells_of_the_floor():
     told = json.loads(found.stdout)
     floor = Preparation(floor=Storey(0.6, 0.03, 0.8)).apply(seisblock.read("elcentro_1940_ns.csv"))
     assert told["record"]["history"] == list(floor.history)
-    assert told["record"]["history"][-1].startswith("floor motion T 0.6 s, damping 0.03, height 0.8 (absolute acceleration")
+    assert told["record"]["history"][-1].startswith("floor motion T 0.6 s, damping 0.03, height ratio 0.8 (absolute acceleration")
     assert told["results"][0]["pga_m_s2"] == np.abs(floor.horizontals[0].acceleration).max()
     assert "floor motion T 0.6 s" in found.stderr
     assert set(papers("storey")) <= set(told["citations"])

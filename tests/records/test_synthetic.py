@@ -133,7 +133,7 @@ class TestSuite:
         """Station, name, format, history and magnitude."""
         record = suite[6]
         assert (record.station, record.source, record.format) == ("SYN007", "synthetic_M7_R20_007", "synthetic")
-        assert record.history[0].startswith("synthetic, no recording") and "seed 17" in record.history[0]
+        assert record.history[0].startswith("synthetic (not recorded)") and "seed 17" in record.history[0]
         assert record.metadata["magnitude"] == 7.0 and record.codes == ("NS", "EW", "UD")
 
 
@@ -214,7 +214,7 @@ class TestCommand:
         monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
         said = run("--json")
         assert said.exit_code == 0 and "using synthetic:M7:R20:3" in said.stderr and "synthetic records of one source" in said.stderr
-        assert "synthetic, no recording" in json.loads(said.stdout)["record"][0]["history"][0]
+        assert "synthetic (not recorded)" in json.loads(said.stdout)["record"][0]["history"][0]
 
     @pytest.mark.parametrize("words", [("--suite", "synthetic:M7:R20:3"), ("--suite-out", "there")])
     def test_records_or_a_suite(self, run, words):

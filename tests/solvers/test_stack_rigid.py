@@ -195,13 +195,13 @@ def test_where_the_run_pauses_changes_no_bit(monkeypatch):
     ("more", "said"),
     [
         ({"law": "jelly"}, "'rigid' or 'springs', found 'jelly'"),
-        ({"law": "rigid", "contact": PileContact()}, "rigid stones have no springs"),
-        ({"law": "springs", "restitution": 0.9}, "go with rigid stones"),
+        ({"law": "rigid", "contact": PileContact()}, "has no effect with rigid contact"),
+        ({"law": "springs", "restitution": 0.9}, "have no effect with contact springs"),
         ({"restitution": 1.5}, "restitution of the joints"),
-        ({"restitution": 0.9, "points": 5}, "stand on their edges"),
+        ({"restitution": 0.9, "points": 5}, "requires contact at the edges"),
         ({"mu_kinetic": 0.9}, "more than static friction"),
-        ({"step": 0.1}, "will not do for the rigid stones"),
-        ({"step": 1e-9}, "will not do for the rigid stones"),
+        ({"step": 0.1}, "is out of range for the pile"),
+        ({"step": 1e-9}, "is out of range for the pile"),
     ],
 )
 def test_options_that_do_not_go_together_are_refused(more, said):
@@ -211,7 +211,7 @@ def test_options_that_do_not_go_together_are_refused(more, said):
 
 
 def test_springs_refuse_a_pile_that_slides_easier_than_it_clings():
-    with pytest.raises(ParameterError, match="has a kinetic friction, and springs have one"):
+    with pytest.raises(ParameterError, match="has a kinetic friction coefficient, but contact springs use a single one"):
         solve_stack(block().with_kinetic_friction(0.1), cycle(1.0, 1.0), law="springs")
 
 
@@ -260,7 +260,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
         found = solve_stack(block(), cycle(3.0, 1.0), **more)
         assert found.options["law"] == "rigid"
         assert found.outcome.step_s < 1e-3
-        assert "answer instead of coarser ones" in found.warnings[0]
+        assert "solved with a finer step of" in found.warnings[0]
     with pytest.raises(SolverError, match="created"):
         solve_stack(block(), cycle(3.0, 1.0), step=2e-3)
     refused[:] = [0.0]
@@ -268,7 +268,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
         solve_stack(block(), cycle(3.0, 1.0), law="rigid")
     found = solve_stack(block(), cycle(3.0, 1.0))
     assert found.options["law"] == "springs"
-    assert "springs at the same points answer instead of rigid stones" in found.warnings[0]
+    assert "solved with contact springs, since rigid contact failed" in found.warnings[0]
 
 
 def test_what_turns_under_a_stone_is_no_slip_of_it():

@@ -128,7 +128,7 @@ def test_steps_that_do_not_come_to_rest_are_told():
         shaking = noise(np.random.default_rng(3), push, seconds=3.0)
         response = solve_stack(Pile("pile", stones, mu=0.7), shaking, step=step)
         slips[ratio, step] = max(stone.residual_slip_m for stone in response.outcome.stones)
-        told = any("did not come to rest" in str(warning) for warning in response.warnings)
+        told = any("did not converge" in str(warning) for warning in response.warnings)
         assert told == (ratio > 1000.0) or ratio == 1000.0
     assert slips[30.0, None] < 1e-5
     assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None] < 1e-4

@@ -51,7 +51,7 @@ def prepared(event, station):
 def test_a_damaged_member_costs_only_itself(found):
     """Seven stations are answered and one is named with its reason, last."""
     assert [answer.failure is None for answer in found.answers] == [True] * 7 + [False]
-    assert "SYA003" in found.answers[-1].record and "is cut short" in found.answers[-1].failure
+    assert "SYA003" in found.answers[-1].record and "file truncated" in found.answers[-1].failure
     assert len(found.mapped) == 7
 
 

@@ -1,4 +1,4 @@
-"""A pile of stones in three dimensions, by discrete elements."""
+"""Three-dimensional discrete-element model of a pile of stones: rigid contact, or springs and dashpots."""
 
 import lazy_loader
 

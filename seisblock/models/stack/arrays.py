@@ -1,4 +1,4 @@
-"""From a pile of stones to the arrays of its kernels: bodies, boxes, joints with their points, corners, edges, memory."""
+"""Arrays of a pile for the kernels: bodies, boxes, joints and their contact points, hulls, contact memory."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ from seisblock.models.stack.spring_contact import FRICTION, KINETIC, SLOT
 from seisblock.models.stack.step import BOX_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH_ROWS, SIGMA
 
 GROUND_HALF, GROUND_DEPTH = 1e5, 50.0
-"""Half width and half depth, m, of the box that is the ground: a drum may roll far."""
+"""Half width and half depth of the box that represents the ground, m: wide enough for a drum that rolls far."""
 
 PLASTIC_RESTITUTION = -1.0
-"""The rebound of joints that are given none."""
+"""Restitution of joints without a given value: negative marks a plastic impact."""
 
 CORNER_POINTS = 2
-"""Points along each side of a joint that stand at its corners."""
+"""Points along each side of a joint for which the points stand at its corners."""
 
 NO_SPRINGS = (0.0, 0.0, 0.0, 0.0)
 MAX_FREE_CONTACTS = 80
-"""Rigid contacts beyond those of joints for which there is room, a body."""
+"""Capacity for rigid contacts other than those of joints, per body."""
 
 
 @dataclass(frozen=True, eq=False)
 class PileArrays:
-    """A pile in arrays, at rest before it has sunk into its springs.
+    """Arrays of a pile in its initial position, before it settles on its contact springs.
 
     Parameters
     ----------
@@ -52,14 +52,15 @@ class PileArrays:
     inertias : (m, 19) array
         Masses, inertia matrices and their inverses.
     boxes, owner : (b + 1, 6), (b + 1,) arrays
-        Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+        Half sizes and centres of the boxes, m, and the body each belongs to; the ground last.
     cores, rims : (b + 1, 3), (b + 1, 4, 2) arrays
-        What other stones meet of a box that has tilted off its joint, and the circles that bound a round one.
+        Half sizes of the box used for contacts of a stone that has tilted off its joint, and the bounding circles of a cylinder.
     joints, constants, grids : arrays
-        See ``stack_step``.
+        Joints; columns in :mod:`seisblock.models.stack.step`.
     pairs, pair_constants : (p, 2), (p, 7) arrays
+        Pairs of boxes that may touch, and the contact constants of one of their corners.
     corners, counts, edges : arrays
-        Corners of each box, how many, and the pairs of corners that make its edges.
+        Corners of each box, their number, and the pairs of corners that make its edges.
     members : tuple of tuples of int
         Stones of each body.
     """
@@ -84,11 +85,11 @@ class PileArrays:
 
     @property
     def layout(self) -> PileLayout:
-        """What does not change, as the kernels take it."""
+        """Constant arrays in the order the kernels take them."""
         return PileLayout(*(getattr(self, name) for name in PileLayout._fields))
 
     def memory(self) -> PileMemory:
-        """Return empty memory."""
+        """Return zeroed contact memory of the right shapes."""
         n, p, bodies = self.joints.shape[0], self.pairs.shape[0], self.bodies.shape[0]
         max_contacts = n * self.points**2 + MAX_FREE_CONTACTS * bodies
         return PileMemory(
@@ -105,7 +106,7 @@ class PileArrays:
             np.zeros((bodies, 9)),
             np.zeros((bodies, VELOCITY_COLUMNS)),
             np.zeros(STEP_INFO_COLUMNS),
-            # the ground lies
+            # the ground counts as a sleeping body with one support point, so that stones can fall asleep on it
             np.repeat([[0, 0, 0], [1, 0, 0]], [bodies - 1, 1], axis=0),
             np.zeros((bodies, 1 + MAX_CORNERS, SUPPORT_COLUMNS)),
         )
@@ -118,18 +119,18 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
     ----------
     body : Pile
     contact : PileContact or None
-        Of springs; None: rigid.
+        Springs and dashpots; None: rigid contact.
     points : int
-        Contact points along each side of a joint: 2 stand at its corners, and go with the corners of what the faces share as stones
-        slide; 3 or more at the centres of so many segments, as 5 do in [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
+        Contact points along each side of a joint: 2 stand at the corners of the shared area and follow it as stones slide; 3 or more stand
+        at the centres of as many segments (5 in [Furukawa2009]_, which puts the pivots at 0.8 of the half width).
     restitution : float, 1
-        Of the joints, a ratio of velocities; negative: what angular momentum gives.
+        Of the joints, a ratio of velocities; negative: plastic impact.
 
     Raises
     ------
     ParameterError
-        If `points` is no whole number, less than 2, or more than may be looked at; if round stones are to stand on springs or on a grid,
-        or stones with an inset on a grid.
+        If `points` is no integer, less than 2 or above the limit; if cylinders are combined with springs or a grid of points, or stones
+        with edge wear with a grid.
     """
     checks.integer("the number of points along each side of a joint", points, minimum=2)
     check_limit(N_("points along each side of a joint"), points, "SEISBLOCK_PILE_POINTS")
@@ -137,12 +138,14 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
     members = tuple(body.bodies())
     centres = np.array(body.centres())
     bodies, inertias, owner = _bodies(body, members, centres)
+    # stones joined by a dowel share a body, and fixed stones belong to the ground: their joints carry no contacts
     joints = [joint for joint in body.joints() if joint.lower < 0 or owner[joint.upper] != owner[joint.lower]]
     joints = [joint for joint in joints if owner[joint.upper] != len(members) or (joint.lower >= 0 and owner[joint.lower] != len(members))]
     boxes = np.zeros((len(body.stones) + 1, BOX))
     for i, stone in enumerate(body.stones):
         boxes[i, :3] = 0.5 * np.array(stone.size)
         boxes[i, BOX_CENTRE:] = centres[i] - bodies[owner[i], X : X + 3]
+    # the ground's upper face is the plane z = 0
     boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_DEPTH, 0.0, 0.0, -GROUND_DEPTH)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
     integers, constants, grids, wear = _joint_arrays(body, contact, points, restitution, joints, boxes, owner, inertias, pairs)
@@ -169,15 +172,16 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
 
 
 def _check_bases(body: Pile, contact: PileContact | None, points: int) -> None:
-    """Refuse bases of which the contacts know nothing."""
+    """Raise ParameterError for bases that the contact model does not support."""
     for stone in body.stones:
         if stone.is_round and (contact is not None or points != CORNER_POINTS):
             raise ParameterError(
-                "the stone {name} is round: it stands rigid on its rim, and neither on springs nor on a grid of points", name=stone.name
+                "the stone {name} is a cylinder, which requires rigid contact at the edges: leave out `contact` and `points`",
+                name=stone.name,
             )
         if points != CORNER_POINTS and stone.inset != SHARP_EDGES:
             raise ParameterError(
-                "an inset is one of stones that stand on their edges: leave out {points} points a side, which stand inside by themselves",
+                "edge wear requires contact at the edges: leave out `points` ({points} along each side of a joint)",
                 points=points,
             )
 
@@ -197,6 +201,7 @@ def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArra
             stone, arm = body.stones[i], centres[i] - centroid
             size = np.array(stone.size)
             moments = stone.gyration_squared if stone.is_round else (size @ size - size**2) / 12.0
+            # parallel-axis theorem
             tensor += mass * (np.diag(moments) + (arm @ arm) * np.eye(3) - np.outer(arm, arm))
             owner[i] = b
         bodies[b, X : X + 3] = centroid
@@ -217,7 +222,7 @@ def _joint_arrays(
     inertias: FloatArray,
     pairs: IntArray,
 ) -> tuple[IntArray, FloatArray, FloatArray, WearDepths]:
-    """Return integers, constants and points of the joints, and how far the faces that carry points are worn, along x and y, m."""
+    """Return integers, constants and points of the joints, and the wear depth of the bearing faces along x and y, m."""
     half_orbits = (points + 1) // 2
     integers = np.zeros((len(joints), 4), dtype=np.int64)
     constants = np.zeros((len(joints), JOINT))
@@ -227,6 +232,7 @@ def _joint_arrays(
     pair_index = {tuple(pair): p for p, pair in enumerate(pairs.tolist())}
     for j, joint in enumerate(joints):
         upper, lower = joint.upper, joint.lower if joint.lower >= 0 else len(boxes) - 1
+        # the smaller face carries the points: all of them then lie on the larger face while the joint is flush
         upper_is_smaller = boxes[upper, 0] * boxes[upper, 1] <= boxes[lower, 0] * boxes[lower, 1]
         carrier, partner = (upper, lower) if upper_is_smaller else (lower, upper)
         sigma = -1.0 if upper_is_smaller else 1.0
@@ -241,8 +247,10 @@ def _joint_arrays(
         )
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
         mu_static, mu_kinetic = body.friction(stone)
+        # points at the very corners are clamped to the border of the face, see spring_contact
         constants[j, POINT:] = (*spring_constants, mu_static, float(points == CORNER_POINTS), mu_kinetic, restitution)
         hx, hy = boxes[carrier, :2].tolist()
+        # a grid of points acts like a worn edge: its outermost row stands half a segment inside the face
         inset = (hx / points, hy / points) if points > CORNER_POINTS else (stone.inset.inset(2.0 * hx), stone.inset.inset(2.0 * hy))
         contact_area = bearing_rectangle(joint, body.stones, centres) if points == CORNER_POINTS else (joint.x, joint.y)
         grids[j] = _joint_points(points, *contact_area, np.array(centres[carrier]))
@@ -252,13 +260,17 @@ def _joint_arrays(
 
 
 def _joint_points(points: int, x: tuple[float, float], y: tuple[float, float], centre: FloatArray) -> FloatArray:
-    """Return the points of a joint on the carrier's face, (orbits, 4, 3): x, y, and 1 where there is a point, mirror images together."""
+    """Return the points of a joint on the carrier's face, (orbits, 4, 3): x, y, m, and 1 where a point exists.
+
+    The four entries of an orbit are mirror images of each other.
+    """
     ends = 1.0 if points == CORNER_POINTS else 1.0 - 1.0 / points
     ticks = np.linspace(-ends, ends, points)[(points // 2) :] if points > 1 else np.zeros(1)
     middle = (0.5 * (x[0] + x[1]) - centre[0], 0.5 * (y[0] + y[1]) - centre[1])
     half = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     grid = np.zeros((ticks.size**2, 4, 3))
     for o, (u, v) in enumerate((u, v) for u in ticks for v in ticks):
+        # a point on an axis of symmetry has two images, a central one has one
         u, v = (0.0 if abs(w) < 1e-12 else w for w in (u, v))
         for q, (su, sv) in enumerate(((1, 1), (-1, 1), (1, -1), (-1, -1))):
             exists = (u > 0.0 or su > 0) and (v > 0.0 or sv > 0)
@@ -277,10 +289,10 @@ def _pair_constants(
     joints: IntArray,
     constants: FloatArray,
 ) -> FloatArray:
-    """Return the constants of one corner of each pair.
+    """Return the contact constants of one corner of each pair of boxes.
 
-    Four corners resist turning as much as a whole joint does, whose points stand at a third of their square distance: no stiffer, so
-    that the step of the joints serves them too.
+    Four corners get the rotational stiffness of a whole joint, whose points stand at a third of the squared distance (derived here). They
+    are no stiffer than the joint, so that a stable step of the joints is stable for them too.
     """
     rows = np.zeros((pairs.shape[0], JOINT - POINT))
     heights = [stone.height for stone in body.stones]
@@ -291,6 +303,7 @@ def _pair_constants(
         if contact is not None:
             rows[p, :FRICTION] = np.array(contact.point_coefficients(float(mass), min(sizes)[0], length, points**2)) * points**2 / 12.0
         rows[p, [FRICTION, KINETIC]] = body.friction()
+    # a pair that shares a joint has the friction of that joint
     for j in range(joints.shape[0]):
         rows[joints[j, PAIR]] = constants[j, POINT:]
         rows[joints[j, PAIR], :FRICTION] *= points**2 / 12.0

@@ -1,11 +1,11 @@
-"""Along which axis two boxes with sharp edges are furthest apart, and where they would meet along it.
+"""Separating-axis test and contact manifold of two boxes with sharp edges.
 
-Convex bodies stay apart as long as they stay apart along one axis: a normal of a face of either, or a perpendicular to an edge of each
-([Gottschalk1996]_ section 5). The one along which the gap is widest is taken, anew in each step. Where it changes, the gap along the new
-one is no narrower, so that stones which were apart need never be pushed out of each other; that would be energy from nowhere. All their
-points share the one normal, and can not jam each other.
+Two convex bodies are apart if a separating axis exists: a face normal of either, or the cross product of an edge of each
+([Gottschalk1996]_ section 5). Every step takes the axis with the widest gap. When it changes, the gap along the new axis is no
+narrower, so stones that were apart never have to be pushed out of each other, which would create energy. All points of the
+manifold share this one normal and cannot jam each other.
 
-They meet where the face that shows most against the axis lies over the face whose normal it is, or where one edge crosses the other.
+The manifold is the overlap of the reference face with the incident face (face contact), or the point where two edges cross.
 """
 
 from __future__ import annotations
@@ -19,31 +19,31 @@ from seisblock.models.stack.spring_contact import REL_D
 _t = types()
 
 KIND = 3
-"""Where an axis, whose first three numbers are the normal out of the partner, keeps its kind."""
+"""Index of the kind of an axis, behind its normal out of the partner (3)."""
 
 CARRIER_FACES, EDGE_EDGE = 14, 28
-"""The first kind that is a face of the carrier, those of the partner standing before; and the first that is an edge of the partner and
-one of the carrier."""
+"""First kind of a face of the carrier (the partner's faces come before), and first kind of an edge-edge axis."""
 
 FACE_AXIS = 4
-"""Where the axis of the widest gap along a normal of a face stands behind the axis of the widest of all."""
+"""Index of the best face axis behind the best axis of all."""
 
 AXIS_BIAS = 1e-5
-"""How much wider, m, a gap must be along the carrier's normals than along the partner's, and across edges than along either. Of edges the
-widest is taken: the others do not cross."""
+"""Extra gap, m, for which a carrier face is preferred to a partner face, and an edge-edge axis to either: keeps the choice stable.
+
+Among edge-edge axes the widest gap wins without a bias, as only the edges of that axis cross."""
 
 PARALLEL_TOLERANCE = 1e-8
-"""Square of the sine of the angle below which edges are parallel."""
+"""Squared sine of the angle below which two edges count as parallel."""
 
 FACE_MARGIN = 1e-5
-"""How far, m, beyond the border of a face, or the end of an edge, a point may lie and count as on it."""
+"""Distance, m, beyond the border of a face or the end of an edge within which a point counts as on it."""
 
 MAX_POINTS = 9
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def _support_distance(x, y, z, half):
-    """Return how far a box reaches along a direction in its own axes."""
+    """Return the distance from the centre of a box to its support plane along a direction in its own axes."""
     return abs(x) * half[0] + abs(y) * half[1] + abs(z) * half[2]
 
 
@@ -57,18 +57,18 @@ def _set_axis(x, y, z, kind, axis):
 
 @kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.float64, VECTOR))
 def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
-    """Return the widest gap between two boxes, m, negative where they overlap, and write its axis.
+    """Return the widest gap between two boxes, m, negative where they overlap, and write the separating axis.
 
     Parameters
     ----------
     rel : (18,) array
-        The carrier as the partner sees it.
+        State of the carrier in the partner's axes.
     carrier_half, partner_half : (3,) arrays, m
-        Half sizes of the carrier, and of the partner.
+        Half sizes of the carrier and of the partner.
     cutoff : float, m
-        A gap along a face's normal beyond which edges need not be looked at.
+        Gap along a face normal beyond which edges need no test.
     axis : (8,) array
-        Normal out of the partner, in its axes, and the kind; and the same of faces alone.
+        Result: normal out of the partner, in its axes, and kind; then the same for the best face axis.
     """
     d0, d1, d2 = rel[REL_D], rel[REL_D + 1], rel[REL_D + 2]
     max_gap = -math.inf
@@ -87,6 +87,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
         if gap > max_gap + AXIS_BIAS:
             max_gap = gap
             _set_axis(side * x, side * y, side * z, CARRIER_FACES + j, axis)
+    # the best face axis is kept: an edge-edge contact uses it for the corners that come to rest on the face
     for k in range(KIND + 1):
         axis[FACE_AXIS + k] = axis[k]
     if max_gap > cutoff:
@@ -95,6 +96,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     for i in range(3):
         for j in range(3):
             x, y, z = rel[j], rel[3 + j], rel[6 + j]
+            # cross product of the partner's axis i, a unit vector, with the carrier's axis j
             if i == 0:
                 x, y, z = 0.0, -z, y
             elif i == 1:
@@ -119,8 +121,9 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR))
 def edge_edge(rel, carrier_half, partner_half, axis, y):
-    """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross there."""
+    """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross."""
     i, j = (int(axis[KIND]) - EDGE_EDGE) // 3, (int(axis[KIND]) - EDGE_EDGE) % 3
+    # centre of the carrier's edge nearest to the partner along the axis; the partner's edge likewise below
     a0, a1, a2 = rel[REL_D], rel[REL_D + 1], rel[REL_D + 2]
     for k in range(3):
         if k != j:
@@ -137,6 +140,7 @@ def edge_edge(rel, carrier_half, partner_half, axis, y):
     cosine = rel[3 * i + j]
     partner_dot = r0 if i == 0 else r1 if i == 1 else r2
     carrier_dot = r0 * x + r1 * t + r2 * z
+    # closest points of two lines; parallel edges never get here (PARALLEL_TOLERANCE)
     scale = 1.0 / (1.0 - cosine * cosine)
     carrier_offset = (cosine * partner_dot - carrier_dot) * scale
     partner_offset = partner_dot + carrier_offset * cosine
@@ -148,7 +152,7 @@ def edge_edge(rel, carrier_half, partner_half, axis, y):
 
 @kernel(_t.int64(_t.int64, MATRIX, _t.int64, _t.float64, _t.float64, MATRIX))
 def _clip_polygon(n, polygon, k, side, limit, result):
-    """Cut a polygon off beyond side y_k = limit; return how many corners are left."""
+    """Clip a polygon to side y_k <= limit (Sutherland-Hodgman); return the number of remaining corners."""
     count = 0
     for i in range(n):
         start, end = polygon[i], polygon[(i + 1) % n]
@@ -167,26 +171,27 @@ def _clip_polygon(n, polygon, k, side, limit, result):
 
 @kernel(_t.int64(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
 def face_manifold(rel, carrier_half, partner_half, axis, view, points, buffer):
-    """Write where two faces lie over each other: x, y, z in the partner's axes, and the gap there; return how many points.
+    """Write the contact manifold of two faces and return its number of points.
 
     Parameters
     ----------
     rel : (18,) array
     carrier_half, partner_half : (3,) arrays, m
     axis : (4,) array
-        A normal of a face.
+        Normal of the reference face, and kind.
     view, points, buffer : (18,), (9, 18), (9, 18) arrays
-        Scratch; the points stand in the second.
+        Scratch; the result stands in `points`: x, y, z in the partner's axes and the gap, m.
     """
     is_carrier_face = axis[KIND] >= CARRIER_FACES
     i = int(axis[KIND]) - CARRIER_FACES if is_carrier_face else int(axis[KIND])
     reference_half, incident_half = (carrier_half, partner_half) if is_carrier_face else (partner_half, carrier_half)
-    # the box that lies on the face, as the box that has the face sees it
+    # state of the incident box in the axes of the reference box
     for p in range(3):
         for q in range(3):
             view[3 * p + q] = rel[3 * q + p] if is_carrier_face else rel[3 * p + q]
         view[REL_D + p] = -(rel[p] * rel[9] + rel[3 + p] * rel[10] + rel[6 + p] * rel[11]) if is_carrier_face else rel[REL_D + p]
     side = 1.0 if view[REL_D + i] > 0.0 else -1.0
+    # incident face: the one whose normal is most opposed to the reference normal
     incident_axis = 0
     for k in range(1, 3):
         if abs(view[3 * i + k]) > abs(view[3 * i + incident_axis]):
@@ -201,6 +206,7 @@ def face_manifold(rel, carrier_half, partner_half, axis, view, points, buffer):
         for p in range(3):
             points[q, p] = view[REL_D + p] + view[3 * p] * y[0] + view[3 * p + 1] * y[1] + view[3 * p + 2] * y[2]
     count = 4
+    # clip the incident face by the four sides of the reference face
     for k in range(3):
         if k != i:
             count = _clip_polygon(count, points, k, 1.0, reference_half[k] + FACE_MARGIN, buffer)

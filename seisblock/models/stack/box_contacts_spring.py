@@ -1,9 +1,8 @@
-"""Where two boxes meet once they have tilted or moved off their joint: corners on faces, edges across edges and faces.
+"""Spring contacts of two overlapping boxes: corner-face, edge-edge and edge-face.
 
-The meeting of two convex boxes is held by its own corners: the corners of each inside the other, and the points where an edge of one
-passes through a face of the other. A corner keeps the face by which it came in until it leaves. An edge that cuts a corner of the
-partner (in by one face, out by a neighbour) is pushed along the common normal of the two edges; an edge that lies across a face is pushed
-out of that face, at both ends of the stretch inside.
+Contacts are the corners of each box inside the other, and the points where an edge of one passes through a face of the other. A corner
+keeps its entry face until it leaves. An edge that cuts off an edge of the partner (enters by one face, leaves by a neighbour) is pushed
+along the common normal of the two edges; an edge that lies across a face is pushed out of that face at both ends of its inner part.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ INFINITE_DEPTH = 1e30
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR))
 def boxes_overlap(rel, carrier, partner):
-    """Whether two boxes may meet: no face of either separates them."""
+    """Return whether no face normal separates two boxes (narrow-phase pre-test without edges)."""
     for i in range(3):
         reach = abs(rel[3 * i]) * carrier[0] + abs(rel[3 * i + 1]) * carrier[1] + abs(rel[3 * i + 2]) * carrier[2]
         if abs(rel[REL_D + i]) > partner[i] + reach:
@@ -35,14 +34,14 @@ def boxes_overlap(rel, carrier, partner):
 
 @kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
 def _to_partner_axes(rel, r, y):
-    """Write where a point of the carrier is in the partner's axes."""
+    """Write a point of the carrier in the partner's axes."""
     for i in range(3):
         y[i] = rel[REL_D + i] + rel[3 * i] * r[0] + rel[3 * i + 1] * r[1] + rel[3 * i + 2] * r[2]
 
 
 @kernel(_t.int64(VECTOR, VECTOR), inline=True)
 def _nearest_face(y, half):
-    """Return the axis of the face nearest to a point inside."""
+    """Return the axis (0, 1, 2) of the face nearest to an inner point."""
     d0, d1, d2 = half[0] - abs(y[0]), half[1] - abs(y[1]), half[2] - abs(y[2])
     if d0 < min(d1, d2):
         return 0
@@ -51,7 +50,7 @@ def _nearest_face(y, half):
 
 @kernel(_t.void(_t.int64, VECTOR, MATRIX, VECTOR, VECTOR, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
 def add_corner_forces(n, rel, corners, half, k, dt, slots, y, normal, total):
-    """Sum the forces at the carrier's corners inside the partner."""
+    """Add the forces at the carrier's corners inside the partner."""
     for c in range(n):
         _to_partner_axes(rel, corners[c], y)
         d0, d1, d2 = half[0] - abs(y[0]), half[1] - abs(y[1]), half[2] - abs(y[2])
@@ -59,6 +58,7 @@ def add_corner_forces(n, rel, corners, half, k, dt, slots, y, normal, total):
         if d0 <= 0.0 or d1 <= 0.0 or d2 <= 0.0:
             slot[ALIVE] = 0.0
             continue
+        # the entry face is kept: the nearest face may change while the corner is inside, and the force would jump
         if slot[ALIVE] == 0.0:
             axis = _nearest_face(y, half)
             slot[FACE] = 2.0 * axis + (1.0 if y[axis] > 0.0 else 0.0)
@@ -90,10 +90,11 @@ def add_corner_forces(n, rel, corners, half, k, dt, slots, y, normal, total):
     )
 )
 def _add_edge_edge_force(rel, a, e, t_enter, t_leave, axis_in, axis_out, half, k, dt, slot, y, normal, total):
-    """Push an edge that cuts one edge of the partner along the common normal of both, where it is nearest to that edge."""
+    """Add the force along the common normal of two edges, at the point nearest to the partner's edge."""
     axis = 3 - axis_in - axis_out
     side_in = -1.0 if e[axis_in] > 0.0 else 1.0
     side_out = 1.0 if e[axis_out] > 0.0 else -1.0
+    # parameter of the point nearest to the partner's edge, limited to the part inside the partner
     t = (side_in * half[axis_in] - a[axis_in]) * e[axis_in] + (side_out * half[axis_out] - a[axis_out]) * e[axis_out]
     t = min(max(t / (e[axis_in] ** 2 + e[axis_out] ** 2), t_enter), t_leave)
     for i in range(3):
@@ -116,7 +117,7 @@ def _add_edge_edge_force(rel, a, e, t_enter, t_leave, axis_in, axis_out, half, k
 
 @kernel(_t.void(VECTOR, VECTOR, VECTOR, _t.float64, _t.int64, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR, VECTOR, VECTOR))
 def _add_edge_face_force(rel, a, e, t, crossed_axis, half, k, dt, slot, y, normal, total):
-    """Push an edge that lies across a face of the partner out of that face, where it passes over the face's border."""
+    """Add the force of an edge across a face of the partner, at the point where the edge crosses the face's border."""
     if crossed_axis < 0:
         slot[ALIVE] = 0.0
         return
@@ -129,6 +130,7 @@ def _add_edge_face_force(rel, a, e, t, crossed_axis, half, k, dt, slot, y, norma
             depth = half[i] - abs(y[i])
             face = i
     face_id = 2.0 * face + (1.0 if y[face] > 0.0 else 0.0)
+    # a contact with another face starts anew, without the stretch of the old one
     if slot[ALIVE] != 0.0 and slot[FACE] != face_id:
         slot[ALIVE] = 0.0
     slot[FACE] = face_id
@@ -138,7 +140,7 @@ def _add_edge_face_force(rel, a, e, t, crossed_axis, half, k, dt, slot, y, norma
 
 @kernel(_t.void(_t.int64, VECTOR, MATRIX, INTEGER_TABLE, VECTOR, VECTOR, _t.float64, MATRIX, MATRIX, VECTOR))
 def add_edge_forces(n, rel, corners, edges, half, k, dt, slots, work, total):
-    """Sum the forces where the carrier's edges pass through the partner.
+    """Add the forces where the carrier's edges pass through the partner.
 
     Parameters
     ----------
@@ -147,7 +149,7 @@ def add_edge_forces(n, rel, corners, edges, half, k, dt, slots, work, total):
     half : (3,) array, m
         Half sizes of the partner.
     slots : (2 n, 7) array
-        Memory: two contacts per edge.
+        Contact memory: two contacts per edge.
     work : (5, 3) array
         Scratch.
     """
@@ -158,6 +160,7 @@ def add_edge_forces(n, rel, corners, edges, half, k, dt, slots, work, total):
         _to_partner_axes(rel, corners[edges[i, 1]], b)
         t_enter, t_leave = 0.0, 1.0
         axis_in, axis_out = -1, -1
+        # clip the edge to the partner, slab by slab
         for axis in range(3):
             e[axis] = b[axis] - a[axis]
             if e[axis] == 0.0:
@@ -178,11 +181,11 @@ def add_edge_forces(n, rel, corners, edges, half, k, dt, slots, work, total):
             or (axis_in < 0 and axis_out < 0)
             or (min(axis_in, axis_out) < 0 and _nearest_face(inner_end, half) == max(axis_in, axis_out))
         ):
-            # missed, wholly inside, or in by the face that its corner presses on already
+            # no intersection, wholly inside, or entered by the face on which its corner already presses
             first_slot[ALIVE] = 0.0
             second_slot[ALIVE] = 0.0
         elif axis_in >= 0 and axis_out >= 0 and axis_in != axis_out:
-            # the contact that lay across the face goes on, if there was one
+            # a contact that lay across the face continues as the edge-edge contact
             first_continues = first_slot[ALIVE] != 0.0 or second_slot[ALIVE] == 0.0
             if first_continues:
                 second_slot[ALIVE] = 0.0

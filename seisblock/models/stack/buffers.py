@@ -1,4 +1,4 @@
-"""What the pile's kernels are given and what they leave behind, as named tuples of arrays."""
+"""Named tuples of arrays that the kernels of a pile read and write."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ _t = types()
 
 
 class PileLayout(NamedTuple):
-    """What does not change; the meaning of columns stands where they are named.
+    """Constant arrays of a pile; columns are documented at the constants that name them.
 
     Parameters
     ----------
     joints, constants, grids : (n, 4), (n, 10), (n, orbits, 4, 3) arrays
         Joints between boxes: integers, constants, and points on the carrier's face.
     pairs, pair_constants : (p, 2), (p, 8) arrays
-        Boxes that may meet, and the constants of one of their corners.
+        Pairs of boxes that may touch, and the contact constants of one of their corners.
     corners, counts, edges : (b, 16, 7), (b,), (b, 12, 2) arrays
-        Corners of each box, how many, and the pairs of corners that make its edges. Behind the corners stand outward normal and offset,
-        m, of its faces: those between rings of four corners, from below, then the lower and the upper one.
+        Corners of each box, their number, and the pairs of corners that make its edges. Columns 3 to 6 hold outward normal and offset, m,
+        of its faces: those between rings of four corners, from below, then the lower and the upper face.
     boxes, owner : (b, 6), (b,) arrays
-        Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+        Half sizes and centres of the boxes, m, and the body each belongs to; the ground last.
     cores, rims : (b, 3), (b, 4, 2) arrays, m
-        Half sizes of what other stones meet of a box that has tilted off its joint; radius and height of the circles that bound a round
-        one: of its lower face, of its upper face, and of its sides where these faces are worn; zero where there is none.
+        Half sizes of the box used for contacts off the joint; radius and height of the bounding circles of a cylinder: of its lower face,
+        its upper face, and of its sides where these faces are worn; zero where there is none.
     inertias : (m, 19) array
         Masses, inertia matrices and their inverses.
     """
@@ -48,7 +48,7 @@ class PileLayout(NamedTuple):
 
 
 class PileMemory(NamedTuple):
-    """What contacts remember from step to step.
+    """Contact state carried from step to step (warm start, sleeping bodies, broad phase), and scratch.
 
     Parameters
     ----------
@@ -57,23 +57,23 @@ class PileMemory(NamedTuple):
     joint_slots : (n, orbits, 4, 17) array
         Rigid contacts at the points of joints.
     corner_slots, edge_slots : (p, 2, 16, 17), (p, 2, 24, 17) arrays
-        Contacts of corners and of edges of each pair, in both roles; rigid ones stand in the first, as they are and as they were.
+        Contacts of corners and of edges of each pair, in both roles; rigid contacts use the first: the current ones and the previous ones.
     pair_states : (p,) array of int
-        Which pairs their joint takes care of.
+        State of each pair: positive where its joint handles the contacts.
     contact_matrix : (m + 1, m + 1) array
-        Which bodies have touched since it was last cleared.
+        1 for bodies that have touched since the matrix was last cleared.
     bounds : (b, 6) array, m
-        Centres of the boxes and how far they reach.
+        Axis-aligned bounding boxes: centres and half sizes.
     scratch : (36, 18) array
         Scratch.
     contact_ids, constraint_rows : (k, 8), (k, 92) arrays
-        Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.
+        Rigid contacts of a step: their bodies and slots, and their constraint rows.
     inverses, body_velocities : (m + 1, 9), (m + 1, 15) arrays
-        Inverse inertia of the bodies as they lie; velocities, spins, and how these change by turning.
-    step_info : (9,) array
-        Of the steps.
+        Inverse inertia of the bodies in the ground's axes; velocities, spins, and gyroscopic change of the spins.
+    step_info : (10,) array
+        Scalars of the steps.
     sleep_states, support_points : (m + 1, 3), (m + 1, 17, 17) arrays
-        Stones that lie still, and the points on which they do.
+        Sleeping bodies, and the points on which they rest.
     """
 
     stretches: FloatArray
@@ -94,7 +94,7 @@ class PileMemory(NamedTuple):
 
 
 class PileSettings(NamedTuple):
-    """How a run goes.
+    """Settings of a run.
 
     Parameters
     ----------
@@ -102,16 +102,16 @@ class PileSettings(NamedTuple):
     dt : float, s
         Sampling interval.
     steps : int
-        How many of them are in it.
+        Steps per sampling interval.
     stop_at_fall : bool
     row_tolerance : float, m and rad
-        Movement that makes a row.
+        Movement after which a row is stored.
     max_row_interval : int
-        Most samples between rows.
+        Largest number of samples between two rows.
     record_end : int
-        Sample from which the run ends as soon as every stone is still.
+        Sample from which the run ends once every stone is still.
     last : int
-        Sample at which it ends at the latest.
+        Sample at which the run ends at the latest.
     """
 
     gravity: float
@@ -125,31 +125,31 @@ class PileSettings(NamedTuple):
 
 
 class PileState(NamedTuple):
-    """Where a run is; the loop moves it on, and goes on from it when it is called again: integers, and the bodies, the ground last."""
+    """Position of a run, advanced by the loop and resumed at the next call: counters, and the bodies, the ground last."""
 
     counters: IntArray
     bodies: FloatArray
 
 
 SAMPLE, STEP, ROW_COUNT, SAMPLES_SINCE_ROW, HAS_FALLEN, STEPS_REMAINING, FIRST_SAMPLE = range(7)
-"""A cursor's integers: sample, step in it, rows kept, samples since the last of them, whether a stone fell in this sample, how many
-steps may be taken before the loop pauses, and which sample of the motion is the first that the loop is given."""
+"""Counters of a run: sample, step within the sample, rows stored, samples since the last row, fall in this sample (0 or 1), steps left
+before the loop pauses, and index of the first sample of the motion array passed to the loop."""
 
 N_COUNTERS = 7
 
 
 class PileOutput(NamedTuple):
-    """What a run leaves behind.
+    """Output of a run.
 
     Parameters
     ----------
     fall_states : (m, 6) array
     rows : (r, 1 + 7 m) array
-        Time, centres and quaternions where something has moved; where there is no room for all of them, the last ones share the last row.
+        Time, centres and quaternions, a row where something moved; when the array is full, the last row is overwritten.
     last_contact : (m + 1, m + 1) array, s
-        When two bodies last touched; negative: never.
-    energy_ledger : (8,) array
-        Of energy and momentum.
+        Time of the last contact of two bodies; negative: never.
+    energy_ledger : (10,) array
+        Energy and momentum balance.
     """
 
     fall_states: FloatArray

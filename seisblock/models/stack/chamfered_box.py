@@ -1,12 +1,11 @@
-"""Along which axis two boxes, one of them or both with worn faces, are furthest apart, and where edges would cross along it.
+"""Separating-axis test of two boxes of which one or both have worn (chamfered) faces.
 
-A worn face leads to the sides by four bevels (:mod:`seisblock.models.stack.mesh_topology`). Two boxes that are apart are so along a
-normal of a face of either, its bevels among them, or along a perpendicular to an edge of each, the edges of the bevels among them
-([Gottschalk1996]_ section 5). Without those of the bevels the widest gap found would be too narrow, and stones that do not touch would
-be pushed out of each other.
+A worn face joins the sides by four bevels (:mod:`seisblock.models.stack.mesh_topology`). Candidate axes are the face normals of either
+box, bevels included, and the cross products of an edge of each, edges of bevels included ([Gottschalk1996]_ section 5). Without the
+bevels the widest gap would come out too narrow, and stones that do not touch would be pushed apart.
 
-Of the perpendiculars only those count that are normals of faces of the difference of both bodies: where the arc between the normals of
-the two faces at one edge crosses the arc between the opposite normals at the other (derived here).
+Only those cross products count that are face normals of the Minkowski difference: the arc between the normals of the two faces at one
+edge crosses the arc between the opposite normals at the other edge (Gauss-map test, derived here).
 """
 
 from __future__ import annotations
@@ -23,16 +22,16 @@ from seisblock.models.stack.spring_contact import REL_D
 _t = types()
 
 EDGE_DIRECTION, FACE_MASK, EDGE_CODE = 7, 13, 15
-"""Where what the partner sees of the carrier keeps, behind a corner and a plane of it, of two edges the directions, the partner's faces
-that look along them, and their corners and faces."""
+"""Columns of the carrier's hull in the partner's axes, behind a corner and a plane: directions of two edges, mask of partner faces that
+face each, and the code of each edge (corner and two faces)."""
 
 NIBBLE = 15
-"""Four bits: a corner, or a face."""
+"""Bit mask of four bits: index of a corner or of a face."""
 
 
 @kernel(_t.void(VECTOR, MATRIX, _t.int64, MATRIX), inline=True)
 def _transform_hull(rel, corners, count, carrier_hull):
-    """Write the carrier's corners and planes in the partner's axes."""
+    """Write the carrier's corners and face planes in the partner's axes."""
     for i in range(count):
         to_partner_axes(rel, corners[i], carrier_hull[i])
     for i in range(count - 2):
@@ -44,7 +43,7 @@ def _transform_hull(rel, corners, count, carrier_hull):
 
 @kernel(_t.float64(VECTOR, MATRIX, _t.int64, _t.float64), inline=True)
 def _min_distance(plane, corners, count, cutoff):
-    """Return how far beyond a plane the nearest of some corners is, m, or of one that is not so far as `cutoff`."""
+    """Return the distance of the nearest corner beyond a plane, m, or of the first one found below `cutoff`."""
     min_height = math.inf
     for i in range(count):
         min_height = min(min_height, plane_distance(plane, corners[i]))
@@ -55,7 +54,7 @@ def _min_distance(plane, corners, count, cutoff):
 
 @kernel(_t.boolean(_t.int64, _t.float64, MATRIX, _t.int64, MATRIX, _t.int64), inline=True)
 def _projects_onto_face(face, gap, hull, n_hull, corners, count):
-    """Whether a corner as near to a face as any lies over it: then no axis has a wider gap."""
+    """Return whether a corner at the smallest distance from a face projects onto it: no other axis then has a wider gap."""
     plane = hull[face, PLANE:]
     for i in range(count):
         corner = corners[i]
@@ -74,7 +73,7 @@ def _projects_onto_face(face, gap, hull, n_hull, corners, count):
 
 @kernel(_t.int64(_t.float64, _t.float64, _t.float64, MATRIX, _t.int64), inline=True)
 def _facing_mask(x, y, z, hull, count):
-    """Return which faces of a box look along a direction, a bit each."""
+    """Return the faces of a box whose normals point along a direction, as a bit mask."""
     mask = 0
     for f in range(count - 2):
         if hull[f, PLANE] * x + hull[f, PLANE + 1] * y + hull[f, PLANE + 2] * z > 0.0:
@@ -84,7 +83,7 @@ def _facing_mask(x, y, z, hull, count):
 
 @kernel(_t.void(_t.int64, MATRIX, _t.int64, MATRIX), inline=True)
 def _transform_edges(count, partner_hull, n_partner, carrier_hull):
-    """Write the carrier's edges in the partner's axes, and which of its faces look along each."""
+    """Write the carrier's edges in the partner's axes, and for each the mask of partner faces that face along it."""
     for j in range(2 * count - RING_SIZE):
         start, end, face_a, face_b = edge_topology(j, count)
         row, k = carrier_hull[j // 2], EDGE_DIRECTION + 3 * (j % 2)
@@ -99,24 +98,25 @@ def _transform_edges(count, partner_hull, n_partner, carrier_hull):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.int64, _t.float64, LAYOUT, MATRIX, VECTOR))
 def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
-    """Return the widest gap between two boxes, m, negative where they overlap, and write its axis.
+    """Return the widest gap between two boxes, m, negative where they overlap, and write the separating axis.
 
     Parameters
     ----------
     rel : (18,) array
-        The carrier as the partner sees it.
+        State of the carrier in the partner's axes.
     c, p : int
-        The carrier and the partner.
+        Carrier and partner.
     cutoff : float, m
-        A gap along a face's normal beyond which nothing else need be looked at.
+        Gap along a face normal beyond which no other axis needs a test.
     carrier_hull : (16, 18) array
         Scratch.
     axis : (8,) array
-        Normal out of the partner, in its axes, and the kind; and the same of faces alone.
+        Result: normal out of the partner, in its axes, and kind; then the same for the best face axis.
     """
     partner_hull, count, n_partner = pile.corners[p], pile.counts[c], pile.counts[p]
     _transform_hull(rel, pile.corners[c], count, carrier_hull)
     max_gap = -math.inf
+    # a box with c corners has c - 2 faces, all quadrilaterals (Euler's formula)
     for f in range(n_partner - 2):
         gap = _min_distance(partner_hull[f, PLANE:], carrier_hull, count, max_gap)
         if gap > max_gap:
@@ -126,6 +126,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
             axis[KIND] = f
     if max_gap > cutoff:
         return max_gap
+    # the carrier's faces must win by a margin, so that the choice does not alternate between steps
     for f in range(count - 2):
         gap = _min_distance(carrier_hull[f, PLANE:], partner_hull, n_partner, max_gap + AXIS_BIAS)
         if gap > max_gap + AXIS_BIAS:
@@ -146,6 +147,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
         return max_gap
     if not is_carrier_face and max_gap > -AXIS_BIAS and _projects_onto_face(face, max_gap, partner_hull, n_partner, carrier_hull, count):
         return max_gap
+    # no corner projects onto the best face: the widest gap may be along an edge-edge axis
     _transform_edges(count, partner_hull, n_partner, carrier_hull)
     threshold = max_gap + AXIS_BIAS
     for i in range(2 * n_partner - RING_SIZE):
@@ -157,6 +159,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
             row, odd = carrier_hull[j // 2], j % 2
             code, edge_mask = int(row[EDGE_CODE + odd]), int(row[FACE_MASK + odd])
             face_a, face_b = code >> 4 & NIBBLE, code >> 8
+            # Gauss-map test: an edge faces the other's edge only if the latter's two faces lie on different sides of it
             if ((mask >> face_a) ^ (mask >> face_b)) & ((edge_mask >> face_left) ^ (edge_mask >> face_right)) & 1 == 0:
                 continue
             g0, g1, g2 = row[EDGE_DIRECTION + 3 * odd], row[EDGE_DIRECTION + 3 * odd + 1], row[EDGE_DIRECTION + 3 * odd + 2]
@@ -165,6 +168,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
             if square < PARALLEL_TOLERANCE * (e0 * e0 + e1 * e1 + e2 * e2) * (g0 * g0 + g1 * g1 + g2 * g2):
                 continue
             s, t, corner = carrier_hull[face_a], carrier_hull[face_b], carrier_hull[code & NIBBLE]
+            # the axis must point out of both edges: the sums of the adjacent normals give the outer sides
             out = x * (a[3] + b[3]) + y * (a[4] + b[4]) + z * (a[5] + b[5])
             if out * (x * (s[3] + t[3]) + y * (s[4] + t[4]) + z * (s[5] + t[5])) > 0.0:
                 continue
@@ -181,7 +185,7 @@ def separating_axis_chamfered(rel, c, p, cutoff, pile, carrier_hull, axis):
 
 @kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, VECTOR))
 def edge_edge_chamfered(rel, c, p, pile, axis, ends, y):
-    """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross there."""
+    """Write the point of the carrier's edge nearest to the partner's, in the partner's axes; return whether the edges cross."""
     edge = int(axis[KIND]) - EDGE_EDGE
     p_start, p_end, _, _ = edge_topology(edge // MAX_EDGES, pile.counts[p])
     c_start, c_end, _, _ = edge_topology(edge % MAX_EDGES, pile.counts[c])
@@ -196,6 +200,7 @@ def edge_edge_chamfered(rel, c, p, pile, axis, ends, y):
         gg += g * g
         re += r * e
         rg += r * g
+    # closest points of two lines, as parameters along the edges
     carrier_t = (eg * re - ee * rg) / (ee * gg - eg * eg)
     partner_t = (re + carrier_t * eg) / ee
     for k in range(3):

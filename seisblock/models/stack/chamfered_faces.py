@@ -1,4 +1,4 @@
-"""Where a face of a box lies over a face of another, one of them or both worn: bevels lie on faces, and faces on bevels."""
+"""Contact manifold of two faces of boxes with worn (chamfered) faces, bevels included."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from seisblock.models.stack.mesh_topology import OFFSET, PLANE, RING_SIZE, face_
 _t = types()
 
 MAX_CHAMFERED_POINTS = 16
-"""Points at which worn boxes may touch."""
+"""Largest number of contact points of two worn boxes."""
 
 
 @kernel(_t.void(VECTOR, _t.boolean, VECTOR, VECTOR), inline=True)
 def _corner_position(rel, is_carrier, r, y):
-    """Write where a corner is in the partner's axes: as it stands, or as seen from there."""
+    """Write a corner in the partner's axes; the partner's own corners are copied."""
     if is_carrier:
         to_partner_axes(rel, r, y)
     else:
@@ -28,13 +28,15 @@ def _corner_position(rel, is_carrier, r, y):
 
 @kernel(_t.int64(VECTOR, _t.boolean, VECTOR, MATRIX, _t.int64, VECTOR), inline=True)
 def _incident_face(rel, is_carrier, down, corners, count, y):
-    """Return the face of a box that shows most in a direction, of those at the corner furthest along it."""
+    """Return the incident face: among the faces at the support corner, the one most opposed to the reference normal."""
+    # support corner in the direction of the reference face
     deepest_corner, max_projection = 0, -math.inf
     for i in range(count):
         _corner_position(rel, is_carrier, corners[i], y)
         projection = down[0] * y[0] + down[1] * y[1] + down[2] * y[2]
         if projection > max_projection:
             deepest_corner, max_projection = i, projection
+    # only faces at the support corner can lie on the reference face
     best_face, max_projection = 0, -math.inf
     for f in range(count - 2):
         has_corner = False
@@ -56,7 +58,7 @@ def _incident_face(rel, is_carrier, down, corners, count, y):
 
 @kernel(_t.int64(_t.int64, MATRIX, VECTOR, MATRIX))
 def _clip_polygon(n, polygon, plane, result):
-    """Cut a polygon off beyond a plane; return how many corners are left."""
+    """Clip a polygon to the inner side of a plane (Sutherland-Hodgman); return the number of remaining corners."""
     count = 0
     for i in range(n):
         start, end = polygon[i], polygon[(i + 1) % n]
@@ -75,7 +77,7 @@ def _clip_polygon(n, polygon, plane, result):
 
 @kernel(_t.void(VECTOR, _t.boolean, _t.int64, _t.int64, LAYOUT, VECTOR, VECTOR, MATRIX), inline=True)
 def _side_planes(rel, is_carrier, reference_box, face, pile, out, y, borders):
-    """Write the four planes, upright on a face, that pass through its sides: normal outwards, and offset, a little beyond."""
+    """Write the four clipping planes through the sides of a face, normal to it: outward normal, and offset plus a margin."""
     count = pile.counts[reference_box]
     for q in range(RING_SIZE):
         border = borders[q // 2, RING_SIZE * (q % 2) :]
@@ -85,6 +87,7 @@ def _side_planes(rel, is_carrier, reference_box, face, pile, out, y, borders):
         _corner_position(rel, is_carrier, pile.corners[reference_box, face_corner(face, (q + 2) % RING_SIZE, count)], p2)
         a0, a1, a2 = p1[0] - p0[0], p1[1] - p0[1], p1[2] - p0[2]
         x, v, z = a1 * out[2] - a2 * out[1], a2 * out[0] - a0 * out[2], a0 * out[1] - a1 * out[0]
+        # the third corner of the face decides which way is outwards
         inward = x * (p2[0] - p0[0]) + v * (p2[1] - p0[1]) + z * (p2[2] - p0[2])
         scale = (-1.0 if inward > 0.0 else 1.0) / math.sqrt(x * x + v * v + z * z)
         border[0], border[1], border[2] = scale * x, scale * v, scale * z
@@ -93,22 +96,23 @@ def _side_planes(rel, is_carrier, reference_box, face, pile, out, y, borders):
 
 @kernel(_t.int64(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX))
 def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buffer):
-    """Write where two faces lie over each other: x, y, z in the partner's axes, and the gap there; return how many points.
+    """Write the contact manifold of two faces and return its number of points.
 
-    Bevels may be so flat that the stone lands on the next face within a step: its other corners over the face count, too.
+    A bevel may be so flat that the stone lands on the next face within one step; corners of other faces above the reference face are
+    therefore added to the manifold.
 
     Parameters
     ----------
     rel : (18,) array
     c, p : int
     axis : (4,) array
-        A normal of a face.
+        Normal of the reference face, and kind.
     work : (3, 18) array
         Scratch.
     max_gap : float, m
-        Gap within which corners of other faces are of interest.
+        Gap within which corners of other faces are added.
     vertices, buffer : (16, 18), (9, 18) arrays
-        Scratch; the points stand in the first.
+        Scratch; the result stands in `vertices`: x, y, z in the partner's axes and the gap, m.
     """
     is_carrier_face = axis[KIND] >= CARRIER_FACES
     face = int(axis[KIND]) - CARRIER_FACES if is_carrier_face else int(axis[KIND])
@@ -125,9 +129,11 @@ def face_manifold_chamfered(rel, c, p, pile, axis, work, max_gap, vertices, buff
     for q in range(RING_SIZE):
         _corner_position(rel, not is_carrier_face, pile.corners[incident_box, face_corner(incident_face, q, count)], vertices[q])
     points = RING_SIZE
+    # two clips per turn, so that the result ends in `vertices`
     for q in range(0, RING_SIZE, 2):
         points = _clip_polygon(points, vertices, borders[q // 2], buffer)
         points = _clip_polygon(points, buffer, borders[q // 2, RING_SIZE:], vertices)
+    # corners of other faces above the reference face: a flat bevel may bring them down within the step
     for i in range(count):
         corner = vertices[points]
         _corner_position(rel, not is_carrier_face, pile.corners[incident_box, i], corner)

@@ -1,9 +1,10 @@
-"""A row for a point that may touch another stone in the step: arms, normal, the velocity it may have, and what it remembers."""
+"""Assembly of constraint rows: one row per contact that may close within the step, warm-started from its slot."""
 
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.models.stack.broad_phase import SPEED_FACTOR
 from seisblock.models.stack.buffers import LAYOUT, MEMORY
 from seisblock.models.stack.constraint_row import (
     ARM_A,
@@ -24,44 +25,43 @@ from seisblock.models.stack.constraint_row import (
 )
 from seisblock.models.stack.frames import BOX_CENTRE, R, X
 from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_SLIDING, FRICTION, POSITION, PREVIOUS_FORCE
-from seisblock.models.stack.spring_contact import KINETIC as SLICK
-from seisblock.models.stack.step import SPEED_FACTOR
+from seisblock.models.stack.spring_contact import KINETIC as KINETIC_COLUMN
 
 _t = types()
 
 SPEED_MARGIN = 0.5
-"""A point is left out while its gap is wider than what so many times the greatest speed of any stone (:data:`~.step.SWIFT`), and this
-speed, m/s, more, close in a step."""
+"""Speed, m/s, added to :data:`~.broad_phase.SPEED_FACTOR` times the largest speed of any stone: a wider gap cannot close within a step."""
 
 SIMULTANEITY = 0.01
-"""Part of a step within which what strikes together strikes at once."""
+"""Share of a step within which impacts count as simultaneous."""
 
 MIN_FORCE_TIME_RATIO = 0.0625
-"""Part of a step from which on an impulse tells a force: in less time it makes good, too, what the steps before left of velocities."""
+"""Share of a full step from which an impulse defines a force; shorter steps also correct the velocity errors of earlier ones."""
 
 LAST_STEP, FREE_FALL_SPEED, FULL_STEP, KICK_TIME, EXTRAPOLATION, SWEEP_COUNT, HAD_IMPACT, CONTACT_COUNT, PRESS_TIME, MAX_SPEED = range(10)
 STEP_INFO_COLUMNS = 10
-"""The length of the last step, s; the speed of a free fall of a whole step, m/s, and its length, s; the time over which velocities last
-changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took; whether something struck; how many contacts
-there were; the time over which they pressed, s; and the greatest speed of any stone, m/s."""
+"""Scalars of a step: length of the last step, s; speed of a free fall over a full step, m/s, and its length, s; time over which velocities
+last changed, s; extrapolation factor of the warm start; sweeps of the solver; impact in the step (0 or 1); number of contacts; time over
+which contact forces acted, s; and largest speed of any stone, m/s."""
 
 
 SUPPORT_POINTS, SUPPORT_BODY, STILL_STEPS = range(3)
 SLEEP_COLUMNS = 3
-"""Of a stone that lies: on how many points, none where it is solved for; on which body. Of others: for how many steps they were still."""
+"""Sleep state of a body: number of support points (0 while awake), supporting body, and steps for which it has been still."""
 
 BODY_IDS = 6
 CONTACT_ID_COLUMNS = 8
-"""Where a contact's integers keep its two bodies as they are; before them stand the two as they are solved for, what lies being ground,
-and the slot that remembers it (4)."""
+"""Integers of a contact: the two bodies as solved (sleeping bodies replaced by the ground), the slot of its memory (4), and from
+`BODY_IDS` on the two real bodies."""
 
 FROM_JOINT, FROM_PAIR = range(2)
-"""What a contact belongs to."""
+"""Kinds of contact memory: a point of a joint, or a point of a pair of boxes."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
 def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
-    """Make a row of a contact noted in a slot, unless it is too far to be reached in the step; return how many there are then."""
+    """Append the constraint row of a contact unless its gap cannot close within the step; return the number of rows."""
+    # the gap cannot close within the step, or the rows are full
     if gap > max_gap or count >= memory.constraint_rows.shape[0]:
         return count
     a, b, ground = pile.owner[c], pile.owner[p], bodies.shape[0] - 1
@@ -77,6 +77,7 @@ def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
     row[IS_STANDING] = 0.0
     row[RIM_RADIUS] = 0.0
     row[SIMULTANEITY_WINDOW] = SIMULTANEITY
+    # a slot unused in the last step has no force to start from
     if slot[ACTIVE] == 0.0:
         for i in range(3):
             slot[CACHED_FORCE + i] = 0.0
@@ -85,22 +86,24 @@ def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
     ids = memory.contact_ids[count]
     ids[BODY_IDS] = a
     ids[BODY_IDS + 1] = b
+    # sleeping bodies take part as ground
     ids[0] = a if memory.sleep_states[a, SUPPORT_POINTS] == 0 else ground
     ids[1] = b if memory.sleep_states[b, SUPPORT_POINTS] == 0 else ground
     set_delassus_block(ids[0], ids[1], ground, pile.inertias, memory.inverses, row)
     row[STATIC] = k[FRICTION]
-    row[KINETIC] = k[SLICK]
+    row[KINETIC] = k[KINETIC_COLUMN]
     row[WAS_SLIDING] = slot[CACHED_SLIDING]
     row[IMPACT_SPEED] = memory.step_info[FREE_FALL_SPEED]
     centre_friction_cone(row)
     for i in range(3):
+        # warm start: linear extrapolation of the forces of the last two steps
         row[IMPULSE + i] = slot[CACHED_FORCE + i] + memory.step_info[EXTRAPOLATION] * (slot[CACHED_FORCE + i] - slot[PREVIOUS_FORCE + i])
     return count + 1
 
 
 @kernel(_t.int64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, VECTOR, INTEGER_TABLE), inline=True)
 def register_slot(old_count, new_count, kind, i, j, k, slot, contact_ids):
-    """Remember which slot a row was made of; return how many rows there are."""
+    """Record the slot of a new row; return the number of rows."""
     slot[ACTIVE] = 0.0
     if new_count > old_count:
         slot[ACTIVE] = 1.0
@@ -113,15 +116,15 @@ def register_slot(old_count, new_count, kind, i, j, k, slot, contact_ids):
 
 @kernel(_t.float64(_t.float64, MEMORY), inline=True)
 def max_approach(dt, memory):
-    """Return how far, m, any stone can come in a step, whatever it strikes or strikes it on the way."""
+    """Return the largest distance, m, that any two stones can approach within a step, impacts included."""
     return dt * (SPEED_FACTOR * memory.step_info[MAX_SPEED] + SPEED_MARGIN)
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, MEMORY), inline=True)
 def mean_force(impulse, time, previous_force, memory):
-    """Return the force of an impulse over a time, N.
+    """Return the mean force of an impulse over a time, N.
 
-    In a small part of a step it counts as much as that is, and the one `previous_force` more.
+    Over less than a minimum time the force is a mean, weighted by time, with `previous_force` filling the rest (derived here).
     """
     min_time = MIN_FORCE_TIME_RATIO * memory.step_info[FULL_STEP]
     return impulse / time if time >= min_time else (impulse + (min_time - time) * previous_force) / min_time

@@ -1,4 +1,4 @@
-"""The rows of rigid contacts: where they are, what an impulse at each does to both bodies, and how fast its points part."""
+"""Constraint rows of rigid contacts: columns, Delassus block, impulses and relative velocity."""
 
 from __future__ import annotations
 
@@ -47,26 +47,24 @@ CONE_CENTRE, STATIC, KINETIC, WAS_SLIDING, SLIP_DIRECTION, SLIP_SPEED, SLIP_STAT
     82,
 )
 ROW_COLUMNS = 92
-"""A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
-and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
-changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
-both sides, along the normal alone; the gap, m, and how fast it opens at the step, m/s; the restitution, negative where an impact is
-plastic; the impulse that was given before the last one was looked for (3); the axis of the stone round whose rim the point wanders (3);
-and of friction, the middle of its cone over what presses (3), its two coefficients, whether the point slid, in what direction (3) and how
-fast, m/s, and what it does in the step; the speed, m/s, of which parts are heeded where it strikes; whether it is one of a stone that
-stands; the impulse before the sweeps (3); the radius of that rim, m, negative where it is the second body's, 0 where there is none; the
-part of a step within which it strikes at once with others; its part of what holds a joint that is struck; what pressed before, N; and
-the impulse of the impacts at the step (3)."""
+"""Columns of a constraint row. Arms from the centres of both bodies (3, 3), m; normal out of the second body (3); Delassus block W, the
+velocity per unit impulse (9), and its inverse (9); spins per unit impulse (9, 9); impulse on the first body (3), N s; lower bound of the
+normal velocity, m/s; friction coefficient in use; change of the relative velocity by rotation over half a step (3); impulse before a
+sweep and search direction of the sweeps (3, 3); 1 for a bilateral row, along the normal alone. Gap, m, and its rate at the step, m/s;
+restitution, negative for a plastic impact; impulse up to the impact (3); axis of the cylinder round which the contact point moves (3).
+Friction: centre of the cone over the normal impulse (3), static and kinetic coefficient, 1 if the point slid, direction (3) and speed,
+m/s, of the slip, and slip state in the step. Reference speed of impacts, m/s; 1 for a contact of a standing stone; impulse before the
+sweeps (3); radius of the rim, m, negative if it belongs to the second body, 0 if none; share of a step within which impacts are
+simultaneous; share of the impulse of a restitution row; normal force before the impact, N; and impulse of the impacts at the step (3)."""
 
 LINEAR, ANGULAR, GYROSCOPIC, START_VELOCITY = 0, 3, 6, 9
 VELOCITY_COLUMNS = 15
-"""A body's velocity, its spin, how that changes as the body turns on with the same angular momentum, rad/s^2, and velocity and spin before
-the sweeps (6)."""
+"""A body's velocity and spin, change of the spin at constant angular momentum, rad/s^2, and velocity and spin before the sweeps (6)."""
 
 
 @kernel(_t.void(_t.int64, VECTOR, MATRIX, MATRIX, _t.int64, _t.float64, VECTOR), inline=True)
 def _add_body_response(body, arm, inertias, inverses, spins, sign, row):
-    """Add to a row what a unit impulse at `arm` does to a body: velocity there, and spin."""
+    """Add the response of a body to a unit impulse at `arm` to a row: velocity of the point, and spin."""
     x, y, z = arm[0], arm[1], arm[2]
     j = inverses[body]
     m = 1.0 / inertias[body, 0]
@@ -75,6 +73,7 @@ def _add_body_response(body, arm, inertias, inverses, spins, sign, row):
         row[spins + 3 * i] = b * z - c * y
         row[spins + 3 * i + 1] = c * x - a * z
         row[spins + 3 * i + 2] = a * y - b * x
+    # W gains arm x (J^-1 (arm x p)) + p / m, column by column
     for k in range(3):
         s0, s1, s2 = row[spins + k], row[spins + 3 + k], row[spins + 6 + k]
         row[W + k] += s1 * z - s2 * y
@@ -85,13 +84,14 @@ def _add_body_response(body, arm, inertias, inverses, spins, sign, row):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.int64, MATRIX, MATRIX, VECTOR))
 def set_delassus_block(a, b, ground, inertias, inverses, row):
-    """Write into a row what impulses at its point do to both bodies; the ground does not move."""
+    """Write the Delassus block W = J M^-1 J^T of a contact, its inverse and the spin responses; the ground does not move (derived here)."""
     for i in range(W, IMPULSE):
         row[i] = 0.0
     if a != ground:
         _add_body_response(a, row[ARM_A:], inertias, inverses, SPIN_A, 1.0, row)
     if b != ground:
         _add_body_response(b, row[ARM_B:], inertias, inverses, SPIN_B, 1.0, row)
+    # inverse of the symmetric 3 x 3 block by cofactors
     w00, w01, w02 = row[W], row[W + 1], row[W + 2]
     w11, w12, w22 = row[W + 4], row[W + 5], row[W + 8]
     c00, c01, c02 = w11 * w22 - w12 * w12, w02 * w12 - w01 * w22, w01 * w12 - w02 * w11
@@ -109,7 +109,7 @@ def set_delassus_block(a, b, ground, inertias, inverses, row):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.int64, MATRIX, VECTOR, _t.float64, _t.float64, _t.float64, MATRIX), inline=True)
 def apply_impulse(a, b, ground, inertias, row, p0, p1, p2, velocities):
-    """Let an impulse act on the first body, and its opposite on the second."""
+    """Apply an impulse to the first body and its opposite to the second."""
     if a != ground:
         v = velocities[a]
         m = 1.0 / inertias[a, 0]
@@ -134,7 +134,7 @@ def apply_impulse(a, b, ground, inertias, row, p0, p1, p2, velocities):
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.int64, _t.int64, VECTOR, MATRIX), inline=True)
 def relative_velocity(a, b, row, velocities):
-    """Return the velocity of the first body's point against the second's."""
+    """Return the velocity of the contact point of the first body relative to the second."""
     u, v = velocities[a], velocities[b]
     x, y, z = row[ARM_A], row[ARM_A + 1], row[ARM_A + 2]
     r, s, t = row[ARM_B], row[ARM_B + 1], row[ARM_B + 2]
@@ -147,7 +147,7 @@ def relative_velocity(a, b, row, velocities):
 
 @kernel(_t.void(VECTOR), inline=True)
 def centre_friction_cone(row):
-    """Lay a point's cone about its normal: kinetic friction where it slid, else static."""
+    """Centre the friction cone on the normal, with the kinetic coefficient if the point slid, else the static one."""
     row[MU] = row[KINETIC] if row[WAS_SLIDING] > 0.0 else row[STATIC]
     for k in range(CONE_CENTRE, CONE_CENTRE + 3):
         row[k] = 0.0
@@ -155,7 +155,7 @@ def centre_friction_cone(row):
 
 @kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
 def apply_impulses(n, contact_ids, rows, ground, inertias, fraction, velocities):
-    """Let a part of the impulses of `n` contacts act on the bodies."""
+    """Apply a fraction of the impulses of `n` contacts to the velocities."""
     for i in range(n):
         row = rows[i]
         p0, p1, p2 = fraction * row[IMPULSE], fraction * row[IMPULSE + 1], fraction * row[IMPULSE + 2]

@@ -1,13 +1,13 @@
-"""Where a round stone touches: at the lowest point of its rim, at the points a quarter round from it, and where its rim crosses a border.
+"""Contact points of cylinders: lowest point of the rim, points a quarter turn from it, rolling of the contact point.
 
-A rim has no corners. Its lowest point follows from the lean, exactly: u, across the stone's axis a and furthest against the normal n,
+A rim has no corners. Its lowest point follows exactly from the lean: u, perpendicular to the stone's axis a and opposite to the normal n,
 
     u = -(n - (n.a) a) / |n - (n.a) a|   (derived here).
 
-It wanders round the stone as the stone wobbles or rolls, at s = R (u' - w x u) over its material (derived here); a point that rolls is
-asked to be at rest half a step later where it will be then, so that rolling and spinning keep their energy. Points a quarter round, and
-opposite, carry the stone where it stands flat; it turns about none of them, since a lean of any size makes the lowest point another. Where
-there is no lean yet, that point is sought where the stone presses: thither it will turn.
+The point moves round the stone as the stone wobbles or rolls, at s = R (u' - w x u) relative to its material (derived here). A rolling
+point is required to be at rest half a step later, at its position then, so that rolling and spinning conserve energy. Points a quarter
+turn and half a turn away support a stone that stands flat; it never pivots about them, since any lean moves the lowest point. Without a
+lean the lowest point is placed on the side of the resultant of the contact forces, towards which the stone will tip.
 """
 
 from __future__ import annotations
@@ -24,35 +24,35 @@ from seisblock.models.stack.step import MIN_FACING_COSINE, MIN_JOINT_HEIGHT_RATI
 _t = types()
 
 RIM_SIMULTANEITY = 1e-4
-"""Part of a step within which the points of a rim that leans strike at once."""
+"""Share of a step within which the points of a leaning rim strike simultaneously."""
 
 RIMS = 4
 RADIUS, HEIGHT = 0, 1
-"""A circle that bounds a round stone."""
+"""Columns of a bounding circle of a cylinder: radius and height, m."""
 
 FLAT_SINE_SQUARED = 1e-10
-"""Square of the sine of a lean that has no direction: the stone will then turn to where it presses."""
+"""Squared sine of the lean below which its direction is undefined and the contact forces decide."""
 
 CENTRED_RATIO = 0.05
-"""How far from the middle, over its radius, a stone presses to no side."""
+"""Eccentricity of the contact forces, over the radius, below which they have no direction."""
 
 MAX_HALF_STEP_ANGLE = 0.5
-"""Angle, rad, by which the lowest point may wander round the stone in half a step and still be asked where it will be then."""
+"""Angle, rad, by which the lowest point may move round the stone in half a step and still be predicted."""
 
 MAX_STEP_ANGLE = 0.125
-"""Angle, rad, by which it may wander round the stone until a step ends: of what lies between the four points nothing else is looked at."""
+"""Angle, rad, by which the lowest point may move round the stone in a step: contact is tested at four points of the rim only."""
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, MATRIX), inline=True)
 def lowest_rim_point(n0, n1, n2, axes):
-    """Write the direction of a rim's lowest point, and the one a quarter round from it; return the sine of the lean.
+    """Write the directions of the lowest point of a rim and of the point a quarter turn from it; return the sine of the lean.
 
     Parameters
     ----------
     n0, n1, n2 : float
-        The normal that points up.
+        Upward normal.
     axes : (4, 18) array
-        The stone's axis, a direction to take where there is no lean, and the two directions.
+        Axis of the stone, fallback direction without a lean, and the two resulting directions.
     """
     a, x, u, w = axes[0], axes[1], axes[2], axes[3]
     projection = n0 * a[0] + n1 * a[1] + n2 * a[2]
@@ -60,6 +60,7 @@ def lowest_rim_point(n0, n1, n2, axes):
     square = m0 * m0 + m1 * m1 + m2 * m2
     sine = math.sqrt(square)
     if square < FLAT_SINE_SQUARED:
+        # no lean: use the fallback direction, projected onto the face
         projection = x[0] * a[0] + x[1] * a[1] + x[2] * a[2]
         m0, m1, m2 = x[0] - projection * a[0], x[1] - projection * a[1], x[2] - projection * a[2]
         size = math.sqrt(m0 * m0 + m1 * m1 + m2 * m2)
@@ -75,10 +76,11 @@ def lowest_rim_point(n0, n1, n2, axes):
 
 @kernel(_t.void(MATRIX, VECTOR, _t.float64, VECTOR))
 def load_directions(slots, rel, radius, x):
-    """Write the directions, seen from the carrier's axis and from the partner's, in which the forces of the last step pressed.
+    """Write the directions of the resultant contact force of the last step, from the carrier's axis and from the partner's.
 
-    The carrier's is its own x if in none, and the partner's then the carrier's.
+    A centred force has no direction: the carrier then uses its x axis, and the partner the carrier's direction.
     """
+    # centre of pressure of the last step, weighted by the normal forces
     p0, p1, p2, total = 0.0, 0.0, 0.0, 0.0
     for i in range(slots.shape[0]):
         slot = slots[i]
@@ -102,20 +104,21 @@ def load_directions(slots, rel, radius, x):
 
 @kernel(_t.void(_t.boolean, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR))
 def set_rim_contact(is_deepest, sine, radius, axes, frame, row):
-    """Write into the row of a point of a rim, if there is a lean, how soon it strikes; and round what its lowest point wanders.
+    """Write the simultaneity window of a rim contact into its row, and axis and radius for the lowest point.
 
     Parameters
     ----------
     is_deepest : bool
-        Whether it is the lowest point.
+        Whether the contact is the lowest point.
     sine, radius : float
-        Of the lean, and of the rim, m; the radius negative where it is the second stone's.
+        Sine of the lean, and radius of the rim, m, negative if it belongs to the second stone.
     axes : (4, 18) array
         See :func:`lowest_rim_point`.
     frame : (31,) array
-        The body in whose axes these are.
+        Body in whose axes `axes` is given.
     row : (92,) array
     """
+    # a flat stone does not roll on its rim
     if sine == 0.0:
         return
     row[SIMULTANEITY_WINDOW] = RIM_SIMULTANEITY
@@ -129,16 +132,16 @@ def set_rim_contact(is_deepest, sine, radius, axes, frame, row):
 
 @kernel(_t.float64(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
 def rolling_bias(row, x, y, z, step, bias):
-    """Add how the lowest point of a rim changes its velocity in half a step by wandering round the stone; return when it will be far.
+    """Add the velocity change of the lowest rim point over half a step due to rolling; return the time until it has moved far, s.
 
-    Along the normal it is what keeps the lowest point on its plane to the end of the step, wherever it then is. Where it will be on the
-    other side, the stone having come to stand flat, nothing is asked of this one: the points that are there strike.
+    The normal component keeps the lowest point on its plane until the end of the step, wherever it then is (derived here). If the stone
+    passes through the flat position and the lowest point jumps to the other side, no bias is added: the points there strike.
 
     Parameters
     ----------
     row : (92,) array
     x, y, z : float, rad/s
-        The spin of the first stone against the second.
+        Spin of the first stone relative to the second.
     step : float, s
     bias : (3,) array, m/s
     """
@@ -148,17 +151,19 @@ def rolling_bias(row, x, y, z, step, bias):
     w0, w1, w2 = side * x, side * y, side * z
     cosine = n0 * a0 + n1 * a1 + n2 * a2
     u0, u1, u2 = cosine * a0 - n0, cosine * a1 - n1, cosine * a2 - n2
+    # u is the direction of the lowest point, a' = w x a the rate of the axis
     sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
     u0, u1, u2 = u0 / sine, u1 / sine, u2 / sine
     d0, d1, d2 = w1 * a2 - w2 * a1, w2 * a0 - w0 * a2, w0 * a1 - w1 * a0
     turning = n0 * d0 + n1 * d1 + n2 * d2
     m0, m1, m2 = -turning * a0 - cosine * d0, -turning * a1 - cosine * d1, -turning * a2 - cosine * d2
     sine_rate = u0 * m0 + u1 * m1 + u2 * m2
+    # s = u' - w x u: velocity of the contact point relative to the stone, over the radius
     v0, v1, v2 = w1 * u2 - w2 * u1, w2 * u0 - w0 * u2, w0 * u1 - w1 * u0
     s0, s1, s2 = (sine_rate * u0 - m0) / sine - v0, (sine_rate * u1 - m1) / sine - v1, (sine_rate * u2 - m2) / sine - v2
     wander = math.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
     e0, e1, e2 = w1 * s2 - w2 * s1, w2 * s0 - w0 * s2, w0 * s1 - w1 * s0
-    # the axis at the end of the step
+    # axis at the end of the step by Rodrigues' formula, exact for a constant spin
     spin = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
     if spin > 0.0:
         c, s = math.cos(spin * step), math.sin(spin * step) / spin
@@ -169,9 +174,11 @@ def rolling_bias(row, x, y, z, step, bias):
         g0, g1, g2 = w1 * v2 - w2 * v1, w2 * v0 - w0 * v2, w0 * v1 - w1 * v0
         half = 0.5 * step
         up = (sine - sine_after) / step - sine_rate - half * (n0 * g0 + n1 * g1 + n2 * g2)
+        # the tangential prediction is linear in the angle and fails for large ones
         if wander * step > 2.0 * MAX_HALF_STEP_ANGLE:
             e0, e1, e2 = 0.0, 0.0, 0.0
         up -= half * (n0 * e0 + n1 * e1 + n2 * e2)
+        # negative if the stone passes the flat position: the lowest point is then on the other side
         lead = sine + (n0 * b0 + n1 * b1 + n2 * b2) * (u0 * b0 + u1 * b1 + u2 * b2)
         factor = side * radius if lead > 0.0 else 0.0
         bias[0] += factor * (half * e0 + up * n0)
@@ -183,23 +190,23 @@ def rolling_bias(row, x, y, z, step, bias):
 
 @kernel(_t.boolean(_t.float64, MATRIX, _t.int64), inline=True)
 def _rim_touches(lean, rims, side):
-    """Whether the worn rim of a face is what touches at a lean, given as its tangent: beyond the slope of its bevel the side does."""
+    """Return whether the worn rim touches at a lean, given as its tangent; beyond the slope of the bevel the side touches."""
     worn_rim, full_rim = rims[side], rims[2 + side]
     return full_rim[RADIUS] == 0.0 or lean * (full_rim[RADIUS] - worn_rim[RADIUS]) <= abs(worn_rim[HEIGHT] - full_rim[HEIGHT])
 
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
 def faces_opposed(rel, carrier_half, partner_half, rims, partner_rims):
-    """Whether one of two stones stands on the other with a flat face, or its worn rim.
+    """Return whether one of two stones stands on the other with a flat face or its worn rim.
 
     Parameters
     ----------
     rel : (18,) array
-        The carrier as the partner sees it.
+        State of the carrier in the partner's axes.
     carrier_half, partner_half : (6,) arrays, m
-        The carrier's box, and the partner's.
+        Boxes of the carrier and of the partner.
     rims, partner_rims : (4, 2) arrays, m
-        The carrier's circles, and the partner's.
+        Bounding circles of the carrier and of the partner.
     """
     if abs(rel[8]) <= MIN_FACING_COSINE or abs(rel[REL_D + 2]) <= partner_half[2] + MIN_JOINT_HEIGHT_RATIO * carrier_half[2]:
         return False

@@ -1,7 +1,7 @@
-"""Where the faces of two stones lie over each other, one of them round, or both.
+"""Contact manifold of two faces of which one or both are round (cylinders).
 
-They touch at the points of either's rim, or its corners, within the other, where the normal is the other's; and where the two outlines
-cross, along the common normal of both. What lies is seen from the face on which it lies, the one that shows most.
+Contact points are the rim points and corners of either face inside the other, with the other's normal, and the crossings of the two
+outlines, with their common normal. Heights are measured from the reference face, the one more nearly opposed to the other stone.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ from seisblock.models.stack.spring_contact import REL_D
 _t = types()
 
 MIN_NORMAL_LENGTH = 1e-9
-"""Length of a common normal of two directions that have none."""
+"""Length below which a cross product of two directions counts as zero."""
 
 MERGE_DISTANCE = 1e-3
-"""Points closer than this, m, are one."""
+"""Distance, m, below which two points are merged."""
 
 MAX_SHARED_POINTS = 16
 IS_LOWEST, POINT_NORMAL = 4, 5
-"""Where a point that was found says, behind x, y, z and the gap, whether it is the lowest of a rim, and along which normal."""
+"""Columns of a contact point behind x, y, z and the gap: 1 for the lowest point of a rim, and the normal."""
 
 ARC_COUNT, REFINEMENTS = 16, 4
-"""Arcs of a rim that are looked at for a crossing, and how often the place of one is made better."""
+"""Number of arcs of a rim that are searched for a crossing, and iterations that refine it."""
 
 
 @kernel(_t.void(_t.int64, _t.int64, LAYOUT, VECTOR), inline=True)
 def _outline(box, side, pile, plan):
-    """Write the outline of a stone's face: its radius, or zero and the half sides; and its height."""
+    """Write the outline of a stone's face: radius, or zero; half sides; height, m."""
     plan[0] = pile.rims[box, side, RADIUS]
     plan[1] = pile.corners[box, 4 * side + 2, 0]
     plan[2] = pile.corners[box, 4 * side + 2, 1]
@@ -42,7 +42,7 @@ def _outline(box, side, pile, plan):
 
 @kernel(_t.boolean(_t.float64, _t.float64, VECTOR), inline=True)
 def _inside_outline(x, y, plan):
-    """Whether a point lies within an outline, or hardly beyond it."""
+    """Return whether a point lies inside an outline, within a margin."""
     if plan[0] > 0.0:
         return x * x + y * y < (plan[0] + FACE_MARGIN) ** 2
     return abs(x) < plan[1] + FACE_MARGIN and abs(y) < plan[2] + FACE_MARGIN
@@ -50,8 +50,9 @@ def _inside_outline(x, y, plan):
 
 @kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, _t.float64, MATRIX))
 def _add_point(count, rise, y, normal, is_lowest, points):
-    """Keep a point that is so far above a face, along a normal of any length, unless there is one; return how many there are then."""
+    """Append a point at a height above a face unless it duplicates one; return the number of points."""
     size = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+    # parallel tangents have no common normal: the outlines touch without crossing
     if count >= MAX_SHARED_POINTS or size < MIN_NORMAL_LENGTH:
         return count
     for i in range(count):
@@ -60,6 +61,7 @@ def _add_point(count, rise, y, normal, is_lowest, points):
     for k in range(3):
         points[count, k] = y[k]
         points[count, POINT_NORMAL + k] = normal[k] / size
+    # the rise is vertical; the gap is measured along the normal
     points[count, 3] = rise * abs(points[count, POINT_NORMAL + 2])
     points[count, IS_LOWEST] = is_lowest
     return count + 1
@@ -67,7 +69,7 @@ def _add_point(count, rise, y, normal, is_lowest, points):
 
 @kernel(_t.void(_t.float64, VECTOR, VECTOR, VECTOR), inline=True)
 def _common_normal(side, u, v, normal):
-    """Write the common normal of two directions, on the side of the face that lies below."""
+    """Write the common normal of two directions, on the outer side of the lower face."""
     normal[0] = u[1] * v[2] - u[2] * v[1]
     normal[1] = u[2] * v[0] - u[0] * v[2]
     normal[2] = u[0] * v[1] - u[1] * v[0]
@@ -78,14 +80,14 @@ def _common_normal(side, u, v, normal):
 
 @kernel(_t.float64(_t.float64, _t.float64, VECTOR, _t.float64), inline=True)
 def _plane_height(x, y, view, height):
-    """Return the height at which the plane of the face that lies on another is over a point of this one."""
+    """Return the height of the upper face's plane above a point of the lower face, in the lower stone's axes, m."""
     d0, d1 = x - view[REL_D], y - view[REL_D + 1]
     return view[REL_D + 2] + (height - view[2] * d0 - view[5] * d1) / view[8]
 
 
 @kernel(_t.float64(_t.float64, VECTOR, VECTOR, VECTOR))
 def _face_gap(side, view, lower_face, upper_face):
-    """Return the gap between a face and the lowest of the outline that lies on it."""
+    """Return the gap between the lower face and the lowest point of the upper outline, m."""
     reach = (
         upper_face[0] * math.sqrt(view[6] ** 2 + view[7] ** 2)
         if upper_face[0] > 0.0
@@ -96,7 +98,7 @@ def _face_gap(side, view, lower_face, upper_face):
 
 @kernel(_t.void(_t.int64, _t.float64, VECTOR, VECTOR, VECTOR, VECTOR), inline=True)
 def _corner(q, z, y, plan, view, image):
-    """Write one of the four corners of a rectangular face, in its own axes and as the other face sees it."""
+    """Write one of the four corners of a rectangular face, in its own axes and in those of the other stone."""
     y[0] = plan[1] if q == 0 or q == 3 else -plan[1]
     y[1] = plan[2] if q < 2 else -plan[2]
     for i in range(3):
@@ -105,12 +107,12 @@ def _corner(q, z, y, plan, view, image):
 
 @kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
 def _contained_points(count, side, view, lower_face, upper_face, work, points):
-    """Keep the points of one outline, or the other, that lie within the other one.
+    """Add the points of either outline that lie inside the other one.
 
     Parameters
     ----------
     work : (7, 18) array
-        The four axes of :func:`lowest_rim_point`, two rows of scratch, and the direction of the first point of the rim below, x and y.
+        The four axes of :func:`lowest_rim_point`, two rows of scratch, and the direction of the first point of the lower rim, x and y.
     """
     y, normal = work[4], work[5]
     normal[0], normal[1], normal[2] = 0.0, 0.0, side
@@ -126,6 +128,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
             count = _add_point(count, side * (y[2] - lower_face[3]), y, normal, is_lowest, points)
     for i in range(3):
         normal[i] = view[3 * i + 2] if side * view[8] > 0.0 else -view[3 * i + 2]
+    # points of the lower outline inside the upper one, at quarter turns from its first point
     e0, e1 = work[6, 0], work[6, 1]
     for q in range(4):
         e, f = (1.0 if q == 0 else -1.0 if q == 2 else 0.0), (1.0 if q == 1 else -1.0 if q == 3 else 0.0)
@@ -142,7 +145,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
 
 @kernel(_t.float64(_t.float64, VECTOR, VECTOR, VECTOR, MATRIX), inline=True)
 def _rim_excess(angle, view, lower_face, upper_face, work):
-    """Write the point of a rim at an angle from its lowest, and the direction there; return how far it lies beyond a round face, m^2."""
+    """Write a rim point and its tangent at an angle from the lowest point; return x^2 + y^2 - R^2, m^2 (derived here)."""
     u, w, y, direction = work[2], work[3], work[4], work[5]
     c, s = math.cos(angle), math.sin(angle)
     for i in range(3):
@@ -153,7 +156,7 @@ def _rim_excess(angle, view, lower_face, upper_face, work):
 
 @kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
 def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
-    """Keep the points where the rims of two round faces cross, seen from above: sought on arcs, then by the rule of false position."""
+    """Add the crossings of the rims of two round faces in plan: bracketed on arcs, refined by false position (Illinois)."""
     y, direction, tangent, normal = work[4], work[5], work[6], work[7]
     distance = math.sqrt((view[REL_D] + upper_face[3] * view[2]) ** 2 + (view[REL_D + 1] + upper_face[3] * view[5]) ** 2)
     if distance < max(FACE_MARGIN, abs(upper_face[0] - lower_face[0])):  # one lies within the other, or they are one
@@ -166,6 +169,7 @@ def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
         first = at_high
         if (at_low > 0.0) == (at_high > 0.0):
             continue
+        # Illinois variant of false position: halving the kept end value avoids slow one-sided convergence
         for _ in range(REFINEMENTS):
             middle = low + (high - low) * at_low / (at_low - at_high)
             at_middle = _rim_excess(middle, view, lower_face, upper_face, work)
@@ -181,17 +185,17 @@ def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
 
 @kernel(_t.int64(_t.int64, _t.float64, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
 def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
-    """Keep the points where the sides of a rectangular face cross the rim of a round one, seen from above along the normal of the lower."""
+    """Add the crossings of the sides of a rectangular face with the rim of a round one, in plan along the lower normal."""
     y, direction, tangent, normal, ends = work[4], work[5], work[6], work[7], work[8:12]
     radius = max(lower_face[0], upper_face[0])
     for q in range(4):
         end = ends[q]
         if lower_face[0] > 0.0:
-            # a corner of the upper face as the lower one sees it: there is the rim
+            # corner of the upper face in the lower stone's axes, where the rim is
             _corner(q, upper_face[3], end[6:], upper_face, view, end[3:])
             end[0], end[1] = end[3], end[4]
         else:
-            # a corner of the lower face lifted onto the upper one, and where that is in its axes
+            # corner of the lower face projected onto the upper one, in the upper stone's axes
             end[3], end[4] = (lower_face[1] if q == 0 or q == 3 else -lower_face[1]), (lower_face[2] if q < 2 else -lower_face[2])
             end[5] = _plane_height(end[3], end[4], view, upper_face[3])
             for i in range(2):
@@ -202,6 +206,7 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
         start, finish = ends[q], ends[(q + 1) % 4]
         e0, e1 = finish[0] - start[0], finish[1] - start[1]
         a, b, c = e0 * e0 + e1 * e1, start[0] * e0 + start[1] * e1, start[0] ** 2 + start[1] ** 2 - radius * radius
+        # side and circle intersect where |start + s e| = radius, a quadratic in s
         root = b * b - a * c
         if root <= 0.0:
             continue
@@ -225,20 +230,20 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, LAYOUT, VECTOR, MATRIX, MATRIX))
 def face_overlap_points(c, p, rel, pile, axis, work, points):
-    """Write where two facing stones, one of them round, lie over each other; return how many points.
+    """Write the contact manifold of two facing stones, at least one of them round; return its number of points.
 
     Parameters
     ----------
     c, p : int
-        The carrier and the partner.
+        Carrier and partner.
     rel : (18,) array
     axis : (10,) array
-        The normal of the face that shows most, out of the partner, in its axes, and 1 behind it where it is that of the carrier's; and from
-        the fifth on the directions to take where there is no lean, of the carrier's rim (3) and of the partner's (3).
+        Normal of the reference face out of the partner, in its axes, and 1 if the reference face is the carrier's; from column 4 on the
+        fallback directions without a lean, of the carrier's rim (3) and of the partner's (3).
     work : (15, 18) array
-        Scratch: the view, both outlines, the four axes of :func:`lowest_rim_point`, and eight rows more.
+        Scratch: the view, both outlines, the four axes of :func:`lowest_rim_point`, and eight more rows.
     points : (16, 18) array
-        x, y, z in the partner's axes, the gap, whether the point is the lowest of a rim, and the normal out of the partner.
+        Result: x, y, z in the partner's axes, gap, m, 1 for the lowest point of a rim, and the normal out of the partner.
     """
     view, lower_face, upper_face, axes = work[0], work[1], work[2], work[3:15]
     side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
@@ -250,6 +255,7 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
         for j in range(3):
             view[3 * i + j] = rel[3 * j + i]
         view[REL_D + i] = -(rel[i] * rel[9] + rel[3 + i] * rel[10] + rel[6 + i] * rel[11])
+    # the face with the wider gap is the reference, as in the separating-axis test
     is_flipped = _face_gap(upper_side, view, upper_face, lower_face) > gap + AXIS_BIAS
     if is_flipped:
         side = upper_side
@@ -276,6 +282,7 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
     else:
         count = _side_rim_points(count, side, view, lower_face, upper_face, axes, points)
     if is_flipped:
+        # back to the partner's axes
         for q in range(count):
             a0, a1, a2 = points[q, 0], points[q, 1], points[q, 2]
             n0, n1, n2 = points[q, POINT_NORMAL], points[q, POINT_NORMAL + 1], points[q, POINT_NORMAL + 2]

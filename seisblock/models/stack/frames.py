@@ -1,7 +1,7 @@
-"""How a pile is laid out in arrays, and how one box sees another.
+"""Columns of bodies, inertias and boxes; rotation and relative state of two boxes.
 
-Stones are rigid bodies of one or more boxes (dowelled stones are one body); the ground is one more body that never moves. Axes are those
-of the ground, which shakes but does not turn: positions and velocities are relative to it.
+Stones are rigid bodies of one or more boxes (stones joined by dowels are one body); the ground is one more body that never moves. The
+axes are those of the ground, which shakes without rotation: positions and velocities are relative to it.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def update_rotation_matrix(b):
 
 @kernel(_t.void(VECTOR, VECTOR), inline=True)
 def update_spin(b, inertia):
-    """Write a body's spin from its angular momentum and its axes."""
+    """Write a body's spin from its angular momentum and its rotation matrix."""
     l0 = b[R] * b[L] + b[R + 3] * b[L + 1] + b[R + 6] * b[L + 2]
     l1 = b[R + 1] * b[L] + b[R + 4] * b[L + 1] + b[R + 7] * b[L + 2]
     l2 = b[R + 2] * b[L] + b[R + 5] * b[L + 1] + b[R + 8] * b[L + 2]
@@ -56,7 +56,7 @@ def update_spin(b, inertia):
 
 @kernel(_t.void(VECTOR, _t.float64), inline=True)
 def rotate(b, dt):
-    """Turn a body's quaternion by its spin over a step (Cayley's form, which keeps it a unit)."""
+    """Rotate a body's quaternion by its spin over a step (Cayley's form, normalised)."""
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
     h = 0.5 * dt
     p0, p1, p2 = h * b[W], h * b[W + 1], h * b[W + 2]
@@ -71,7 +71,7 @@ def rotate(b, dt):
 
 @kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
 def box_offset(b, box, r):
-    """Write where the centre of a box is from the centre of its body, in the ground's axes."""
+    """Write the offset of a box's centre from its body's centre, in the ground's axes, m."""
     a0, a1, a2 = box[BOX_CENTRE], box[BOX_CENTRE + 1], box[BOX_CENTRE + 2]
     if a0 == 0.0 and a1 == 0.0 and a2 == 0.0:
         r[0] = 0.0
@@ -85,7 +85,7 @@ def box_offset(b, box, r):
 
 @kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX, INTEGERS, MATRIX, VECTOR))
 def relative_state(carrier, partner, bodies, boxes, owner, arms, rel):
-    """Write the state of one box as another sees it: its axes, its centre, its velocity there, its spin."""
+    """Write the state of the carrier in the partner's axes: axes, centre, velocity there and relative spin."""
     c = bodies[owner[carrier]]
     p = bodies[owner[partner]]
     rc, rp = arms[0], arms[1]
@@ -109,7 +109,7 @@ def relative_state(carrier, partner, bodies, boxes, owner, arms, rel):
 
 @kernel(_t.void(VECTOR, VECTOR, MATRIX, VECTOR))
 def apply_contact_force(c, p, arms, total):
-    """Add a sum of contact forces to the carrier's body, and its opposite to the partner's; zero the sum."""
+    """Add a sum of contact forces to the carrier's body and its opposite to the partner's; zero the sum."""
     f0 = p[R] * total[0] + p[R + 1] * total[1] + p[R + 2] * total[2]
     f1 = p[R + 3] * total[0] + p[R + 4] * total[1] + p[R + 5] * total[2]
     f2 = p[R + 6] * total[0] + p[R + 7] * total[1] + p[R + 8] * total[2]

@@ -1,19 +1,19 @@
-"""Where a point begins to slide, comes to rest or turns within a step: what friction does before, and what it does after.
+"""Coulomb friction within a step: onset of sliding, stop of sliding, and turning of the slip direction.
 
-Velocities change over the step by one impulse. Where a point slid along s (a unit vector) and comes to rest after the part f of the step,
-kinetic friction acted against s until then, and the rest of the step obeys Coulomb's law from rest: the impulse lies in the shifted cone
+One impulse changes the velocities of a step. If a point slides along s (unit vector) and stops after the fraction f of the step, kinetic
+friction acts against s until then, and Coulomb's law from rest holds for the remainder: the impulse lies in the shifted cone
 
     P_t = -mu_k f s P_n + Q ,   |Q| <= mu (1 - f) P_n ,   mu = mu_s where it stays, mu_k where it slides on   (derived here).
 
-What comes to rest changes what others have to bear: where several points stop in a step, the first ones do, and the others are looked at
-again with what these do afterwards. Slabs with the same friction in all joints slide as one; the upper one is at its cone then, and nothing
-would brake it that slid on alone where the lower one turns.
+A stopping point changes the load of the others: if several points stop in a step, the first ones are fixed and the others are solved
+again. Slabs with equal friction in all joints slide as one body, the upper joint at its limit; without this order nothing would brake
+the upper slab when the lower one turns.
 
-Where a point goes on sliding, f = 1/2: half of the friction is against where it went, half against where it goes, which follows a direction
-that turns to the second order of the step. It turns most sharply where it is slowest: a step ends where the slip has turned far, under the
-forces of before. Where it begins to slide, friction is static up to then; when
-that is follows from the forces of the step before and of this one. Friction by the velocity at the end of a step alone would brake what
-turns within it, by mu_k g of a step's velocity on average, and hold for a step more what begins to slide.
+A point that keeps sliding has f = 1/2: half of the friction acts against the old direction, half against the new one, which follows a
+turning direction to second order in the step. The direction turns fastest where the slip is slowest, so a step ends where the slip would
+turn too far under the previous forces. A point that starts to slide has static friction until then; the instant follows from the forces
+of the previous and of the present step. Friction against the velocity at the end of the step alone would oppose a turning slip by mu_k g
+times the step on average, and hold a starting slip for one step too long.
 """
 
 from __future__ import annotations
@@ -47,29 +47,28 @@ from seisblock.models.stack.spring_contact import CACHED_FORCE
 _t = types()
 
 SLIP_THRESHOLD = 3e-3
-"""Speed, over that of a free fall of a step, beyond which a point slides; sweeps end below a sixth of it."""
+"""Slip speed, over the speed of a free fall of a step, above which a point slides; the sweeps converge to less than a sixth of it."""
 
 SATURATION = 1.0 - 1e-6
-"""Part of what friction can do that it does where a point slides."""
+"""Share of the friction limit from which a point counts as sliding."""
 
 MAX_TRIES = 16
-"""How often the impulses of a step are looked for at most."""
+"""Largest number of solutions of a step with updated friction cones."""
 
 STOP_WINDOW = 0.1
-"""Part of a step within which points come to rest together; what would do so later is looked at again with what these do afterwards."""
+"""Share of a step within which stops count as simultaneous; later stops are decided again after the first ones."""
 
 MAX_SLIP_TURN, MIN_TURN_RATIO, MIN_STEP_RATIO = 0.3, 0.05, 0.0625
-"""Tangent of the angle by which a slip may turn until a step ends; what turns it aside, over what brakes it, from which it turns and does
-not stop; and the least step that has such an end, over a whole one."""
+"""Tangent of the angle by which a slip may turn within a step; lateral over braking acceleration above which a slip turns rather than
+stops; and shortest step that ends for this reason, over a full step."""
 
 SLIP_UNCHANGED, SLIP_STOPS, SLIP_REDIRECTS, SLIP_BEGINS, SLIP_DECIDED = range(5)
-"""What a point does in a step, as far as is known: what it did; it stops; it stopped, and stays or goes another way; it begins to slide;
-and no more is asked."""
+"""Slip state of a point in a step: as before; stops; has stopped, and stays or leaves in another direction; starts to slide; decided."""
 
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.int64, _t.int64, VECTOR, MEMORY), inline=True)
 def sliding_velocity(a, b, row, memory):
-    """Return the velocity with which a point slides at the end of the step."""
+    """Return the tangential velocity of a contact at the end of the step."""
     u0, u1, u2 = relative_velocity(a, b, row, memory.body_velocities)
     u0, u1, u2 = u0 + row[ROTATION_BIAS], u1 + row[ROTATION_BIAS + 1], u2 + row[ROTATION_BIAS + 2]
     normal_speed = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
@@ -78,10 +77,11 @@ def sliding_velocity(a, b, row, memory):
 
 @kernel(_t.void(_t.int64, _t.boolean, MEMORY))
 def record_slip(count, all_contacts, memory):
-    """Note how points slide before the step's impulses: those that slid, or, `all_contacts`, all that touch."""
+    """Store direction and speed of the slip before the impulses of the step: of the sliding points, or of all closed contacts."""
     threshold = SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED]
     for i in range(count):
         row = memory.constraint_rows[i]
+        # after an impact every closed contact may have started to slide
         if all_contacts:
             row[WAS_SLIDING] = 1.0 if row[GAP] <= 0.0 else 0.0
         if row[WAS_SLIDING] == 0.0:
@@ -100,12 +100,12 @@ def record_slip(count, all_contacts, memory):
 
 @kernel(_t.float64(_t.int64, _t.float64, _t.float64, _t.float64, MEMORY))
 def max_turn_time(count, duration, time_before, time_left, memory):
-    """Return when what slides will have turned far, s, at the latest what is left of the step.
+    """Return the time until a slip has turned too far, s, at most the remainder of the step.
 
     Parameters
     ----------
     duration, time_before : float, s
-        For how long the velocities have gone on since they were noted, under the forces in the rows; and for how long of it to the step.
+        Time over which the velocities were advanced since the slip was recorded, with the forces in the rows; and its part up to the step.
     """
     min_time = time_left
     for i in range(count):
@@ -115,16 +115,18 @@ def max_turn_time(count, duration, time_before, time_left, memory):
         u0, u1, u2 = relative_velocity(memory.contact_ids[i, 0], memory.contact_ids[i, 1], row, memory.body_velocities)
         normal_speed = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
         slip_speed = u0 * row[SLIP_DIRECTION] + u1 * row[SLIP_DIRECTION + 1] + u2 * row[SLIP_DIRECTION + 2]
+        # change of the slip since it was recorded, across and along its direction
         lateral_rate = math.sqrt(max(u0 * u0 + u1 * u1 + u2 * u2 - normal_speed * normal_speed - slip_speed * slip_speed, 0.0)) / duration
         deceleration = (row[SLIP_SPEED] - slip_speed) / duration
         if lateral_rate > MIN_TURN_RATIO * deceleration and lateral_rate + MAX_SLIP_TURN * deceleration > 0.0:
             min_time = min(min_time, 2.0 * (row[SLIP_SPEED] * MAX_SLIP_TURN / (lateral_rate + MAX_SLIP_TURN * deceleration) - time_before))
+    # a lower bound keeps a slip that nearly stops from cutting the step to nothing
     return min(time_left, max(min_time, MIN_STEP_RATIO * memory.step_info[FULL_STEP]))
 
 
 @kernel(_t.void(VECTOR, _t.float64, _t.float64), inline=True)
 def _set_cone(row, cone_offset, cone_width):
-    """Lay the cone of a point that slid: friction against where it went, and the width of the cone about it."""
+    """Shift the friction cone of a sliding point against its direction, and set the width about the shifted centre."""
     row[MU] = cone_width
     for k in range(3):
         row[CONE_CENTRE + k] = -cone_offset * row[SLIP_DIRECTION + k]
@@ -132,13 +134,15 @@ def _set_cone(row, cone_offset, cone_width):
 
 @kernel(_t.void(_t.int64, MEMORY))
 def set_friction_cones(count, memory):
-    """Let what slid go on sliding, and what did not cling.
+    """Set the friction cones at the start of a step: sliding continues, sticking continues.
 
-    Stones that no longer stand have friction by the velocity at the end of the step: among them a shifted cone might press without end.
+    Contacts of stones that no longer stand take friction against the velocity at the end of the step: a shifted cone between them may let
+    the impulses grow without bound.
     """
     for i in range(count):
         row = memory.constraint_rows[i]
         row[SLIP_STATE] = SLIP_UNCHANGED if row[IS_STANDING] > 0.0 else SLIP_DECIDED
+        # f = 1/2: half of the friction against the old direction, half in a cone about it
         if row[IS_STANDING] > 0.0 and row[WAS_SLIDING] > 0.0:
             _set_cone(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
         else:
@@ -147,7 +151,7 @@ def set_friction_cones(count, memory):
 
 @kernel(_t.float64(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, MEMORY))
 def _previous_friction_ratio(i, count, x, y, z, memory):
-    """Return what two bodies' friction against a direction was in the step before, over what pressed; nothing where nothing pressed."""
+    """Return the friction of two bodies against a direction in the previous step over their normal force; 0 without contact."""
     contact_ids, n, normal_force, friction = memory.contact_ids, memory.constraint_rows[i], 0.0, 0.0
     for j in range(count):
         if contact_ids[j, BODY_IDS] != contact_ids[i, BODY_IDS] or contact_ids[j, BODY_IDS + 1] != contact_ids[i, BODY_IDS + 1]:
@@ -161,13 +165,13 @@ def _previous_friction_ratio(i, count, x, y, z, memory):
 
 @kernel(_t.float64(_t.float64, _t.float64), inline=True)
 def _stopping_fraction(start_speed, end_speed):
-    """Return after which part of the step a point comes to rest that is braked from one speed to another; 1 where it does not."""
+    """Return the fraction of the step after which a point stops that decelerates between two speeds; 1 if it does not stop."""
     return start_speed / (start_speed - end_speed) if end_speed < 0.0 else 1.0
 
 
 @kernel(_t.float64(_t.int64, MEMORY), inline=True)
 def _first_stop(count, memory):
-    """Return after which part of the step the first of the points comes to rest that may stop, while all of these are braked."""
+    """Return the fraction of the step after which the first stopping point stops while all of them are braked."""
     min_time = 1.0
     for i in range(count):
         row = memory.constraint_rows[i]
@@ -183,8 +187,9 @@ def _first_stop(count, memory):
 
 @kernel(_t.boolean(_t.int64, _t.boolean, MEMORY), inline=True)
 def _update_cones(count, has_impact, memory):
-    """Look at what points do with the impulses that were tried, and lay their cones anew; return whether another try is wanted."""
+    """Update slip states and friction cones from a trial solution; return whether another one is needed."""
     threshold, needs_retry = SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED], False
+    # the first stops are decided with all later ones still braked
     first_stop = _first_stop(count, memory)
     for i in range(count):
         row = memory.constraint_rows[i]
@@ -202,6 +207,7 @@ def _update_cones(count, has_impact, memory):
                 needs_retry = True
         elif row[SLIP_STATE] == SLIP_STOPS:
             fraction = _stopping_fraction(row[SLIP_SPEED], end_speed)
+            # stops later than the first ones, or not at all: braked as before, and tested again
             if fraction == 1.0 or fraction > first_stop + STOP_WINDOW:
                 row[SLIP_STATE] = SLIP_UNCHANGED if fraction > first_stop + STOP_WINDOW else SLIP_DECIDED
                 _set_cone(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
@@ -211,6 +217,7 @@ def _update_cones(count, has_impact, memory):
             needs_retry = True
         elif row[SLIP_STATE] == SLIP_REDIRECTS:
             if speed > threshold and row[KINETIC] < row[STATIC]:
+                # slides on in another direction: the remainder of the cone has the kinetic coefficient
                 row[MU] *= row[KINETIC] / row[STATIC]
                 needs_retry = True
             row[SLIP_STATE] = SLIP_DECIDED
@@ -218,12 +225,14 @@ def _update_cones(count, has_impact, memory):
             row[SLIP_STATE] = SLIP_DECIDED
             gain = speed - row[SLIP_SPEED]
             if not has_impact and gain > 0.0:
+                # onset within the step: static friction until then, kinetic afterwards, by linear change of the friction
                 excess = (row[STATIC] - row[KINETIC]) * row[SLIP_SPEED] / gain
                 rise = row[STATIC] + excess - _previous_friction_ratio(i, count, u0 / speed, u1 / speed, u2 / speed, memory)
                 fraction = 0.5 + (min(excess / rise, 1.0) if rise > 0.0 else 1.0)
                 row[MU] = max(row[STATIC] - fraction * (row[STATIC] - row[KINETIC]), 0.0)
                 needs_retry = True
         elif row[WAS_SLIDING] == 0.0 and row[KINETIC] < row[STATIC] and speed > threshold:
+            # slip at the limit of the static cone marks the onset of sliding
             friction_squared = p0 * p0 + p1 * p1 + p2 * p2 - normal_impulse * normal_impulse
             if friction_squared >= (SATURATION * row[MU] * normal_impulse) ** 2:
                 row[SLIP_STATE] = SLIP_BEGINS
@@ -235,7 +244,7 @@ def _update_cones(count, has_impact, memory):
 
 @kernel(_t.boolean(_t.int64, MEMORY), inline=True)
 def _has_shifted_cone(count, memory):
-    """Whether the cone of a point is shifted."""
+    """Return whether any friction cone is shifted."""
     for i in range(count):
         row = memory.constraint_rows[i]
         if row[CONE_CENTRE] != 0.0 or row[CONE_CENTRE + 1] != 0.0 or row[CONE_CENTRE + 2] != 0.0:
@@ -245,10 +254,11 @@ def _has_shifted_cone(count, memory):
 
 @kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def solve_friction(count, n, has_impact, pile, memory):
-    """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took.
+    """Solve the impulses of a step, repeated while points start or stop sliding; return the sweeps of the last solution.
 
-    Impulses in cones about their normals take energy ([Moreau1988]_); in shifted ones they may give it, and press without end where a
-    point's friction lifts it (Painleve). What gives energy is not friction: the step then has friction by the velocity at its end.
+    Impulses in cones about the normals dissipate energy ([Moreau1988]_). In shifted cones they may create it, or grow without bound where
+    friction lifts the point (Painleve). A solution that creates energy is replaced by one with friction against the velocity at the end of
+    the step.
     """
     contact_ids, rows, velocities, sweeps, tolerance = (
         memory.contact_ids,
@@ -259,6 +269,7 @@ def solve_friction(count, n, has_impact, pile, memory):
     )
     for attempt in range(MAX_TRIES):
         sweeps = solve_pgs(count, contact_ids, rows, n, pile.inertias, tolerance, velocities)
+        # each try updates the cones at least of one point; MAX_TRIES bounds the cost
         if sweeps == 0 or attempt == MAX_TRIES - 1 or not _update_cones(count, has_impact, memory):
             break
     if _has_shifted_cone(count, memory):
@@ -267,6 +278,7 @@ def solve_friction(count, n, has_impact, pile, memory):
         gains_energy = creates_energy(count, contact_ids, rows, tolerance, velocities)
     if sweeps > 0 and not gains_energy:
         return sweeps
+    # fall back to centred cones, whose impulses dissipate
     for i in range(count):
         centre_friction_cone(memory.constraint_rows[i])
     return solve_contacts(count, contact_ids, rows, n, pile.inertias, tolerance, velocities)

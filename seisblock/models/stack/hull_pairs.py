@@ -1,4 +1,4 @@
-"""Two boxes, sharp or worn: how far they are apart, and where they would meet."""
+"""Gap and contact manifold of two boxes, dispatched to the sharp or the chamfered separating-axis test."""
 
 from __future__ import annotations
 
@@ -14,30 +14,29 @@ from seisblock.models.stack.chamfered_faces import MAX_CHAMFERED_POINTS, face_ma
 _t = types()
 
 SHARP_CORNERS = 8
-"""Corners of a box whose faces are not worn."""
+"""Corners of a box without worn faces."""
 
 BEVEL_REACH_RATIO = 0.25
-"""Part of its height over the worn face at which the upper border of a bevel is looked at."""
+"""Share of a bevel's height over the worn face below which its upper border is tested for contact."""
 
 HULL_SCRATCH, FACE_SCRATCH = 4, 30
-"""Where scratch begins for what a box sees of another: of all of it, while no points are found; and of an edge or a face."""
+"""First rows of scratch for a transformed hull (while no manifold exists), and for an edge or a face."""
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, LAYOUT), inline=True)
 def _both_sharp(c, p, pile):
-    """Whether neither of two boxes is worn."""
     return pile.counts[c] <= SHARP_CORNERS and pile.counts[p] <= SHARP_CORNERS
 
 
 @kernel(_t.int64(_t.int64, _t.int64, LAYOUT), inline=True)
 def max_contact_points(c, p, pile):
-    """Return at how many points two boxes may touch at most."""
+    """Return the largest number of contact points of two boxes."""
     return MAX_POINTS if _both_sharp(c, p, pile) else MAX_CHAMFERED_POINTS
 
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.int64, _t.float64, LAYOUT, MATRIX, VECTOR), inline=True)
 def gap_between(rel, c, p, cutoff, pile, work, axis):
-    """Return the widest gap between a carrier and a partner, and write its axis: see :func:`separating_axis`."""
+    """Return the widest gap between carrier and partner and write its axis: see :func:`separating_axis`."""
     if _both_sharp(c, p, pile):
         return separating_axis(rel, pile.cores[c], pile.cores[p], cutoff, axis)
     return separating_axis_chamfered(rel, c, p, cutoff, pile, work[HULL_SCRATCH:], axis)
@@ -45,7 +44,7 @@ def gap_between(rel, c, p, cutoff, pile, work, axis):
 
 @kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, VECTOR), inline=True)
 def edges_cross(rel, c, p, pile, axis, work, y):
-    """Write where edges are nearest to each other, and return whether they cross there: see :func:`edge_edge`."""
+    """Write the nearest points of the two edges of an edge-edge axis and return whether they cross: see :func:`edge_edge`."""
     if _both_sharp(c, p, pile):
         return edge_edge(rel, pile.cores[c], pile.cores[p], axis, y)
     return edge_edge_chamfered(rel, c, p, pile, axis, work[FACE_SCRATCH:], y)
@@ -53,7 +52,7 @@ def edges_cross(rel, c, p, pile, axis, work, y):
 
 @kernel(_t.int64(VECTOR, _t.int64, _t.int64, LAYOUT, VECTOR, MATRIX, _t.float64, MATRIX, MATRIX), inline=True)
 def faces_overlap(rel, c, p, pile, axis, work, max_gap, points, buffer):
-    """Write where faces lie over each other, and return at how many points: see :func:`face_manifold`."""
+    """Write the contact manifold of two faces and return its number of points: see :func:`face_manifold`."""
     if _both_sharp(c, p, pile):
         return face_manifold(rel, pile.cores[c], pile.cores[p], axis[FACE_AXIS:], work[1], points, buffer)
     return face_manifold_chamfered(rel, c, p, pile, axis[FACE_AXIS:], work[FACE_SCRATCH:], max_gap, points, buffer)
@@ -61,11 +60,12 @@ def faces_overlap(rel, c, p, pile, axis, work, max_gap, points, buffer):
 
 @kernel(_t.boolean(VECTOR, _t.int64, _t.int64, _t.float64, _t.float64, LAYOUT))
 def bevel_touches(rel, c, p, sigma, max_gap, pile):
-    """Whether a stone leans so far that a bevel of it comes to lie on the face its joint is on: -1, on the upper one, or +1."""
+    """Return whether a bevel of a leaning stone touches the face its joint lies on; sigma is -1 on the partner's upper face, else +1."""
     level = pile.cores[c, 2]
     for i in range(SHARP_CORNERS, pile.counts[c]):
         r = pile.corners[c, i]
         gap = -sigma * (rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]) - pile.cores[p, 2]
+        # the upper border of the bevel has come down most of its height
         if gap < min(max_gap, BEVEL_REACH_RATIO * (level - sigma * r[2])):
             return True
     return False
@@ -73,7 +73,7 @@ def bevel_touches(rel, c, p, sigma, max_gap, pile):
 
 @kernel(_t.boolean(MATRIX, _t.int64, _t.float64, _t.float64, _t.float64))
 def face_supports(corners, count, x, y, z):
-    """Whether of the corners of a box one of a face lies furthest along a direction, and none where a bevel ends on the sides."""
+    """Return whether the support point along a direction is a corner of a face, not the upper end of a bevel."""
     face, bevel = -math.inf, -math.inf
     for i in range(count):
         projection = x * corners[i, 0] + y * corners[i, 1] + z * corners[i, 2]

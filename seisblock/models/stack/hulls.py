@@ -1,4 +1,4 @@
-"""The outsides of the stones: corners and edges of the boxes, circles of the round ones, worn where they stand."""
+"""Hulls of the stones: corners, edges and face planes of boxes, bounding circles of cylinders, chamfered where worn."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from seisblock.models.stack.step import BOX_EDGES
 MAX_CORNERS = 16
 
 INSCRIBED_SQUARE_RATIO = math.sqrt(0.5)
-"""Half the side of the square in a circle, over its radius."""
+"""Half side of the square inscribed in a circle over its radius."""
 
 WearDepths = dict[tuple[int, int], tuple[float, float]]
-"""How far in from its sides a stone's lower face, 0, or upper face, 1, is worn, along x and y, m."""
+"""Edge wear, m, along x and y, by stone and face (0 lower, 1 upper)."""
 
 _SIGNS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
 _RINGS = [(i, (i + 1) % 4) for i in range(4)]
 
 
 def build_hulls(body: Pile, boxes: FloatArray, wear: WearDepths) -> tuple[FloatArray, IntArray, IntArray, FloatArray, FloatArray]:
-    """Return corners, with planes behind them, and edges of the boxes, how far their flat sides reach, and the circles of the round ones.
+    """Return corners with face planes, their number, edges, half sizes and bounding circles of the boxes.
 
-    A worn face has its corners that far in, at the outermost points, and a bevel of 45 degrees leads to the sides. Where it has tilted
-    off its joint, a round stone meets others as the square prism inside it.
+    A worn face has its corners moved inwards by the wear, and bevels of 45 degrees lead to the sides. Off its joint, a cylinder touches
+    other stones as the inscribed square prism.
     """
     corners = np.zeros((len(boxes), MAX_CORNERS, PLANE + 4))
     counts = np.zeros(len(boxes), dtype=np.int64)
@@ -64,7 +64,7 @@ def build_hulls(body: Pile, boxes: FloatArray, wear: WearDepths) -> tuple[FloatA
 
 
 def _planes(points: list[tuple[float, float, float]]) -> list[tuple[float, float, float, float]]:
-    """Return normals and offsets of the faces between rings of four corners, counted from below, and of the lower and the upper face."""
+    """Return normals and offsets of the faces: between rings of four corners, from below, then the lower and the upper face."""
     # of each ring the corner where x and y are greatest
     rings = [points[2], *points[10::4], points[6]]
     planes = []

@@ -1,10 +1,10 @@
-"""What the points of a joint make of a stone's base: about which lines it turns, and what an impact leaves of its turning.
+"""Effective base of a stone on discrete contact points: pivot distance and restitution.
 
-n x n points at the centres of equal segments put the outermost ones at (1 - 1/n) of the half width b. A stone turns about those, so that
-it leans only to (1 - 1/n) b/h before it falls: it stands as if it were that much narrower. An impact about them leaves more of the turning,
-1 - 2 m b'^2 / (I + m (h^2 + b'^2)) with b' = (1 - 1/n) b (derived here; [Housner1963]_ for b' = b): 0.87 for 0.81 at h/b = 2.6 and n = 5.
-On springs the inner points, which strike within the same few milliseconds, take a part of the impulse besides, nearer to the middle
-than the pivot; that leaves still more, and how much hangs on the springs: it is found by letting the stone rock once.
+n x n points at the centres of equal segments put the outermost ones at (1 - 1/n) of the half width b. The stone pivots about those and
+overturns at a tilt of (1 - 1/n) b/h, as if it were narrower. The restitution of an impact about them is larger,
+1 - 2 m b'^2 / (I + m (h^2 + b'^2)) with b' = (1 - 1/n) b (derived here; [Housner1963]_ for b' = b): 0.87 instead of 0.81 at h/b = 2.6
+and n = 5. On springs the inner points strike within the same milliseconds and take part of the impulse nearer to the centre than the
+pivot, which raises the restitution further. That share depends on the springs and is found by simulating one rocking cycle.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from seisblock.models.stack.static_equilibrium import steps_per_sample
 from seisblock.records.motion import Motion
 
 RELEASE_TILT_RATIO = 0.5
-"""Lean, over the greatest from which the stone comes back, at which it is let go to see what an impact leaves."""
+"""Tilt of release for the simulated impact, over the overturning angle."""
 
 HIGH_FRICTION = 5.0
-"""Friction with which nothing slides meanwhile."""
+"""Friction coefficient that excludes sliding in that simulation."""
 
 
 @dataclass(frozen=True)
 class EffectiveBase:
-    """What the contact points make of the base of a pile's top stone, taken alone on rigid ground, along x.
+    """Effective base of a pile's top stone on rigid ground, along x.
 
     Parameters
     ----------
     stone : str
     width_ratio : float, 1
-        Distance of the lines about which it turns, over its width.
+        Distance between the pivots over the width of the stone.
     restitution : float, 1
         Angular velocity after an impact over that before.
     housner_ratio : float, 1
-        The same on its edges ([Housner1963]_).
+        Restitution of the same stone on its edges ([Housner1963]_).
     """
 
     stone: str
@@ -53,15 +53,15 @@ class EffectiveBase:
 
 
 def effective_base(response: Response[StackOutcome]) -> EffectiveBase:
-    """Return what the contact points of a run make of the base of the top stone.
+    """Return the effective base of the top stone of a run.
 
     Examples
     --------
     >>> from seisblock.bodies.pile.toml import load_pile
     >>> from seisblock.models.stack.solve import solve_stack
     >>> still = Motion.from_arrays(np.zeros(3), 0.01)
-    >>> found = effective_base(solve_stack(load_pile("wagata"), still, law="springs", points=5))
-    >>> found.width_ratio, round(found.restitution, 2), round(found.housner_ratio, 2)
+    >>> base = effective_base(solve_stack(load_pile("wagata"), still, law="springs", points=5))
+    >>> base.width_ratio, round(base.restitution, 2), round(base.housner_ratio, 2)
     (0.8, 0.91, 0.81)
     """
     stone = response.body.stones[-1]
@@ -77,7 +77,7 @@ def effective_base(response: Response[StackOutcome]) -> EffectiveBase:
 def compute_effective_base(
     stone: PileStone, points: int, contact: PileContact | None, restitution: float | None, gravity: float
 ) -> EffectiveBase:
-    """Return what `points` along each side make of a stone's base; a contact of None is rigid."""
+    """Return the effective base of a stone with `points` along each side; `contact` None: rigid contact."""
     width_ratio = 1.0 - 2.0 * stone.insets()[0] / stone.width if points == CORNER_POINTS else 1.0 - 1.0 / points
     sharp_restitution = housner_restitution(stone, 1.0)
     if restitution is not None:
@@ -92,16 +92,16 @@ def compute_effective_base(
 
 
 def housner_restitution(stone: PileStone, width_ratio: float) -> float:
-    """Return what an impact leaves of the turning of a block about lines at a share of its half width ([Housner1963]_).
+    """Return the restitution of a block that rocks about pivots at a share of its half width ([Housner1963]_).
 
-    A round one turns in the plane of its lean, about points of its rim; k^2 + h^2 - R^2 over k^2 + h^2 + R^2 is left (derived here).
+    For a cylinder, which rocks in the plane of its lean about points of its rim: (k^2 + h^2 - R^2) / (k^2 + h^2 + R^2) (derived here).
     """
     b, h = 0.5 * stone.width * width_ratio, 0.5 * stone.height
     return 1.0 - 2.0 * b * b / (float(stone.gyration_squared[1]) + b * b + h * h)
 
 
 def _simulate_restitution(stone: PileStone, points: int, width_ratio: float, contact: PileContact, gravity: float) -> float:
-    """Return the ratio of the angular velocities that raise a rocking stone to its leans before and after its first impact."""
+    """Return the restitution from the tilts before and after the first impact of a simulated rocking stone."""
     single_stone = Pile("alone", (replace(stone, on=GROUND, offset=(0.0, 0.0), bottom=None, mu=HIGH_FRICTION),))
     alpha = math.atan2(width_ratio * stone.width, stone.height)
     radius = 0.5 * math.hypot(width_ratio * stone.width, stone.height)
@@ -111,10 +111,12 @@ def _simulate_restitution(stone: PileStone, points: int, width_ratio: float, con
     steps = steps_per_sample(pile, zero_motion.dt, None)
     result = Simulation(pile, zero_motion, (1.0, 0.0), gravity, steps, False, True, {stone.name: RELEASE_TILT_RATIO * alpha}).run()
     lean = 2.0 * np.arctan2(result.track.quaternions[:, 0, 2], result.track.quaternions[:, 0, 0])
+    # first passage through the upright position, then the first maximum on the other side
     crossing = int(np.argmax(lean < 0.0))
     rebound_lean = -lean[crossing : crossing + 1 + int(np.argmax(np.diff(lean[crossing:]) > 0.0))].min()
 
     def height(lean: float) -> float:
         return math.cos(alpha - lean) - math.cos(alpha)
 
+    # speeds at the impact follow from the heights before and after: v^2 is proportional to the rise of the centre
     return math.sqrt(max(0.0, height(float(rebound_lean))) / height(RELEASE_TILT_RATIO * alpha))

@@ -1,10 +1,15 @@
-"""Where rigid stones meet: at the points of their joints, or where boxes that stay apart would come together."""
+"""Narrow phase: contact points of the pairs that the broad phase reports, as constraint rows.
+
+A pair in its original position touches at the points of its joint. Every other pair goes through the separating-axis test (boxes) or the
+face overlap (cylinders); its contact manifold is matched to that of the last step, which gives the warm start.
+"""
 
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.array_types import MATRIX, VECTOR
 from seisblock.models.stack.box_box import EDGE_EDGE, FACE_AXIS, KIND
+from seisblock.models.stack.broad_phase import aabbs_overlap, max_corner_speed, update_aabbs
 from seisblock.models.stack.buffers import LAYOUT, MEMORY
 from seisblock.models.stack.constraint_assembly import (
     FROM_JOINT,
@@ -21,21 +26,7 @@ from seisblock.models.stack.face_overlap import IS_LOWEST, MAX_SHARED_POINTS, PO
 from seisblock.models.stack.frames import relative_state
 from seisblock.models.stack.hull_pairs import bevel_touches, edges_cross, face_supports, faces_overlap, gap_between, max_contact_points
 from seisblock.models.stack.spring_contact import ACTIVE, CLAMP_TO_EDGE, OUTSIDE, POSITION, REL_D, RESTITUTION, SLOT
-from seisblock.models.stack.step import (
-    CARRIER,
-    LEVEL,
-    MIN_FACING_COSINE,
-    ORBITS,
-    PAIR,
-    PARTNER,
-    POINT,
-    SIGMA,
-    aabbs_overlap,
-    clear_pair,
-    is_joint_engaged,
-    max_corner_speed,
-    update_aabbs,
-)
+from seisblock.models.stack.step import CARRIER, LEVEL, MIN_FACING_COSINE, ORBITS, PAIR, PARTNER, POINT, SIGMA, clear_pair, is_joint_engaged
 from seisblock.models.stack.warm_start import (
     MAX_SHIFT_RATIO,
     distribute_load,
@@ -50,23 +41,23 @@ from seisblock.models.stack.warm_start import (
 _t = types()
 
 FACE_PAIR, BOX_PAIR = -2, -1
-"""How a pair was met last: face on face where one of them is round, else as boxes."""
+"""Kind of the last manifold of a pair: face on face with a cylinder, or box on box."""
 
 MAX_FACE_DEPTH = 1e-4
-"""How deep, m, faces may lie in each other where a pair that was met as boxes is to be met face on face."""
+"""Largest overlap, m, of two faces at which a pair may change from box-on-box to face-on-face contact."""
 
 TOUCH_GAP = 1e-6
-"""Gap, m, within which the points of a flat joint touch."""
+"""Gap, m, below which the points of a flat joint are in contact."""
 
 FLAT_TOLERANCE, UNLOADED_FACTOR, LOADED_FACTOR = 1e-6, 0.04, 8.0
-"""Cosine of a lean, less than 1 by so much, of stones that lie face on face; what of a free fall's speed, over that of the others, is
-heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps; and of
-those that did: they touch, and what was pressed unevenly in the step before seems to strike."""
+"""Flat contact: 1 - cos(lean) below the first value. Factors on the impact reference speed of contacts that carried no force, and of
+those that did: in rocking, gravity returns the stone so slowly that a point striking at low speed has been open for steps; an uneven
+load of the last step, on the other hand, must not be taken for an impact."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
-    """Make rows of the points of a joint; count in the scratch those that have left the partner's face."""
+    """Add rows for the points of a joint; count in the scratch those outside the partner's face."""
     joint, k = pile.joints[j], pile.constants[j]
     c, p, sigma = joint[CARRIER], joint[PARTNER], k[SIGMA]
     half, total, max_gap = pile.boxes[p], memory.scratch[1], max_approach(dt, memory)
@@ -105,11 +96,12 @@ def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
-    """Make rows of a box's corners that may touch the ground; return how many rows there are then."""
+    """Add rows for the corners of a box that may reach the ground; return the number of rows."""
     c, p = pile.pairs[pair, 0], pile.pairs[pair, 1]
     slots, axis = memory.corner_slots[pair, 0], memory.scratch[22]
     for i in range(3):
         axis[i] = 1.0 if i == 2 else 0.0
+    # the ground is a plane: corners are tested without a separating axis
     for i in range(pile.counts[c]):
         r = pile.corners[c, i]
         y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
@@ -127,10 +119,11 @@ def _contacts_box_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
-    """Make rows of the points where two boxes may touch; return how many rows there are then."""
+    """Add rows for the contact manifold of two boxes; return the number of rows."""
     c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
     slots, old_slots, axis, candidates = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], scratch[29], scratch[4:20]
     first_slot, max_points = 0, max_contact_points(c, p, pile)
+    # the manifold may change between steps: its points are matched to the old ones by position
     save_slots(max_points, slots, old_slots)
     gap = gap_between(rel, c, p, max_gap, pile, scratch, axis)
     if gap > max_gap:
@@ -158,7 +151,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memory):
-    """Make rows of the points of a round stone's rims that may touch the ground; return how many rows there are then."""
+    """Add rows for the rim points of a cylinder that may reach the ground; return the number of rows."""
     c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
     slots, old_slots, ground = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], bodies[bodies.shape[0] - 1]
     axis, axes, loads = memory.scratch[22], memory.scratch[4:8], memory.scratch[8:10]
@@ -172,6 +165,7 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memor
         if radius == 0.0:
             continue
         rim, old_rim = slots[4 * i : 4 * i + 4], old_slots[4 * i : 4 * i + 4]
+        # on a flat rim the four points turn with the load; if they shift too far, the load is redistributed to the new ones
         is_flat = sine == 0.0 and sum_joint_load(rim, ground, loads)
         for q in range(4):
             for j in range(SLOT):
@@ -195,10 +189,10 @@ def _contacts_cylinder_ground(count, pair, rel, max_gap, bodies, dt, pile, memor
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory):
-    """Make rows of the points where a round stone's face lies on another stone's, or under it; return how many rows there are then.
+    """Add rows for the contact manifold of a cylinder's face and another face; return the number of rows.
 
-    Stones whose outlines lie beside each other, and those that came to lie in each other's, met as the boxes inside them, are left to
-    these: return -1.
+    Return -1, which leaves the pair to the box-on-box test, if the outlines do not overlap in plan, or if stones that touched as boxes
+    overlap too far.
     """
     c, p, k, scratch = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.scratch
     slots, old_slots, axes, axis, candidates = (
@@ -214,10 +208,11 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory)
         return -1
     if memory.pair_states[pair] == BOX_PAIR:
         for i in range(points):
+            # a change of the contact model with an overlap would push the stones apart
             if candidates[i, 3] < -MAX_FACE_DEPTH:
                 return -1
     save_slots(MAX_SHARED_POINTS, slots, old_slots)
-    # the rim that rolls is the partner's where the carrier's face is the one it rolls on
+    # the rolling rim belongs to the partner if the carrier's face is the reference face
     box = p if axis[3] > 0.0 else c
     side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
     for i in range(3):
@@ -249,7 +244,7 @@ def _contacts_cylinder_face(count, pair, rel, max_gap, bodies, dt, pile, memory)
 
 @kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT))
 def _faces_aligned(rel, c, p, pile):
-    """Whether of two stones that face each other those that are not round lean no further than their bevels."""
+    """Return whether the stones of two facing ones that are boxes lean less than the slope of their bevels."""
     up = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
     if pile.rims[c, 0, RADIUS] == 0.0 and not face_supports(pile.corners[c], pile.counts[c], -up * rel[6], -up * rel[7], -up * rel[8]):
         return False
@@ -258,7 +253,7 @@ def _faces_aligned(rel, c, p, pile):
 
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _contacts_pair(count, pair, bodies, dt, pile, memory):
-    """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
+    """Add rows for the contacts of two boxes, or of a box and the ground; return the number of rows."""
     boxes, rel, start, ground, faces = pile.boxes, memory.scratch[0], count, pile.boxes.shape[0] - 1, -1
     on_ground = pile.pairs[pair, 1] == ground
     c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
@@ -280,19 +275,21 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
             row = memory.constraint_rows[i]
             row[RESTITUTION_RATIO] = restitution
             row[IS_STANDING] = 1.0
+            # the row still holds the extrapolated force of the warm start
             normal_force = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
             if normal_force > 0.0:
                 row[IMPACT_SPEED] *= LOADED_FACTOR
             elif 1.0 - rel[8] < FLAT_TOLERANCE:
                 row[IMPACT_SPEED] *= UNLOADED_FACTOR
         if 1.0 - rel[8] < FLAT_TOLERANCE and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
+            # the solver leaves the load of a flat joint in an arbitrary distribution: start from the smoothest one
             project_to_plane(start, count, TOUCH_GAP, memory.constraint_rows)
     return count
 
 
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _contacts_joint(count, j, bodies, dt, pile, memory):
-    """Make rows of the points of a joint, and of what hangs over its border."""
+    """Add rows for the points of a joint; leave the pair to the box test where points overhang the partner's face."""
     joint, k, boxes, scratch = pile.joints[j], pile.constants[j], pile.boxes, memory.scratch
     c, p, rel, total = joint[CARRIER], joint[PARTNER], scratch[0], scratch[1]
     relative_state(c, p, bodies, boxes, pile.owner, scratch[2:4], rel)
@@ -307,16 +304,16 @@ def _contacts_joint(count, j, bodies, dt, pile, memory):
 
 @kernel(_t.boolean(_t.int64, LAYOUT, MEMORY), inline=True)
 def _both_sleeping(pair, pile, memory):
-    """Whether both stones of a pair lie still, and need not be solved for."""
+    """Return whether both bodies of a pair sleep: such a pair needs no contacts."""
     a, b = pile.owner[pile.pairs[pair, 0]], pile.owner[pile.pairs[pair, 1]]
     return memory.sleep_states[a, SUPPORT_POINTS] > 0 and memory.sleep_states[b, SUPPORT_POINTS] > 0
 
 
 @kernel(_t.int64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def find_contacts(bodies, dt, refresh_bounds, pile, memory):
-    """Make rows of every contact; return how many there are.
+    """Run broad and narrow phase: write the constraint rows of all contacts and return their number.
 
-    Joints with points of their own are held by these while their stones face each other; all else is met as boxes that stay apart.
+    Joints with points of their own use these while their stones face each other; all other pairs are tested as separate hulls.
     """
     count, memory.step_info[MAX_SPEED] = 0, max_corner_speed(bodies, pile.boxes, pile.owner)
     for j in range(pile.joints.shape[0]):
@@ -332,5 +329,6 @@ def find_contacts(bodies, dt, refresh_bounds, pile, memory):
             count = _contacts_pair(count, pair, bodies, dt, pile, memory)
         elif memory.pair_states[pair] < 0:
             memory.pair_states[pair] = 0
+            # the pair has just separated: its memory must not warm-start a later contact
             clear_pair(pair, memory)
     return count

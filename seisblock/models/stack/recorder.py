@@ -1,7 +1,7 @@
-"""What is kept of a pile's run: rows where something has moved, fates, the books of energy and momentum; and when a sample is over.
+"""Output of a run: stored rows, falls, energy and momentum balance, and control of the sample loop.
 
-A row is kept at a sample where some stone has moved noticeably since the last row, and at the latest after so many samples. Work done by
-the ground, energy held and energy lost are booked at each sample: what contacts and friction have taken may only grow.
+A row is stored at a sample where a stone has moved noticeably since the last row, and at the latest after a fixed number of samples. The
+work of the ground and the mechanical energy are balanced at each sample; the dissipated energy may only grow.
 """
 
 from __future__ import annotations
@@ -31,19 +31,19 @@ STILL_SPEED = 1e-3
 
 MIN_COSINE, FALL_TIME, FALL_X, FALL_Y, TILT_LIMIT, HEIGHT_LIMIT = range(6)
 FALL_COLUMNS = 6
-"""A body's row: least cosine of its tilt, time of its fall (s, negative: none), direction of its upward axis at the fall; and when it has
-fallen: the cosine of its tilt, or the height of its centre, below which it counts as such."""
+"""A body's row: smallest cosine of its tilt, time of its fall (s, negative: none), direction of its axis at the fall (2); and the fall
+criteria: cosine of the tilt, and height of the centre, m, below which the body has fallen."""
 
-WORK, LOST, MAX_LOST, CREATED, IMPULSE, INITIAL_ENERGY, SOLVED, UNCONVERGED = 0, 1, 2, 3, 4, 7, 8, 9
+WORK, DISSIPATED, MAX_DISSIPATED, CREATED, IMPULSE, INITIAL_ENERGY, SOLVED, UNCONVERGED = 0, 1, 2, 3, 4, 7, 8, 9
 LEDGER_COLUMNS = 10
-"""Work of the ground, J; energy lost; its largest value; largest fall below that, which only an error makes; the impulse (3), N s,
-of the ground's contact and of the frame; the energy held at the start, J; and of steps of rigid stones, how many were solved, and in how
-many of them sweeps did not come to rest."""
+"""Work of the ground, J; dissipated energy; its largest value; largest drop below that, which only an integration error can cause; impulse
+of the ground contact and of the accelerated frame (3), N s; initial energy, J; number of solved steps with rigid contacts, and how many
+of them did not converge."""
 
 
 @kernel(_t.boolean(_t.int64, MATRIX, VECTOR, _t.float64), inline=True)
 def _has_moved(n, bodies, row, tolerance):
-    """Whether some stone has moved or turned by more than a tolerance since a row was kept."""
+    """Return whether a stone has moved or rotated by more than a tolerance since the stored row."""
     for i in range(n):
         for k in range(7):
             if abs(bodies[i, X + k] - row[1 + 7 * i + k]) > tolerance:
@@ -53,7 +53,6 @@ def _has_moved(n, bodies, row, tolerance):
 
 @kernel(_t.void(_t.int64, MATRIX, _t.float64, VECTOR), inline=True)
 def _write_row(n, bodies, time, row):
-    """Keep time, centres and quaternions."""
     row[0] = time
     for i in range(n):
         for k in range(7):
@@ -62,7 +61,6 @@ def _write_row(n, bodies, time, row):
 
 @kernel(_t.boolean(_t.int64, MATRIX))
 def _is_still(n, bodies):
-    """Whether every stone is still."""
     for i in range(n):
         for k in range(3):
             if abs(bodies[i, V + k]) > STILL_SPEED or abs(bodies[i, W + k]) > STILL_SPEED:
@@ -72,7 +70,7 @@ def _is_still(n, bodies):
 
 @kernel(_t.boolean(_t.int64, MATRIX, _t.float64, MATRIX))
 def detect_falls(n, bodies, time, fall_states):
-    """Follow the tilts; note the first time a stone leans too far or sinks; return whether one has just fallen."""
+    """Update the largest tilts and the first falls; return whether a stone has just fallen."""
     has_fallen = False
     for i in range(n):
         cosine = bodies[i, R + 8]
@@ -96,7 +94,7 @@ def inertial_work(n, bodies, inertias, a0, a1, a2, dt):
 
 @kernel(_t.float64(_t.int64, MATRIX, MATRIX, _t.float64, _t.float64), inline=True)
 def potential_energy_change(n, bodies, inertias, gravity, dt):
-    """Return by how much the stones' potential energy will have grown after `dt`, J."""
+    """Return the change of the stones' potential energy over `dt` at their present velocities, J."""
     rise = 0.0
     for i in range(n):
         rise += inertias[i, MASS] * bodies[i, V + 2]
@@ -105,15 +103,15 @@ def potential_energy_change(n, bodies, inertias, gravity, dt):
 
 @kernel(_t.void(VECTOR, _t.float64), inline=True)
 def update_energy_ledger(ledger, energy):
-    """Book the energy held now; what is lost may only grow."""
-    ledger[LOST] = ledger[WORK] - energy
-    ledger[MAX_LOST] = max(ledger[MAX_LOST], ledger[LOST])
-    ledger[CREATED] = max(ledger[CREATED], ledger[MAX_LOST] - ledger[LOST])
+    """Enter the present energy; any decrease of the dissipated energy is an integration error."""
+    ledger[DISSIPATED] = ledger[WORK] - energy
+    ledger[MAX_DISSIPATED] = max(ledger[MAX_DISSIPATED], ledger[DISSIPATED])
+    ledger[CREATED] = max(ledger[CREATED], ledger[MAX_DISSIPATED] - ledger[DISSIPATED])
 
 
 @kernel(_t.UniTuple(_t.float64, 3)(READ_ONLY_MATRIX, _t.int64, _t.float64), inline=True)
 def interpolate_ground(motion, sample, fraction):
-    """Return the ground acceleration along, across and up, a part of the interval after a sample."""
+    """Return the ground acceleration along, across and up, at a fraction of the interval after a sample."""
     right = min(sample + 1, motion.shape[1] - 1)
     a0 = motion[0, sample] + fraction * (motion[0, right] - motion[0, sample])
     a1 = motion[1, sample] + fraction * (motion[1, right] - motion[1, sample])
@@ -123,7 +121,7 @@ def interpolate_ground(motion, sample, fraction):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.boolean, SETTINGS, MEMORY, STATE, OUTPUT))
 def record_sample(sample, n, is_last, settings, memory, state, output):
-    """Keep a row at a sample if it is due, and the time of each touch."""
+    """Store a row at a sample if it is due, and the time of each contact."""
     counters, bodies = state
     time = sample * settings.dt
     max_row = output.rows.shape[0] - 1
@@ -146,7 +144,7 @@ def record_sample(sample, n, is_last, settings, memory, state, output):
 
 @kernel(_t.int64(READ_ONLY_MATRIX, SETTINGS, STATE))
 def steps_to_take(motion, settings, state):
-    """Return how many steps of this sample are to be taken now: none where the motion that is given ends, or the loop shall pause."""
+    """Return the number of steps of this sample to take now: 0 at the end of the given motion or when the loop should pause."""
     counters, _ = state
     s = counters[SAMPLE]
     if s < settings.last and s - counters[FIRST_SAMPLE] + 1 >= motion.shape[1]:
@@ -158,11 +156,12 @@ def steps_to_take(motion, settings, state):
 
 @kernel(_t.int64(SETTINGS, STATE))
 def finish_sample(settings, state):
-    """Go on to the next sample if all steps of this one are taken; return how the run ends, PAUSED while it does not."""
+    """Go on to the next sample once all steps of this one are taken; return the status of the run, PAUSED while it continues."""
     counters, bodies = state
     s = counters[SAMPLE]
     if counters[STEP] < (settings.steps if s < settings.last else 1):
         return PAUSED
+    # the sample of the fall is completed, so that the row and the ledger are consistent
     if counters[HAS_FALLEN] == 1:
         return STOPPED
     if s == settings.last or (s >= settings.record_end and _is_still(bodies.shape[0] - 1, bodies)):

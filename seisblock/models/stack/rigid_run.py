@@ -1,4 +1,4 @@
-"""A pile of rigid stones through one ground motion: fixed steps, each in as many parts as impacts make of it."""
+"""Time integration of a pile with rigid contacts: fixed steps, subdivided at impacts."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import math
 from seisblock._jit import kernel, types
 from seisblock.core.status import NOT_FINITE, PAUSED
 from seisblock.dynamics.array_types import READ_ONLY_MATRIX
+from seisblock.models.stack.broad_phase import BROAD_PHASE_INTERVAL
 from seisblock.models.stack.buffers import FIRST_SAMPLE, HAS_FALLEN, LAYOUT, MEMORY, OUTPUT, SAMPLE, SETTINGS, STATE, STEP
 from seisblock.models.stack.constraint_assembly import CONTACT_COUNT, LAST_STEP, SWEEP_COUNT
 from seisblock.models.stack.frames import MASS, F
@@ -27,16 +28,16 @@ from seisblock.models.stack.recorder import (
     update_energy_ledger,
 )
 from seisblock.models.stack.rigid_step import step_contacts
-from seisblock.models.stack.step import BROAD_PHASE_INTERVAL, drift, kick, mechanical_energy
+from seisblock.models.stack.step import drift, kick, mechanical_energy
 
 _t = types()
 
 
 @kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, STATE, OUTPUT), inline=True)
 def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, state, output):
-    """Take one step of rigid contacts, in as many parts as impacts make of it; return whether all is finite.
+    """Take one step, subdivided at impacts; return whether the energy is finite.
 
-    Energy is that of the new velocities at the middle of the part: gravity then does there exactly what it does to the velocities.
+    The energy is taken from the new velocities at the middle of the part: gravity then does the work that it adds to the velocities.
     """
     counters, bodies = state
     inertias, ledger, g, s = pile.inertias, output.energy_ledger, settings.gravity, counters[SAMPLE]
@@ -50,11 +51,13 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
         if memory.step_info[CONTACT_COUNT] > 0.0:
             ledger[SOLVED] += 1.0
             ledger[UNCONVERGED] += 1.0 if memory.step_info[SWEEP_COUNT] >= MAX_SWEEPS else 0.0
+        # leapfrog: velocities go from the middle of the last step to the middle of this one
         kick_time = 0.5 * (memory.step_info[LAST_STEP] + step)
         memory.step_info[LAST_STEP] = step
         ledger[IMPULSE] -= kick_time * (bodies[n, F] + total_mass * a0)
         ledger[IMPULSE + 1] -= kick_time * (bodies[n, F + 1] + total_mass * a1)
         ledger[IMPULSE + 2] -= kick_time * (bodies[n, F + 2] + total_mass * (a2 + g))
+        # trapezoidal rule: half of the work at the old velocities, half at the new ones
         ledger[WORK] -= inertial_work(n, bodies, inertias, a0, a1, a2, 0.5 * kick_time)
         kick(n, bodies, inertias, a0, a1, a2 + g, kick_time)
         ledger[WORK] -= inertial_work(n, bodies, inertias, a0, a1, a2, 0.5 * kick_time)
@@ -69,6 +72,7 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
         if s == settings.last:
             return True
         drift(n, bodies, inertias, step)
+        # exact zero at the end of the step, without round-off of the difference
         time_left = time_left - step if step < time_left else 0.0
         if detect_falls(n, bodies, (s + fraction) * settings.dt, output.fall_states) and settings.stop_at_fall:
             counters[HAS_FALLEN] = 1
@@ -83,12 +87,12 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
 
 @kernel(_t.int64(READ_ONLY_MATRIX, SETTINGS, LAYOUT, MEMORY, STATE, OUTPUT))
 def run_rigid(motion, settings, pile, memory, state, output):
-    """Follow a pile of rigid stones through a motion ([Jean1999]_) on from its cursor; return a status.
+    """Integrate a pile with rigid contacts through a motion ([Jean1999]_) from its state; return a status.
 
     Parameters
     ----------
     motion : (3, k) array, m/s^2
-        Ground acceleration along, across, up, from the sample on that the cursor names; at its end the loop pauses.
+        Ground acceleration along, across, up, from the sample `FIRST_SAMPLE` of the state; the loop pauses at its end.
     settings, pile, memory, state, output : named tuples
         See :mod:`seisblock.models.stack.buffers`.
     """

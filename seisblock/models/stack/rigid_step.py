@@ -1,9 +1,9 @@
-"""One step of a pile of rigid contacts: where the stones meet, and the impulses there.
+"""One step with rigid contacts: find contacts, resolve impacts, solve the impulses, update sleeping bodies.
 
-The leapfrog of :mod:`seisblock.models.stack.step` goes on as it is: positions at the step, velocities half a step before. Impulses act at
-the places of the step, which keeps the energy; that a point comes to rest is asked of its velocity half a step later, when the body has
-turned, so that a stone that turns about a point leaves it there to the third order of the step. What is left of a gap is made good in the
-next step and does not grow ([Moreau1988]_).
+Positions are known at the step, velocities half a step before (leapfrog, :mod:`seisblock.models.stack.step`). Impulses act at the
+positions of the step, which conserves energy. The contact condition is imposed on the velocity half a step later, with the rotation of
+the body included, so that a stone pivoting about a point leaves it there to third order in the step. A remaining gap is closed in the
+next step and does not accumulate ([Moreau1988]_).
 """
 
 from __future__ import annotations
@@ -47,15 +47,15 @@ from seisblock.models.stack.velocity_bounds import max_roll_time, set_velocity_b
 _t = types()
 
 MAX_IMPACTS = 16
-"""How often points strike in one instant at most, each time what the last impact drove together."""
+"""Largest number of successive impacts at one instant, each caused by the one before."""
 
 EXTRAPOLATION_RATIO = 0.9
-"""Of a whole step: what points that share a load do against each other then fades."""
+"""Extrapolation factor of the warm start after a full step; below 1, so that self-equilibrated contact forces decay."""
 
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY), inline=True)
 def _update_inertia(n, bodies, inertias, memory):
-    """Write the inverse inertia of the bodies as they lie, their velocities, and how their spins change by turning."""
+    """Write the inverse inertia of the bodies in the ground's axes, their velocities, and the gyroscopic change of their spins."""
     for i in range(n):
         b, v, j = bodies[i], memory.body_velocities[i], memory.inverses[i]
         for p in range(3):
@@ -69,7 +69,7 @@ def _update_inertia(n, bodies, inertias, memory):
         v[0], v[1], v[2] = b[V], b[V + 1], b[V + 2]
         for p in range(3):
             v[3 + p] = j[3 * p] * b[L] + j[3 * p + 1] * b[L + 1] + j[3 * p + 2] * b[L + 2]
-        # a body that turns on with the same angular momentum: w' = -J (w x L)
+        # constant angular momentum: w' = -J^-1 (w x L), with J^-1 in the ground's axes
         g0, g1, g2 = v[4] * b[L + 2] - v[5] * b[L + 1], v[5] * b[L] - v[3] * b[L + 2], v[3] * b[L + 1] - v[4] * b[L]
         for p in range(3):
             v[GYROSCOPIC + p] = -(j[3 * p] * g0 + j[3 * p + 1] * g1 + j[3 * p + 2] * g2)
@@ -77,7 +77,7 @@ def _update_inertia(n, bodies, inertias, memory):
 
 @kernel(_t.void(MEMORY))
 def _store_forces(memory):
-    """Keep where the next step finds them the forces that pressed, and what slid."""
+    """Store contact forces and slip states in the slots for the warm start of the next step."""
     press_time, threshold = memory.step_info[PRESS_TIME], SLIP_THRESHOLD * memory.step_info[FREE_FALL_SPEED]
     for i in range(int(memory.step_info[CONTACT_COUNT])):
         ids, row = memory.contact_ids[i], memory.constraint_rows[i]
@@ -85,6 +85,7 @@ def _store_forces(memory):
         slot = memory.joint_slots[ids[3], ids[4], ids[5]] if ids[2] == FROM_JOINT else memory.corner_slots[ids[3], ids[4], ids[5]]
         for k in range(3):
             slot[PREVIOUS_FORCE + k] = slot[CACHED_FORCE + k]
+            # an impact resets the force history: the load may have moved to other points
             slot[CACHED_FORCE + k] = mean_force(
                 row[IMPULSE + k], press_time, 0.0 if memory.step_info[HAD_IMPACT] > 0.0 else slot[CACHED_FORCE + k], memory
             )
@@ -101,7 +102,7 @@ def _store_forces(memory):
 
 @kernel(_t.void(_t.int64, MATRIX, _t.boolean, MEMORY))
 def _apply_forces(count, bodies, has_impact, memory):
-    """Add the impulses to the bodies as forces over the step."""
+    """Add the impulses to the bodies as mean forces over the step."""
     dt = memory.step_info[KICK_TIME]
     for i in range(count):
         row, a, b = memory.constraint_rows[i], memory.contact_ids[i, BODY_IDS], memory.contact_ids[i, BODY_IDS + 1]
@@ -109,6 +110,7 @@ def _apply_forces(count, bodies, has_impact, memory):
         if has_impact:
             p0, p1, p2 = p0 + row[PRIOR_IMPULSE], p1 + row[PRIOR_IMPULSE + 1], p2 + row[PRIOR_IMPULSE + 2]
         first, second = bodies[a], bodies[b]
+        # forces, not impulses: the kick multiplies by the same time
         p0, p1, p2 = p0 / dt, p1 / dt, p2 / dt
         x, y, z = row[ARM_A], row[ARM_A + 1], row[ARM_A + 2]
         r, s, t = row[ARM_B], row[ARM_B + 1], row[ARM_B + 2]
@@ -128,7 +130,7 @@ def _apply_forces(count, bodies, has_impact, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, _t.float64, LAYOUT, MEMORY), inline=True)
 def _advance_velocities(count, n, time, a0, a1, a2, pile, memory):
-    """Let the velocities go on for a time in axes that accelerate, under the forces that stand in the rows."""
+    """Advance the velocities over a time in the accelerated frame, with the forces stored in the rows."""
     for i in range(n):
         memory.body_velocities[i, 0] -= time * a0
         memory.body_velocities[i, 1] -= time * a1
@@ -138,16 +140,17 @@ def _advance_velocities(count, n, time, a0, a1, a2, pile, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
 def _solve_impacts(count, n, time_before, pile, memory):
-    """Let points strike: what the forces gave until then and what the impacts give becomes the impulse given.
+    """Resolve the impacts at the start of a step; the impulse until then and the impact impulses become the prior impulse.
 
-    A given ratio of velocities across a joint and friction may together give energy; such an impact is plastic. What is so near that an
-    impact lets it strike in the same instant does so in another one.
+    An impact with a given restitution and friction may create energy; it is then plastic. A contact so close that an impact drives it to
+    strike at the same instant strikes in the next pass.
     """
     contact_rows, tolerance = memory.constraint_rows, TOLERANCE * memory.step_info[FREE_FALL_SPEED]
     load_until_impact(count, time_before, memory)
     solve_contacts(count, memory.contact_ids, contact_rows, n, pile.inertias, tolerance, memory.body_velocities)
     begin_impacts(count, memory)
     for _ in range(MAX_IMPACTS):
+        # one impact may drive other contacts together at the same instant
         if not detect_impacts(count, memory):
             break
         rows = add_restitution_rows(count, n, pile, memory)
@@ -173,7 +176,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
 
 @kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory):
-    """Add the forces at the points of what does not lie still; return the length of the step."""
+    """Solve the contacts of all bodies that are awake and add their forces; return the length of the step, s."""
     n, step_info, rows = bodies.shape[0] - 1, memory.step_info, memory.constraint_rows
     half_last_step = 0.5 * step_info[LAST_STEP]
     _update_inertia(n, bodies, pile.inertias, memory)
@@ -185,12 +188,15 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
         _solve_impacts(count, n, half_last_step, pile, memory)
         detect_impacts(count, memory)
     _advance_velocities(count, n, 0.5 * time_left, a0, a1, a2, pile, memory)
+    # after an impact the slip was recorded at the step, else half a step before
     duration, time_before = (0.5 * time_left, 0.0) if has_impact else (half_last_step + 0.5 * time_left, half_last_step)
     max_step = min(max_roll_time(count, time_left, memory), max_turn_time(count, duration, time_before, time_left, memory))
     step = next_impact_time(count, 0.5 * time_left, max_step, memory)
+    # an impact or a rim ends the step early: take back the surplus of the advance
     if step < time_left:
         _advance_velocities(count, n, 0.5 * (step - time_left), a0, a1, a2, pile, memory)
     step_info[KICK_TIME] = half_last_step + 0.5 * step
+    # after an impact the resting forces act over the second half only
     press_time = 0.5 * step if has_impact else step_info[KICK_TIME]
     for i in range(count):
         for j in range(IMPULSE, IMPULSE + 3):
@@ -207,25 +213,27 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
 
 @kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def step_contacts(bodies, a0, a1, a2, full_step, time_left, refresh_bounds, pile, memory):
-    """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
+    """Add the forces of rigid contacts over a step, in a frame accelerated by (a0, a1, a2) with gravity; return its length, s.
 
-    The step ends where a point strikes. The next one then begins with the impact.
+    The step ends where a contact strikes (time of impact). The next step then begins with the impact.
 
     Parameters
     ----------
     full_step, time_left : float, s
-        A whole step, and what is left of it.
+        A full step, and the remainder of it.
     refresh_bounds : bool
-        Whether to find anew which boxes are near each other, with a margin for what they may move until the next time.
+        Whether the broad phase updates its bounding boxes.
     """
     n, step_info = bodies.shape[0] - 1, memory.step_info
     step_info[FULL_STEP] = full_step
     step_info[FREE_FALL_SPEED] = full_step * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
+    # forces can be extrapolated only between steps of full length and without an impact
     step_info[EXTRAPOLATION] = (
         EXTRAPOLATION_RATIO
         if step_info[HAD_IMPACT] == 0.0 and step_info[KICK_TIME] == full_step and 0.5 * (step_info[LAST_STEP] + time_left) == full_step
         else 0.0
     )
+    # solve with the sleeping bodies as ground; if a support cannot carry its load, wake all and solve again
     while True:
         step = _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
         if can_support(n, bodies, a0, a1, a2, pile, memory):

@@ -1,4 +1,4 @@
-"""A pile's course through a motion: followed once for its fate, and once more for its curves where the motion is long."""
+"""Integration of a pile through a motion, in interruptible slices; repeated for the time histories of a long motion."""
 
 from __future__ import annotations
 
@@ -35,46 +35,46 @@ from seisblock.models.stack.static_equilibrium import settle_on_springs
 from seisblock.records.motion import ACROSS, UP, Motion
 
 FALL_TILT = math.radians(60.0)
-"""A stone that leans more than this, and more than its own critical angle, has fallen."""
+"""A stone that tilts more than this, rad, and more than its overturning angle, has fallen."""
 
 FALL_DROP_RATIO = 0.5
-"""A stone whose centre has sunk by this part of its smallest size has fallen."""
+"""Drop of a stone's centre over its smallest size from which it has fallen."""
 
 SETTLING_TIME = 10.0
-"""Seconds that the ground may stand still after the record, until every stone is still."""
+"""Longest time, s, with the ground at rest after the record, until every stone is still."""
 
 ROW_TOLERANCE = 1e-5
 MAX_ROW_INTERVAL = 0.1
-"""Movement, m and rad, and time, s, after which a row is kept."""
+"""Movement, m and rad, and time, s, after which a row is stored."""
 
 END_ROWS = 2
-"""Rows of a course of which only the first and the last are kept."""
+"""Rows stored of a long motion: the first and the last."""
 
 CURVE_COLUMNS = 17
-"""Numbers of each stone in a row of the curves, and of what they are made of."""
+"""Numbers per stone in a row of the time histories and of their intermediate arrays."""
 
 POINTS_PER_SLICE = 2_500_000
-"""Contact points that are looked at before Python may be interrupted: 0.05 s or so."""
+"""Contact points per slice of compiled code, about 0.05 s; Python may be interrupted between slices."""
 
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """What determines how a pile moves.
+    """Parameters of an integration.
 
     Parameters
     ----------
     pile : PileArrays
     motion : Motion
     factors : (float, float)
-        On the rows across and up.
+        On the transverse and on the vertical component.
     gravity : float, m/s^2
     steps : int
-        Of a sampling interval.
+        Per sampling interval.
     rigid : bool
-        Whether contacts are rigid, or springs.
+        Whether contacts are rigid or springs.
     stop_at_fall : bool
     tilts : mapping of str to float, rad
-        Stones let go from a lean about y.
+        Stones released from a tilt about y.
     """
 
     pile: PileArrays
@@ -88,7 +88,7 @@ class Simulation:
 
     @property
     def settings(self) -> PileSettings:
-        """How the loop goes."""
+        """Settings of the compiled loop."""
         motion, settling_samples = self.motion, math.ceil(SETTLING_TIME / self.motion.dt)
         row_interval, last_sample = max(1, round(MAX_ROW_INTERVAL / motion.dt)), motion.samples - 1
         return PileSettings(
@@ -96,19 +96,19 @@ class Simulation:
         )
 
     def run(self, rows: int | None = None, *, progress: Callable[[int, int], None] | None = None) -> SimulationResult:
-        """Follow the pile to the end.
+        """Integrate the pile to the end.
 
         Parameters
         ----------
         rows : int or None
-            How many are kept; None: all of a short motion, the first and the last of a long one.
+            Rows to store; None: all of a short motion, the first and the last of a long one.
         progress : callable
-            Told now and then how many samples are done, and how many there are.
+            Called with the number of samples done and the total.
 
         Raises
         ------
         ParameterError
-            If a stone that leans is none of the pile.
+            If a tilted stone does not exist or is fixed.
         """
         pile, settings = self.pile, self.settings
         if rows is None:
@@ -132,12 +132,12 @@ class Simulation:
         return SimulationResult(status, time, state.bodies, output._replace(rows=path), row_count, stone_track(pile, path))
 
     def full_track(self, end: SimulationResult) -> Track:
-        """Return the way of the stones: as it was kept, else as it is followed again, to the same bits.
+        """Return the positions of the stones as stored, or integrate again, with bit-identical results.
 
         Raises
         ------
         ParameterError
-            If its curves would take more memory than they may.
+            If the time histories exceed the memory limit.
         """
         if end.rows <= len(end.track.time):
             return end.track
@@ -145,7 +145,7 @@ class Simulation:
         return self.run(end.rows).track
 
     def _motion_chunks(self) -> Iterator[tuple[int, FloatArray]]:
-        """Yield the shaking piece by piece, each with the number of its first sample; after the last sample the ground stands still."""
+        """Yield chunks of the motion with the index of their first sample; the ground is at rest after the last sample."""
         zero_motion = np.zeros((3, self.settings.last + 1 - self.motion.samples))
         for chunk in self.motion.segments((True, *(factor != 0.0 for factor in self.factors))):
             shaking = np.array(chunk.acceleration) if chunk.samples_after else np.concatenate([chunk.acceleration, zero_motion], axis=1)
@@ -161,8 +161,9 @@ class Simulation:
         output: PileOutput,
         progress: Callable[[int, int], None] | None,
     ) -> Status:
-        """Follow the pile to the end, in slices between which Python may be interrupted."""
+        """Integrate to the end, in slices between which Python may be interrupted."""
         pile, layout = self.pile, self.pile.layout
+        # large piles take fewer steps per slice, so that a slice always lasts about as long
         steps_per_slice = max(1, POINTS_PER_SLICE // (pile.grids.shape[0] * pile.points**2 + pile.pairs.shape[0]))
         status, run = Status.PAUSED, run_rigid if self.rigid else run_springs
         for first, shaking in self._motion_chunks():
@@ -180,22 +181,23 @@ class Simulation:
 
 
 def _initial_fall_states(pile: PileArrays, bodies: FloatArray) -> FloatArray:
-    """Return the rows in which the kernel notes the fate of each body."""
+    """Return the rows in which the kernel records the falls, with the fall criteria of each body."""
     fall_states = np.zeros((len(pile.members), FALL_COLUMNS))
     fall_states[:, MIN_COSINE] = 1.0
     fall_states[:, FALL_TIME] = -1.0
     for b, group in enumerate(pile.members):
         boxes = pile.boxes[list(group), :3]
         foot, rise = boxes[0, :2].max(), bodies[b, X + 2] - (pile.boxes[group[0], 5] + bodies[b, X + 2] - boxes[0, 2])
+        # slender bodies overturn below FALL_TILT, squat ones above: 0.1 rad beyond the overturning angle is past recovery
         fall_states[b, TILT_LIMIT] = math.cos(max(FALL_TILT, math.atan2(foot, rise) + 0.1))
         fall_states[b, HEIGHT_LIMIT] = bodies[b, X + 2] - FALL_DROP_RATIO * 2.0 * boxes.min()
     return fall_states
 
 
 def _tilt_body(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None:
-    """Lean a body about y, over the outermost point of its lower joint."""
+    """Tilt a body about y, over the outermost point of its lower joint."""
     if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
-        raise ParameterError("no free stone is called {name!r}; there are {names}", name=name, names=list(pile.body.names))
+        raise ParameterError("no free stone named {name!r} in the pile; stones: {names}", name=name, names=list(pile.body.names))
     b = int(pile.owner[pile.body.names.index(name)])
     first = pile.members[b][0]
     box = pile.boxes[first]
@@ -203,6 +205,7 @@ def _tilt_body(pile: PileArrays, bodies: FloatArray, name: str, angle: float) ->
     pivot = np.array([math.copysign(pivot_x, angle), 0.0, -box[2]]) + box[3:]
     rotation = np.array([math.cos(angle), math.sin(angle)])
     rotated_pivot = np.array([rotation[0] * pivot[0] + rotation[1] * pivot[2], 0.0, -rotation[1] * pivot[0] + rotation[0] * pivot[2]])
+    # the pivot stays in place
     bodies[b, X : X + 3] += pivot - rotated_pivot
     bodies[b, Q : Q + 4] = (math.cos(0.5 * angle), 0.0, math.sin(0.5 * angle), 0.0)
     update_rotation_matrix(bodies[b])

@@ -1,10 +1,10 @@
-"""Stones that lie still are ground to those that move, as long as what they lie on can carry what is asked of it.
+"""Sleeping bodies: stones that lie still become ground for the others while their support can carry the load.
 
-Where a stone has lain still for some steps on one other that lies still, or on the ground, its points are no longer solved for: what the
-shaking, its weight and the stones above ask of its joint follows by adding up, from above. The normal forces that carry it are spread
-over the points as an elastic bed would, friction in proportion to them and to the way of each about their centre. Where none of them
-pulls and none leaves Coulomb's cone, they solve the contact laws with the stone at rest (derived here). Where one does, all stones are
-solved for, in that step and the next ones.
+A stone that has been still for some steps on a sleeping stone or on the ground goes to sleep: its contacts are no longer solved. The
+load on its joint follows by summing the inertia, weight and load of the stones above, from the top down. Normal forces are distributed
+over the support points as on an elastic bed; friction is proportional to them and to the displacement of each point about their centre.
+If no point pulls and none leaves Coulomb's cone, these forces solve the contact laws with the stone at rest (derived here). Otherwise all
+stones wake, in this step and the following ones.
 """
 
 from __future__ import annotations
@@ -35,27 +35,27 @@ SLEEP_SPEED_RATIO = 5e-3
 """Speed, over that of a free fall of a step, below which a stone is still."""
 
 SLEEP_DELAY_STEPS = 20
-"""Steps for which a stone is still before it counts as lying, and twice as many after it was roused."""
+"""Steps for which a stone must be still before it sleeps; twice as many after a wake-up."""
 
 CONTACT_GAP_RATIO = 0.01
-"""Gap, over the way of a free fall of a step, below which a point carries."""
+"""Gap, over the distance of a free fall of a step, below which a contact is a support point."""
 
 MIN_WIDTH_RATIO = 1e-3
-"""Least square of the width of a bed over that of its length."""
+"""Smallest squared ratio of width to length of the support area."""
 
 SUPPORT_CENTRE, SUPPORT_NORMAL, SUPPORT_MOMENTS = 0, 3, 6
-"""A bed's first row: its middle from the stone's centre (3), m; its normal, into the stone (3); the inverse of its second moments (6)."""
+"""First row of a support: its centre from the stone's centre (3), m; normal into the stone (3); inverse of its second moments (6)."""
 
 POINT_OFFSET, POINT_FORCE, POINT_FRICTION, POINT_SLOT, POINT_SIDE, POINT_PRESSURE, SELF_STRESS, LAST_FORCE = 0, 3, 6, 7, 11, 12, 13, 14
 SUPPORT_COLUMNS = 17
-"""A point's row: from the middle of the bed (3), m; the force on the stone (3), N; friction; the slot that remembers its force (4); whether
-the stone is the first or, -1, the second of that slot; what presses, N, as long as it is not known whether the bed carries; its part in
-what four points do against each other without anybody feeling it; and the force of the step before (3), N."""
+"""A support point's row: offset from the centre (3), m; force on the stone (3), N; friction coefficient; slot that stores its force (4); 1
+or -1 if the stone is the first or the second body of that slot; normal force on trial, N; share in the self-equilibrated force of four
+points; and force of the last step (3), N."""
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, _t.int64, MEMORY))
 def _find_support(i, n, count, memory):
-    """Write the points on which a stone lies into its bed; return whether they are those of one stone that lies, or of the ground."""
+    """Write the support points of a stone; return whether they belong to a single sleeping stone or to the ground."""
     support_points, sleep_state, step_info = memory.support_points[i], memory.sleep_states[i], memory.step_info
     press_time = step_info[PRESS_TIME]
     points, support = 0, -1
@@ -67,6 +67,7 @@ def _find_support(i, n, count, memory):
         side, neighbour, arm = (1.0, b, ARM_A) if a == i else (-1.0, a, ARM_B)
         if memory.sleep_states[neighbour, SUPPORT_POINTS] == 0:
             continue
+        # several supports, a support above, or too many points: the distribution of the load is not known
         if (support >= 0 and neighbour != support) or (neighbour > i and neighbour != n) or points + 1 >= support_points.shape[0]:
             return False
         support = neighbour
@@ -78,12 +79,14 @@ def _find_support(i, n, count, memory):
             alignment += support_points[0, SUPPORT_NORMAL + m] * side * row[NORMAL + m]
             point[POINT_OFFSET + m] = row[arm + m]
             point[POINT_FORCE + m] = side * row[IMPULSE + m] / press_time
+        # the points must share one normal to form an elastic bed
         if alignment < 1.0 - 1e-9:
             return False
         point[POINT_FRICTION] = row[STATIC]
         point[POINT_SIDE] = side
         for m in range(4):
             point[POINT_SLOT + m] = ids[2 + m]
+    # fewer than three points do not support a stone
     if points < 3:
         return False
     sleep_state[SUPPORT_BODY] = support
@@ -93,7 +96,7 @@ def _find_support(i, n, count, memory):
 
 @kernel(_t.float64(VECTOR, VECTOR, VECTOR, VECTOR), inline=True)
 def _triangle_area(a, b, c, head):
-    """Return twice the area of a triangle, positive where its corners go round the normal of a bed."""
+    """Return twice the signed area of a triangle, positive counter-clockwise about the support normal."""
     x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     p, q, r = c[0] - a[0], c[1] - a[1], c[2] - a[2]
     return head[SUPPORT_NORMAL] * (y * r - z * q) + head[SUPPORT_NORMAL + 1] * (z * p - x * r) + head[SUPPORT_NORMAL + 2] * (x * q - y * p)
@@ -101,7 +104,7 @@ def _triangle_area(a, b, c, head):
 
 @kernel(_t.boolean(_t.int64, MATRIX), inline=True)
 def _remove_tension(points, support_points):
-    """Shift normal forces between four points as far as keeps them from pulling; return whether none pulls."""
+    """Remove tension by adding a self-equilibrated force of four points; return whether no point pulls."""
     low, high = -math.inf, math.inf
     for k in range(1, points + 1):
         pressure, self_stress = support_points[k, POINT_PRESSURE], support_points[k, SELF_STRESS]
@@ -121,7 +124,7 @@ def _remove_tension(points, support_points):
 
 @kernel(_t.boolean(_t.int64, MATRIX))
 def _support_moments(points, support_points):
-    """Write the middle of a bed and the inverse of its second moments; return whether it is wide enough to lie on."""
+    """Write the centre of a support and the inverse of its second moments; return whether it is wide enough."""
     head = support_points[0]
     for m in range(3):
         head[SUPPORT_CENTRE + m] = 0.0
@@ -139,6 +142,7 @@ def _support_moments(points, support_points):
         point[POINT_OFFSET + 1] = y
         point[POINT_OFFSET + 2] = z
         a, b, c, d, e, f = a + x * x, b + x * y, c + x * z, d + y * y, e + y * z, f + z * z
+    # four points are statically indeterminate: the areas of the opposite triangles, with alternating signs, load no stone
     for k in range(points):
         support_points[1 + k, SELF_STRESS] = (
             _triangle_area(support_points[1 + (k + 1) % 4], support_points[1 + (k + 2) % 4], support_points[1 + (k + 3) % 4], head)
@@ -147,6 +151,7 @@ def _support_moments(points, support_points):
         )
         if k % 2 == 1:
             support_points[1 + k, SELF_STRESS] *= -1.0
+    # the second moments are singular along the normal of a flat bed: fill that direction with the trace
     size = a + d + f
     x, y, z = head[SUPPORT_NORMAL], head[SUPPORT_NORMAL + 1], head[SUPPORT_NORMAL + 2]
     a, b, c, d, e, f = a + size * x * x, b + size * x * y, c + size * x * z, d + size * y * y, e + size * y * z, f + size * z * z
@@ -165,7 +170,7 @@ def _support_moments(points, support_points):
 
 @kernel(_t.boolean(_t.int64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX))
 def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
-    """Spread a force and a torque about the stone's centre over a bed; return whether every point presses within its cone."""
+    """Distribute a force and a torque about the stone's centre over its support; return whether every point is within its cone."""
     head = support_points[0]
     x, y, z = head[SUPPORT_CENTRE], head[SUPPORT_CENTRE + 1], head[SUPPORT_CENTRE + 2]
     n0, n1, n2 = head[SUPPORT_NORMAL], head[SUPPORT_NORMAL + 1], head[SUPPORT_NORMAL + 2]
@@ -175,10 +180,11 @@ def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
         return False
     e0, e1, e2 = n1 * m2 - n2 * m1, n2 * m0 - n0 * m2, n0 * m1 - n1 * m0
     s = SUPPORT_MOMENTS
+    # linear distribution of the normal forces: gradient from the tilting moment
     q0 = head[s] * e0 + head[s + 1] * e1 + head[s + 2] * e2
     q1 = head[s + 1] * e0 + head[s + 3] * e1 + head[s + 4] * e2
     q2 = head[s + 2] * e0 + head[s + 4] * e1 + head[s + 5] * e2
-    # the centre of the normal forces from the middle, and their polar moment
+    # centre of pressure relative to the centre of the support, and polar moment of the normal forces
     c0, c1, c2, polar = 0.0, 0.0, 0.0, 0.0
     for k in range(1, points + 1):
         d = support_points[k]
@@ -198,6 +204,7 @@ def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
         d, pressure = support_points[k], support_points[k, POINT_PRESSURE]
         x, y, z = d[0] - c0, d[1] - c1, d[2] - c2
         r0, r1, r2 = g0 + rotation * (n1 * z - n2 * y), g1 + rotation * (n2 * x - n0 * z), g2 + rotation * (n0 * y - n1 * x)
+        # friction over pressure beyond the static coefficient: the stone would slide or turn
         if pressure > 0.0 and r0 * r0 + r1 * r1 + r2 * r2 > d[POINT_FRICTION] ** 2:
             return False
     for k in range(1, points + 1):
@@ -212,12 +219,13 @@ def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
 
 @kernel(_t.boolean(_t.int64, MATRIX, _t.float64, _t.float64, _t.float64, LAYOUT, MEMORY))
 def can_support(n, bodies, a0, a1, a2, pile, memory):
-    """Add the forces that keep what lies where it is, with what was added before; return whether all beds can carry them."""
+    """Add the support forces of the sleeping bodies; return whether all supports can carry their load."""
     kick_time = memory.step_info[KICK_TIME]
     for i in range(n):
         for k in range(1, memory.sleep_states[i, SUPPORT_POINTS] + 1):
             for m in range(3):
                 memory.support_points[i, k, LAST_FORCE + m] = memory.support_points[i, k, POINT_FORCE + m]
+    # bodies are numbered from below: the upper stones come first, and their load is passed down
     for i in range(n - 1, -1, -1):
         points, s = memory.sleep_states[i, SUPPORT_POINTS], memory.sleep_states[i, SUPPORT_BODY]
         if points == 0:
@@ -248,7 +256,7 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
 
 @kernel(_t.void(_t.int64, MATRIX, MEMORY))
 def wake(n, bodies, memory):
-    """Let all stones be solved for, from the forces of the last step in which they lay; clear what was added in vain."""
+    """Wake all bodies, warm-started from the forces of their last step asleep; clear the forces added on trial."""
     for i in range(n + 1):
         for k in range(F, T + 3):
             bodies[i, k] = 0.0
@@ -266,7 +274,7 @@ def wake(n, bodies, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, LAYOUT, MEMORY))
 def put_to_sleep(count, n, pile, memory):
-    """Let stones lie that have been still for some steps on what lies."""
+    """Put bodies to sleep that have been still for enough steps on a sleeping support."""
     limit = (SLEEP_SPEED_RATIO * memory.step_info[FREE_FALL_SPEED]) ** 2
     for i in range(n):
         if memory.sleep_states[i, SUPPORT_POINTS] > 0:

@@ -1,4 +1,4 @@
-"""A pile of stones on a shaking base: three-dimensional distinct elements ([Furukawa2009]_ section 3)."""
+"""Solver of a pile of stones on a shaking base: three-dimensional discrete elements ([Furukawa2009]_ section 3)."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from seisblock.records.motion import Motion
 from seisblock.references import papers
 
 RIGID, SPRINGS = "rigid", "springs"
-"""Laws of contact."""
+"""Contact laws."""
 
 REFINEMENT_FACTOR = 5
-"""How many times finer steps answer where rigid stones created energy."""
+"""Refinement of the step after a run with rigid contacts that created energy."""
 
 MAX_UNCONVERGED_SHARE, MIN_STEPS_FOR_WARNING = 0.5, 100
-"""Part of the steps whose sweeps may end before they come to rest, of so many at least."""
+"""Share of unconverged steps, and smallest number of steps, above which a warning is issued."""
 
 EDGE_POINTS = 2
-"""Points along each side of a joint that stands on its edges."""
+"""Points along each side of a joint for contact at its edges."""
 
 
 def solve_stack(
@@ -56,11 +56,11 @@ def solve_stack(
     tilts: Mapping[str, float] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Response[StackOutcome]:
-    """Follow a pile of stones through a ground motion ([Furukawa2009]_ section 3(1)).
+    """Solve the response of a pile of stones to a ground motion ([Furukawa2009]_ section 3(1)).
 
-    Every stone is rigid, with quaternions for its turns. Stones meet at points of each joint, and at corners and edges once they have
-    tilted or moved off it; there they are rigid too, with impulses that obey Signorini's condition and Coulomb's cone ([Jean1999]_,
-    [Moreau1988]_), or press on each other through springs, dashpots and sliders ([Furukawa2009]_). Valid for any tilt and any fall.
+    Stones are rigid, with quaternions for rotations. They touch at the points of each joint, and at corners and edges once they have tilted
+    or moved off it. Contacts are rigid, with impulses that obey Signorini's condition and Coulomb's cone ([Jean1999]_, [Moreau1988]_), or
+    act through springs, dashpots and sliders ([Furukawa2009]_). Valid for any tilt and any fall.
 
     Parameters
     ----------
@@ -68,31 +68,30 @@ def solve_stack(
     motion : Motion
         Ground acceleration; +x is its first row.
     law : str
-        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid. Where rigid stones created energy at the default
-        step, one five times finer answers, with a warning; where they do so there, too, springs, unless something was asked for that
-        these do not know.
+        ``rigid`` or ``springs``; default: springs if `contact` is given, else rigid. If rigid contacts create energy at the default step,
+        the run is repeated with a step five times finer, with a warning; if that fails too, with springs, unless an option excludes them.
     points : int
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
-        Of springs; default: [Furukawa2009]_ table 2.
+        Springs and dashpots; default: [Furukawa2009]_ table 2.
     mu_kinetic : float, 1
-        Friction of every joint that slides, at most that of the same joint when it clings; default: the body's own. Rigid stones only.
+        Kinetic friction coefficient of every joint, at most the static one; default: that of the body. Rigid contacts only.
     restitution : float, 1
-        Of the joints: with what part of the velocity of the edge that strikes the opposite edge leaves. Default: what angular momentum
-        about the edge that strikes gives, Housner's ratio for one block. Rigid stones on edges only.
+        Of the joints: velocity of the leaving edge over that of the striking edge. Default: conservation of angular momentum about the
+        striking edge, Housner's restitution for one block. Rigid contacts on edges only.
     vertical : bool, float or None
-        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+        Whether the vertical ground motion acts, or a factor on it; None: if the record has one.
     across : bool or float
-        Whether the motion's transverse row acts, or a factor on it.
+        Whether the transverse component acts, or a factor on it.
     gravity : float, m/s^2
     step : float, s
-        Fixed step; default: 1/55 of the time in which the smallest stone swings; of springs, 0.7 of what the stiffest contact admits.
+        Fixed step; default: 1/55 of the swing time of the smallest stone; with springs, 0.7 of the stability limit.
     stop_at_fall : bool
         Whether to end at the first fall.
     tilts : mapping of str to float, rad
-        Stones let go from a lean about y, turned about the point on which they then stand.
+        Stones released from a tilt about y, over the edge of their base.
     progress : callable
-        Told now and then how many samples are done, and how many there are.
+        Called with the number of samples done and the total.
 
     Returns
     -------
@@ -105,9 +104,9 @@ def solve_stack(
     BodyError
         If the pile cannot rest on its joints.
     ParameterError
-        If `step` is too coarse to be stable or finer than does any good, or an option is out of range.
+        If `step` is unstable or needlessly fine, or an option is out of range.
     SolverError
-        If the run created energy or left the finite numbers.
+        If the run created energy or diverged.
 
     Examples
     --------
@@ -129,11 +128,12 @@ def solve_stack(
     end = simulation.run(progress=progress)
     if end.status == Status.NOT_FINITE:
         raise SolverError(
-            "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
+            "the integration of the pile {name} diverged at {ended:.3f} s: give a finer `step`", name=body.name, ended=end.time
         )
     try:
         outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps, azimuth=motion.azimuth_deg)
     except SolverError as error:
+        # a step chosen by the caller is not changed silently
         if not rigid or step is not None:
             raise
         contact_options: dict[str, Any] = {"law": law, "mu_kinetic": mu_kinetic, "restitution": restitution}
@@ -167,14 +167,14 @@ def solve_stack(
 
 
 def _convergence_warnings(ledger: FloatArray, motion: Motion) -> tuple[Message, ...]:
-    """Return what there is to say against a run most of whose steps did not come to rest: slips are then too large."""
+    """Return a warning if most steps did not converge: displacements are then overestimated."""
     share = ledger[UNCONVERGED] / max(ledger[SOLVED], MIN_STEPS_FOR_WARNING)
     if share <= MAX_UNCONVERGED_SHARE:
         return ()
     return (
         lazy_gettext(
-            "{name}: the forces between the stones did not come to rest in {share:.0f} % of the steps, as where a stone bears one "
-            "a hundred times as heavy: slips may be too large; give a finer `step`",
+            "{name}: contact forces did not converge in {share:.0f} % of the steps (large mass ratios?); displacements may be "
+            "overestimated; give a finer `step`",
             name=motion.name or "x",
             share=100.0 * share,
         ),
@@ -184,73 +184,76 @@ def _convergence_warnings(ledger: FloatArray, motion: Motion) -> tuple[Message, 
 def _retry_finer(
     error: SolverError, body: Pile, motion: Motion, step: float, contact_options: dict[str, Any], run_options: dict[str, Any]
 ) -> Response[StackOutcome]:
-    """Return what finer steps answer where rigid stones created energy, or springs where these do, too."""
+    """Return the response with finer steps after rigid contacts created energy, or with springs if these steps fail too."""
     label = motion.name or "x"
     try:
         response = solve_stack(body, motion, step=step, **contact_options, **run_options)
         message = lazy_gettext(
-            "{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=step, why=error.message
+            "{name}: solved with a finer step of {step:.2g} s, since the default step failed: {why}",
+            name=label,
+            step=step,
+            why=error.message,
         )
     except SolverError as second_error:
+        # springs have one friction coefficient and no cylinders
         needs_rigid = body.has_lower_kinetic_friction or any(stone.is_round for stone in body.stones)
         if needs_rigid or any(value is not None for value in contact_options.values()):
             raise
         response = solve_stack(body, motion, law=SPRINGS, **run_options)
         message = lazy_gettext(
-            "{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=second_error.message
+            "{name}: solved with contact springs, since rigid contact failed: {why}", name=label, why=second_error.message
         )
     return replace(response, warnings=(message, *response.warnings))
 
 
 def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
-    """Return whether contacts are rigid."""
     if law not in (None, RIGID, SPRINGS):
-        raise ParameterError("the law of contact must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
+        raise ParameterError("`law` must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
     if law == RIGID and contact is not None:
-        raise ParameterError("rigid stones have no springs: leave `contact` out, or choose the law {springs!r}", springs=SPRINGS)
+        raise ParameterError("`contact` has no effect with rigid contact: leave it out, or give the law {springs!r}", springs=SPRINGS)
     return contact is None if law is None else law == RIGID
 
 
 def _with_kinetic_friction(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
-    """Return the pile with the kinetic friction asked for, refusing springs what they do not know."""
+    """Return the pile with the given kinetic friction; raise ParameterError for options that springs do not support."""
     if not rigid and not (mu_kinetic is None and restitution is None):
-        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+        raise ParameterError("`mu_kinetic` and `restitution` have no effect with contact springs: leave them out, or give the law 'rigid'")
     if mu_kinetic is not None:
         body = body.with_kinetic_friction(mu_kinetic)
     if not rigid and body.has_lower_kinetic_friction:
         raise ParameterError(
-            "the pile {name} has a kinetic friction, and springs have one friction for all: say `mu`, which then holds for "
-            "what slides, too, or choose rigid stones",
+            "the pile {name} has a kinetic friction coefficient, but contact springs use a single one: give `mu` for both, or "
+            "the law 'rigid'",
             name=body.name,
         )
     return body
 
 
 def _joint_restitution(points: int, restitution: float | None) -> float:
-    """Return the rebound of the joints."""
+    """Return the restitution of the joints, negative for plastic impacts."""
     if restitution is not None:
-        checks.fraction(N_("the restitution of the joints, a ratio of velocities,"), restitution)
+        checks.fraction(N_("the restitution of the joints"), restitution)
         if points != EDGE_POINTS:
             raise ParameterError(
-                "a restitution is one of stones that stand on their edges: leave out {points} points a side", points=points
+                "`restitution` requires contact at the edges: leave out `points` ({points} along each side of a joint)", points=points
             )
     return PLASTIC_RESTITUTION if restitution is None else float(restitution)
 
 
 def _curves(simulation: Simulation, end: SimulationResult) -> Histories:
-    """Return tilt, slip and place of every stone against time."""
+    """Return tilt, slip, centre and quaternion of every stone against time."""
     track = simulation.full_track(end)
     return Histories(simulation.motion.start_s + track.time, stone_channels(simulation.pile, track))
 
 
 def _events(outcome: StackOutcome) -> tuple[Event, ...]:
-    """Return the falls, in the order of time."""
+    """Return the falls in order of time."""
     falls = sorted((stone.fell_at_s, stone.name) for stone in outcome.stones if stone.fell_at_s is not None)
     return tuple(Event(f"{name} falls", at, np.zeros(0), np.zeros(0)) for at, name in falls)
 
 
 def _phases(outcome: StackOutcome, start: float, end: float) -> tuple[Phase, ...]:
-    """Return the stretch before and the stretch after the first fall."""
+    """Return the phases before and after the first fall."""
     if outcome.time_s is None:
         return (Phase("standing", start, end),)
     return (Phase("standing", start, outcome.time_s), Phase("fallen", outcome.time_s, end))

@@ -1,17 +1,17 @@
-"""What two stones do to each other at one point, and at the n x n points of the joint between them.
+"""Spring, dashpot and slider at one contact point and at the n x n points of a joint ([Furukawa2009]_ section 3(1)).
 
-A pair of boxes is seen from the *partner*: its axes, its centre. The other box, the *carrier*, brings the contact points.
-A point that has gone a depth delta into the partner is pushed out by a spring and a dashpot, f = k (delta - delta_0) + c delta', and never
-pulled; along the face it drags a spring beside a dashpot, in series with a slider that gives way at mu f ([Furukawa2009]_ section 3(1),
-table 2). The slider's law is solved implicitly over the step, so that friction never creates energy. delta_0 is zero in a joint; where
-stones meet anew it is the depth at the first step, so that a contact is born without a force.
+A pair of boxes is described in the axes of the *partner*, from its centre; the other box, the *carrier*, carries the contact points. A
+point at depth delta inside the partner is pushed out by spring and dashpot, f = k (delta - delta_0) + c delta', and never pulled;
+along the face a spring and a dashpot in parallel act in series with a slider of strength mu f ([Furukawa2009]_ section 3(1), table 2).
+The slider is integrated implicitly, so that friction never creates energy. delta_0 is zero in a joint; for new contacts it is the depth
+at the first step, so that the force starts from zero.
 
-A point that leaves the partner's face lets go, and edges and corners take over. Points at the very corners of a joint would do so at
-every slip of stones that lie flush, and come back deeper than they went, with energy from nowhere; they cling to the face's border
-instead, as the corners of what two faces share do, while the faces share anything. There the border presses on the carrier's face, along
-its normal: the depth is measured along it, or a tilted stone would gain energy as it slides.
+A point that leaves the partner's face is released, and contacts of edges and corners take over. Points at the corners of a flush joint
+would be released at every slip and return deeper than they left, which creates energy. They are therefore clamped to the face's border,
+like the corners of the shared area, while the faces overlap. There the border presses on the carrier's face along the face's normal;
+the depth is measured along it, since a tilted stone would otherwise gain energy while it slides.
 
-Points of a joint come in orbits of four mirror images, whose forces are added in pairs: a mirrored pile moves in exact mirror image.
+Points of a joint are grouped in orbits of four mirror images, whose forces are summed in pairs: mirrored piles move as exact mirror images.
 """
 
 from __future__ import annotations
@@ -24,64 +24,60 @@ from seisblock.dynamics.array_types import BLOCK, MATRIX, VECTOR
 _t = types()
 
 REL_S, REL_D, REL_V, REL_W = 0, 9, 12, 15
-"""Where a relative state keeps the carrier's axes (row-major), its centre, its velocity there, and its relative spin."""
+"""Columns of a relative state: the carrier's axes (row-major), its centre, its velocity there, and its relative spin."""
 
 RELATIVE = 18
 NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION, CLAMP_TO_EDGE, KINETIC, RESTITUTION = range(8)
-FORCE, TORQUE, ENERGY, TOUCHING, OUTSIDE = 0, 3, 6, 7, 8
+FORCE, TORQUE, ENERGY, N_IN_CONTACT, OUTSIDE = 0, 3, 6, 7, 8
 SUM = 9
-"""A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in touch, points beyond the face."""
+"""A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in contact, points beyond the face."""
 
 STRETCH, INITIAL_DEPTH, ALIVE, FACE, LAST_DEPTH = 0, 3, 4, 5, 6
-"""What a wandering contact remembers: stretch of its shear spring (3), depth at birth, whether it lives, the face it is on, last depth."""
+"""Memory of a spring contact: stretch of its shear spring (3), initial depth, 1 while it exists, its face, last depth."""
 
 CACHED_FORCE, CACHED_SLIDING, ACTIVE, POSITION, PREVIOUS_FORCE = 0, 3, 7, 8, 14
 SLOT = 17
-"""What a rigid one does instead: the last force (3), whether it slid, whether it was solved; place and normal in the partner's axes;
-and the force before (3)."""
+"""Memory of a rigid contact (warm start): last force (3), 1 if it slid, 1 if it was solved; position and normal in the partner's axes;
+force before the last (3)."""
 
 DEPTH_TOLERANCE = 1e-6
-"""How much, m, a depth may change in a step beyond what the velocities explain."""
+"""Change of a depth in a step, m, tolerated beyond that explained by the velocities."""
 
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR), inline=True)
 def joint_faces_overlap(rel, carrier_half, partner_half):
-    """Whether two faces still lie over each other."""
+    """Return whether the two faces of a joint still overlap in plan."""
     x, y = abs(rel[0]) * carrier_half[0] + abs(rel[1]) * carrier_half[1], abs(rel[3]) * carrier_half[0] + abs(rel[4]) * carrier_half[1]
     return abs(rel[REL_D]) < partner_half[0] + x and abs(rel[REL_D + 1]) < partner_half[1] + y
 
 
 @kernel(_t.int64(_t.int64, VECTOR, BLOCK, _t.float64, VECTOR, VECTOR, _t.float64, VECTOR, _t.float64, _t.float64, BLOCK, MATRIX, VECTOR))
 def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, level, k, is_engaged, dt, stretch, orbit, total):
-    """Sum the forces at the points of a joint ([Furukawa2009]_).
+    """Add the forces at the points of a joint; return the number of points in contact ([Furukawa2009]_ section 3(1)).
 
     Parameters
     ----------
     rel : (18,) array
-        The carrier as the partner sees it.
+        State of the carrier in the partner's axes.
     points : (orbits, 4, 3) array, m
-        x and y of each point on the carrier's face, and 1 where there is a point.
+        x and y of each point on the carrier's face, and 1 where a point exists.
     sigma : float
-        -1 where the carrier's lower face stands on the partner's upper one, +1 the other way round.
+        -1 if the carrier's lower face stands on the partner's upper face, +1 for the reverse.
     carrier_half, partner_half, level : (3,) array, (3,) array, float, m
         Half sizes of the carrier and of the partner; z of the carrier's face in its own axes.
     k : (6,) array
-        Normal spring, normal dashpot, shear spring, shear dashpot, friction, per point; and 1 where points cling to the face's border.
+        Normal spring, normal dashpot, shear spring, shear dashpot, friction, per point; and 1 if points are clamped to the face's border.
     is_engaged : float
-        1, or 0 to forget all stretches (the joint no longer acts).
+        1, or 0 if the joint no longer acts, which resets all stretches.
     stretch : (orbits, 4, 2) array, m
-        The memory of the shear springs.
+        Stretch of the shear springs.
     orbit : (4, 9) array
         Scratch.
     total : (9,) array
-        The sum, on the carrier, in the partner's axes, about the carrier's centre.
-
-    Returns
-    -------
-    int
-        How many points are in touch.
+        Sum on the carrier, in the partner's axes, about the carrier's centre.
     """
     kn, cn, kt, ct, mu = k[0], k[1], k[2], k[3], k[4]
+    # force per shear velocity over an implicit step
     shear_impedance = kt * dt + ct
     a00, a01, a02 = rel[0], rel[1], rel[2] * level
     a10, a11, a12 = rel[3], rel[4], rel[5] * level
@@ -99,7 +95,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
             s1 = 0.0
             s2 = 0.0
             energy = 0.0
-            touching = 0.0
+            in_contact = 0.0
             is_outside = 0.0
             depth = 0.0
             n0 = 0.0
@@ -113,6 +109,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                     s0 = a00 * rx + a01 * ry + a02
                     s1 = a10 * rx + a11 * ry + a12
                     if clamp and (abs(d0 + s0) > partner_half[0] or abs(d1 + s1) > partner_half[1]):
+                        # move the point back to the border of the partner's face, in the carrier's axes
                         excess0 = d0 + s0 - min(max(d0 + s0, -partner_half[0]), partner_half[0])
                         excess1 = d1 + s1 - min(max(d1 + s1, -partner_half[1]), partner_half[1])
                         rx -= a00 * excess0 + a10 * excess1
@@ -138,6 +135,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                     if size > mu * f2:
                         f0 *= mu * f2 / size
                         f1 *= mu * f2 / size
+                        # the slider yields: the stretch that remains under the limiting force
                         e0 = (f0 * dt + ct * e0) / shear_impedance
                         e1 = (f1 * dt + ct * e1) / shear_impedance
                     else:
@@ -146,7 +144,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                     stretch[o, q, 0] = e0
                     stretch[o, q, 1] = e1
                     energy = 0.5 * (kn * depth * depth + kt * (e0 * e0 + e1 * e1))
-                    touching = 1.0
+                    in_contact = 1.0
                     f0 = -f0 - sigma * n0 * f2
                     f1 = -f1 - sigma * n1 * f2
                     f2 *= -sigma * n2
@@ -163,16 +161,17 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
             orbit[q, 4] = s2 * f0 - s0 * f2
             orbit[q, 5] = s0 * f1 - s1 * f0
             orbit[q, 6] = energy
-            orbit[q, 7] = touching
+            orbit[q, 7] = in_contact
             orbit[q, 8] = is_outside
         for i in range(SUM):
+            # sums in mirrored pairs are bit-identical for mirrored piles; floating-point addition is not associative
             total[i] += (orbit[0, i] + orbit[1, i]) + (orbit[2, i] + orbit[3, i])
-    return int(total[TOUCHING])
+    return int(total[N_IN_CONTACT])
 
 
 @kernel(_t.float64(VECTOR, VECTOR, _t.float64, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR))
 def add_point_force(rel, y, depth, normal, k, dt, slot, total):
-    """Add the force at one wandering contact point ([Furukawa2009]_); return the normal force.
+    """Add the force at one free contact point ([Furukawa2009]_ section 3(1)); return the normal force, N.
 
     The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner.
     """
@@ -195,10 +194,10 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     separation_speed = u0 * n0 + u1 * n1 + u2 * n2
     depth_change = depth - slot[LAST_DEPTH]
     if abs(depth_change) > dt * math.sqrt(u0 * u0 + u1 * u1 + u2 * u2) + DEPTH_TOLERANCE:
-        # the contact went over to another face or edge: its squeeze goes on as the velocity says
+        # the contact has changed to another face or edge: the compression continues from the velocity
         slot[INITIAL_DEPTH] += depth_change + separation_speed * dt
     slot[LAST_DEPTH] = depth
-    # a contact born deep forgets its birth as the stones part
+    # a contact that started deep gives up its offset as the stones separate
     slot[INITIAL_DEPTH] = min(slot[INITIAL_DEPTH], depth)
     compression = depth - slot[INITIAL_DEPTH]
     normal_force = kn * compression - cn * separation_speed
@@ -243,5 +242,5 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     total[4] += s2 * f0 - s0 * f2
     total[5] += s0 * f1 - s1 * f0
     total[ENERGY] += 0.5 * (kn * compression * compression + kt * (e0 * e0 + e1 * e1 + e2 * e2))
-    total[TOUCHING] += 1.0
+    total[N_IN_CONTACT] += 1.0
     return normal_force

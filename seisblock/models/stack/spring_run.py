@@ -1,7 +1,7 @@
-"""A pile on springs through one ground motion: fixed steps.
+"""Time integration of a pile on contact springs with fixed steps.
 
-The step divides the sampling interval; between samples the acceleration is linear. The loop pauses after so many steps and goes on from
-there, so that Python may be interrupted; the answer does not depend on where.
+The step divides the sampling interval; the acceleration is linear between samples. The loop pauses after a number of steps so that Python
+may be interrupted, and continues from there; the result does not depend on the pauses.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import math
 from seisblock._jit import kernel, types
 from seisblock.core.status import NOT_FINITE, PAUSED
 from seisblock.dynamics.array_types import READ_ONLY_MATRIX
+from seisblock.models.stack.broad_phase import BROAD_PHASE_INTERVAL
 from seisblock.models.stack.buffers import FIRST_SAMPLE, HAS_FALLEN, LAYOUT, MEMORY, OUTPUT, SAMPLE, SETTINGS, STATE, STEP
 from seisblock.models.stack.frames import MASS, F
 from seisblock.models.stack.recorder import (
@@ -25,14 +26,14 @@ from seisblock.models.stack.recorder import (
     steps_to_take,
     update_energy_ledger,
 )
-from seisblock.models.stack.step import BROAD_PHASE_INTERVAL, add_all_forces, drift, kick, mechanical_energy
+from seisblock.models.stack.step import add_all_forces, drift, kick, mechanical_energy
 
 _t = types()
 
 
 @kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, STATE, OUTPUT))
 def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, state, output):
-    """Take one step; return whether all is finite."""
+    """Take one step; return whether the energy is finite."""
     counters, bodies = state
     inertias, ledger, g, s, last = pile.inertias, output.energy_ledger, settings.gravity, counters[SAMPLE], settings.last
     n = bodies.shape[0] - 1
@@ -49,6 +50,7 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
         energy = mechanical_energy(n, bodies, inertias, g) + spring_energy
         if s == 0:
             ledger[INITIAL_ENERGY] = energy
+        # the energy is that at the step itself, half a kick before the full one: book half of the work, then take it back
         ledger[WORK] -= work
         update_energy_ledger(ledger, energy - ledger[INITIAL_ENERGY])
         ledger[WORK] += work
@@ -69,12 +71,12 @@ def _advance(motion, k, refresh_bounds, total_mass, settings, pile, memory, stat
 
 @kernel(_t.int64(READ_ONLY_MATRIX, SETTINGS, LAYOUT, MEMORY, STATE, OUTPUT))
 def run_springs(motion, settings, pile, memory, state, output):
-    """Follow a pile on springs through a motion ([Furukawa2009]_) on from its cursor; return a status.
+    """Integrate a pile on contact springs through a motion ([Furukawa2009]_) from its state; return a status.
 
     Parameters
     ----------
     motion : (3, k) array, m/s^2
-        Ground acceleration along, across, up, from the sample on that the cursor names; at its end the loop pauses.
+        Ground acceleration along, across, up, from the sample `FIRST_SAMPLE` of the state; the loop pauses at its end.
     settings, pile, memory, state, output : named tuples
         See :mod:`seisblock.models.stack.buffers`.
     """

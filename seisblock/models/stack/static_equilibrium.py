@@ -1,4 +1,4 @@
-"""A pile at rest: how far its stones sink into their springs, and which step its stiffest contact admits."""
+"""Static equilibrium of a pile on its contact springs, and admissible time steps."""
 
 from __future__ import annotations
 
@@ -15,30 +15,30 @@ from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.models.stack.step import CARRIER, PARTNER, POINT, SIGMA
 
 STABILITY_LIMIT = 4.0
-"""Leapfrog with lagged dashpots is stable while the largest eigenvalue of dt^2 M^-1 K + 2 dt M^-1 C is below this."""
+"""Leapfrog with lagged dashpots is stable while the largest eigenvalue of dt^2 M^-1 K + 2 dt M^-1 C is below this (derived here)."""
 
 SAFETY_FACTOR = 0.7
-"""Part of the stable limit that is used."""
+"""Default step over the stability limit."""
 
 MIN_STEP_RATIO = 1e-3
-"""Smallest part of it that may be asked for: the error of a step falls with its square, so that less only takes longer."""
+"""Smallest admissible step over the stability limit: the error falls with the square of the step and is negligible there."""
 
 RIGID_STEP_RATIO, RIGID_MIN_STEP_RATIO, RIGID_MAX_STEP_RATIO = 0.018, 1e-5, 0.1
-"""Parts of the time in which a stone swings: the step by default where contacts are rigid, the finest and the coarsest."""
+"""Steps for rigid contacts over the swing time of the smallest stone: default, finest and coarsest."""
 
 RIGID_MAX_STEP = 1.0 / 300.0
-"""Longest step by default, s: the slips of large stones follow the shaking, not their own swinging."""
+"""Longest default step for rigid contacts, s: the sliding of large stones follows the ground motion, not their own swing."""
 
 _AXES = np.eye(3)
 
 
 def contact_jacobian(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
-    """Return how each contact point of the joints is displaced by the bodies' small motions.
+    """Return the Jacobian of the contact points of the joints for small motions of the bodies.
 
     Returns
     -------
     rows : (points, 3, 6 m) array
-        Displacement of the upper side against the lower one along x, y and z, per unit of each body's displacement (3) and rotation (3).
+        Displacement of the upper side relative to the lower one along x, y and z, per unit displacement (3) and rotation (3) of each body.
     index : (points, 3) array
         Joint, orbit and image of each point.
     """
@@ -50,7 +50,7 @@ def contact_jacobian(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
             box = pile.boxes[joint[CARRIER]]
             position = pile.bodies[carrier, X : X + 3] + box[3:] + [*pile.grids[j, o, q, :2], k[SIGMA] * box[2]]
             row = np.zeros((3, 6 * (m + 1)))
-            # seen from the lower stone the upper one moves: the carrier is the upper one where sigma is -1
+            # displacement of the upper stone relative to the lower one; the carrier is the upper stone if sigma is -1
             for body, sign in ((carrier, -k[SIGMA]), (partner, k[SIGMA])):
                 arm = position - pile.bodies[body, X : X + 3]
                 row[:, 6 * body : 6 * body + 3] += sign * _AXES
@@ -61,9 +61,9 @@ def contact_jacobian(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
 
 
 def stable_step(pile: PileArrays) -> float:
-    """Return the largest stable step, s, from the linear pile with every point in touch and nothing sliding.
+    """Return the largest stable step, s, of the linear pile with all points in contact and no sliding.
 
-    The step follows from M^-1 (dt^2 K + 2 dt C) having no eigenvalue above 4; the spring and dashpot of a single point are those of
+    The step keeps the eigenvalues of M^-1 (dt^2 K + 2 dt C) below 4 (derived here); spring and dashpot of a point are those of
     [Furukawa2009]_ table 2 or of the stones themselves.
     """
     rows, index = contact_jacobian(pile)
@@ -78,26 +78,27 @@ def stable_step(pile: PileArrays) -> float:
 
     low, high = 0.0, 1.0
     while high - low > 1e-4 * high:
+        # bisection, preceded by decades: the limit may be any power of ten below 1 s
         midpoint = 0.5 * (low + high) if low > 0.0 else 0.1 * high
         low, high = (midpoint, high) if max_eigenvalue(midpoint) < STABILITY_LIMIT else (low, midpoint)
     return low
 
 
 def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
-    """Return how many steps a sampling interval takes.
+    """Return the number of steps per sampling interval on contact springs.
 
     Raises
     ------
     ParameterError
-        If the step asked for is too coarse for the stiffest contact: the answer would be wrong; or so fine that it would never come.
+        If the given step is unstable for the stiffest contact, or needlessly fine.
     """
     limit = stable_step(pile)
     if step is not None:
         checks.positive("the time step", step, "s")
     if step is not None and not step <= limit:
         raise ParameterError(
-            "a step of {step:g} s is too coarse for the stiffest contact of the pile {name}, stable up to {limit:.3g} s: leave "
-            "it out, or give at most {most:.2g} s",
+            "`step` of {step:g} s exceeds the stability limit of the pile {name}, {limit:.3g} s (stiffest contact): leave it out, "
+            "or give at most {most:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
@@ -105,13 +106,14 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         )
     if step is not None and step < MIN_STEP_RATIO * limit:
         raise ParameterError(
-            "a step of {step:g} s is finer than does any good: the stiffest contact of the pile {name} is stable up to "
-            "{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {least:.2g} s",
+            "`step` of {step:g} s is needlessly fine: below 1/1000 of the stability limit of the pile {name}, {limit:.3g} s, the "
+            "error does not decrease; leave it out, or give at least {least:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
             least=MIN_STEP_RATIO * limit,
         )
+    # the factor absorbs round-off where the step divides the sampling interval exactly
     return max(1, math.ceil(dt / (SAFETY_FACTOR * limit if step is None else step) * (1.0 - 1e-12)))
 
 
@@ -126,15 +128,15 @@ def _mass_matrix(pile: PileArrays) -> FloatArray:
 
 
 def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, gravity: float) -> int:
-    """Return how many steps a sampling interval takes where contacts are rigid.
+    """Return the number of steps per sampling interval with rigid contacts.
 
-    Any step is stable. By default it is a part of the time in which the smallest stone would swing, at which thresholds of
-    toppling stand within 0.5 % of those of much finer steps, and at most a three hundredth of a second.
+    Any step is stable. The default is a share of the swing time of the smallest stone, at which overturning thresholds are within 0.5 % of
+    those of much finer steps, and at most 1/300 s.
 
     Raises
     ------
     ParameterError
-        If the step asked for is so coarse that a stone would swing in a few of them, or so fine that the answer would never come.
+        If the given step exceeds a tenth of the swing time of the smallest stone, or is needlessly fine.
     """
     smallest_size = float(np.linalg.norm(pile.boxes[:-1, :3], axis=1).min())
     swing_time = math.sqrt(smallest_size / gravity)
@@ -142,8 +144,8 @@ def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, grav
         checks.positive("the time step", step, "s")
         if not RIGID_MIN_STEP_RATIO * swing_time <= step <= RIGID_MAX_STEP_RATIO * swing_time:
             raise ParameterError(
-                "a step of {step:g} s will not do for the rigid stones of the pile {name}, the smallest of which swings in {swing:.2g} s: "
-                "leave it out, or give {least:.2g} to {most:.2g} s",
+                "`step` of {step:g} s is out of range for the pile {name} with rigid contact (swing time of the smallest stone "
+                "{swing:.2g} s): leave it out, or give {least:.2g} to {most:.2g} s",
                 step=step,
                 name=pile.body.name,
                 swing=swing_time,
@@ -154,12 +156,12 @@ def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, grav
 
 
 def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:
-    """Lower the bodies into their springs until these carry them; points that would have to pull let go.
+    """Lower the bodies onto their springs until these carry the weight; points in tension are released.
 
     Raises
     ------
     BodyError
-        If no set of pressing points carries the pile.
+        If no set of points in compression carries the pile.
     """
     rows, index = contact_jacobian(pile)
     k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
@@ -167,6 +169,7 @@ def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stre
     load = np.zeros(6 * m)
     load[2::6] = -pile.inertias[:, MASS] * gravity
     active_points = np.ones(len(rows), dtype=bool)
+    # active set: release points in tension and solve again
     for _ in range(len(rows)):
         weights = k[:, [2, 2, 0]] * active_points[:, None]
         stiffness = np.einsum("pdi,pd,pdj->ij", rows, weights, rows)
@@ -180,13 +183,13 @@ def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stre
             _displace(pile, u, displacements, index, bodies, stretches)
             return
         active_points = in_contact
-    raise BodyError("the pile {name} does not come to rest on its joints: its load lies too close to an edge", name=pile.body.name)
+    raise BodyError("the pile {name} is not in equilibrium on its joints: the load is too close to an edge", name=pile.body.name)
 
 
 def _displace(
     pile: PileArrays, u: FloatArray, displacements: FloatArray, index: FloatArray, bodies: FloatArray, stretches: FloatArray
 ) -> None:
-    """Write small displacements into the bodies, and the stretch of the shear springs that goes with them."""
+    """Write small displacements into the bodies, and the corresponding stretch of the shear springs."""
     for b in range(pile.inertias.shape[0]):
         bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
         half_rotation = 0.5 * u[6 * b + 3 : 6 * b + 6]
@@ -195,6 +198,6 @@ def _displace(
         cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
         bodies[b, R : R + 9] = (np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross).ravel()
     for (j, o, q), shift in zip(index.tolist(), displacements, strict=True):
-        # the stretch is the carrier's motion against its partner
+        # the stretch is the displacement of the carrier relative to its partner
         if shift[2] < 0.0:
             stretches[j, o, q] = -pile.constants[j, SIGMA] * shift[:2]

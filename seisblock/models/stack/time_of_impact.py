@@ -1,9 +1,9 @@
-"""Impacts within a step: when the next one comes, and what it leaves.
+"""Time of impact within a step, and resolution of impacts.
 
-Velocities are changed by the forces of half the step before and half the step after. A step ends where a point strikes; there the forces
-of before act for their half step, then the impact, without time, then what presses from then on. What presses before and what presses
-after share no impulse: a block that rocks would else carry its weight on the edge that strikes for up to a whole step too long, and
-lose p^2 alpha dt of its turning at each impact (derived here).
+Forces of half the step before and half the step after change the velocities. A step ends at the time of impact of the first striking
+contact; there the previous forces act for their half step, then the impact, in no time, then the contact forces that follow. Contacts
+before and after the impact share no impulse: a rocking block would otherwise rest its weight on the striking edge for up to a full step
+too long and lose p^2 alpha dt of its angular velocity at each impact (derived here).
 """
 
 from __future__ import annotations
@@ -39,20 +39,20 @@ from seisblock.models.stack.constraint_row import (
 _t = types()
 
 IMPACT_SPEED_RATIO = 0.25
-"""Approach, over what a gap's own acceleration changes it by in a step, from which an impact ends a step: half a step passes then until
-it is back. Of what presses it is that of a free fall."""
+"""Approach speed, over the change of the gap rate within a step, from which an impact ends a step: the contact would otherwise be off by
+half a step. For loaded contacts that change is the speed of a free fall."""
 
 
 @kernel(_t.float64(_t.int64, _t.int64, VECTOR, MEMORY), inline=True)
 def _gap_rate(a, b, row, memory):
-    """Return how fast the gap of a contact opens."""
+    """Return the rate of a contact's gap, m/s, positive while it opens."""
     u0, u1, u2 = relative_velocity(a, b, row, memory.body_velocities)
     return u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
 
 
 @kernel(_t.boolean(_t.int64, MEMORY))
 def detect_impacts(count, memory):
-    """Note how fast the gaps open at the step; return whether a point strikes there, and write the floors of the impact if so."""
+    """Write the gap rates at the step; return whether a contact strikes, and set the velocity bounds of the impact."""
     step_info, table = memory.step_info, memory.constraint_rows
     has_impact = False
     for i in range(count):
@@ -68,19 +68,19 @@ def detect_impacts(count, memory):
 
 @kernel(_t.float64(VECTOR, _t.int64), inline=True)
 def _normal_part(row, k):
-    """Return how much of an impulse in a row is along its normal."""
+    """Return the component of an impulse in a row along its normal."""
     return row[k] * row[NORMAL] + row[k + 1] * row[NORMAL + 1] + row[k + 2] * row[NORMAL + 2]
 
 
 @kernel(_t.boolean(VECTOR), inline=True)
 def _is_impact(row):
-    """Whether a point strikes, as against one that touches."""
+    """Return whether a closed contact strikes rather than rests."""
     return row[MIN_NORMAL_VELOCITY] == 0.0 and row[GAP_RATE] < -IMPACT_SPEED_RATIO * row[IMPACT_SPEED]
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, MEMORY), inline=True)
 def _same_bodies(i, j, memory):
-    """Whether two points are of the same two bodies."""
+    """Return whether two contacts belong to the same two bodies."""
     return (
         memory.contact_ids[i, BODY_IDS] == memory.contact_ids[j, BODY_IDS]
         and memory.contact_ids[i, BODY_IDS + 1] == memory.contact_ids[j, BODY_IDS + 1]
@@ -89,11 +89,12 @@ def _same_bodies(i, j, memory):
 
 @kernel(_t.void(_t.int64, _t.float64, MEMORY))
 def load_until_impact(count, time_before, memory):
-    """Let what does not strike press until the impact, from the forces in the rows on."""
+    """Set the resting contacts to press until the impact, starting from the forces in the rows."""
     for i in range(count):
         row = memory.constraint_rows[i]
         row[BILATERAL] = 0.0
         row[PRIOR_NORMAL_FORCE] = max(_normal_part(row, IMPULSE), 0.0)
+        # a striking contact carries nothing before the impact
         if row[GAP_RATE] < -IMPACT_SPEED_RATIO * row[IMPACT_SPEED]:
             row[MIN_NORMAL_VELOCITY] = -math.inf
         for k in range(3):
@@ -103,12 +104,11 @@ def load_until_impact(count, time_before, memory):
 
 @kernel(_t.boolean(_t.int64, _t.int64, _t.int64, _t.int64, LAYOUT, MEMORY))
 def _add_restitution_row(i, count, row_index, n, pile, memory):
-    """Write a row for where the joint that is struck at a point pressed before, to leave as a given ratio says; return whether it pressed.
+    """Write a bilateral row for the loaded points of a struck joint, from its restitution; return whether it was loaded.
 
-    Its points touched, or struck, with velocities u; afterwards the place where it pressed leaves with e (u - min u): in a plane that is
-    the ratio e of spins (derived here). The points that pressed are left to this row. Which of them bore how much before goes over from one
-    corner to the next as the stone turns, so that nothing hangs on their order: it is told by the forces of the step before, as the time
-    until the impact may be none.
+    With velocities u of its points before the impact, the centre of pressure leaves with e (u - min u): in a plane e is the ratio of the
+    spins (derived here). The loaded points are replaced by this row. Their shares come from the forces of the last step, since the time
+    until the impact may be zero; as the stone turns, the load moves from corner to corner, so the order of the contacts has no influence.
     """
     table, row = memory.constraint_rows, memory.constraint_rows[row_index]
     closing_rate, prior_force, load, touch_count, rate = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -119,6 +119,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
                 touch_count += 1.0
                 prior_force += table[j, PRIOR_NORMAL_FORCE]
                 load += max(_normal_part(table[j], PRIOR_IMPULSE), 0.0)
+    # no loaded point, or the rows are full: the impact stays plastic
     if touch_count == 0.0 or row_index >= table.shape[0]:
         return False
     for k in range(ARM_A, NORMAL + 3):
@@ -149,7 +150,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
 
 @kernel(_t.void(_t.int64, MEMORY))
 def begin_impacts(count, memory):
-    """Note what was given until the impacts."""
+    """Store the impulses up to the impacts."""
     for i in range(count):
         row = memory.constraint_rows[i]
         for k in range(3):
@@ -160,22 +161,22 @@ def begin_impacts(count, memory):
 
 @kernel(_t.int64(_t.int64, _t.int64, LAYOUT, MEMORY))
 def add_restitution_rows(count, n, pile, memory):
-    """Add a row for each joint that has a ratio and is struck; return how many rows there are."""
+    """Add a restitution row for each struck joint with a given restitution; return the number of rows."""
     rows = count
     for i in range(count):
         memory.constraint_rows[i, LOAD_SHARE] = 0.0
     for i in range(count):
-        is_held = not (memory.constraint_rows[i, RESTITUTION_RATIO] >= 0.0 and _is_impact(memory.constraint_rows[i]))
+        has_row = not (memory.constraint_rows[i, RESTITUTION_RATIO] >= 0.0 and _is_impact(memory.constraint_rows[i]))
         for j in range(count, rows):
-            is_held = is_held or _same_bodies(i, j, memory)
-        if not is_held and _add_restitution_row(i, count, rows, n, pile, memory):
+            has_row = has_row or _same_bodies(i, j, memory)
+        if not has_row and _add_restitution_row(i, count, rows, n, pile, memory):
             rows += 1
     return rows
 
 
 @kernel(_t.void(_t.int64, _t.int64, MEMORY))
 def store_impact(count, rows, memory):
-    """Note what an impact gave; a joint that left with its ratio does so once in an instant."""
+    """Add the impulses of an impact to the total; a joint applies its restitution once per instant."""
     for i in range(count):
         row = memory.constraint_rows[i]
         for k in range(3):
@@ -188,7 +189,7 @@ def store_impact(count, rows, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, MEMORY))
 def distribute_joint_impulse(count, rows, memory):
-    """Let the points that pressed bear what holds their joints."""
+    """Distribute the impulses of restitution rows to the loaded points."""
     for j in range(count, rows):
         for i in range(count):
             row = memory.constraint_rows[i]
@@ -199,7 +200,7 @@ def distribute_joint_impulse(count, rows, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.int64, LAYOUT, MEMORY))
 def make_impact_plastic(count, rows, n, pile, memory):
-    """Let no joint be held, so that the impact is plastic."""
+    """Undo the restitution rows, which makes the impact plastic."""
     apply_impulses(rows - count, memory.contact_ids[count:], memory.constraint_rows[count:], n, pile.inertias, -1.0, memory.body_velocities)
     for i in range(count):
         if memory.constraint_rows[i, LOAD_SHARE] > 0.0:
@@ -208,22 +209,24 @@ def make_impact_plastic(count, rows, n, pile, memory):
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
 def _closing_time(gap, rate, gain):
-    """Return when a gap that opens at a rate, which grows by a gain, will have closed, s."""
+    """Return the time until a gap closes at a rate that changes linearly, s; infinite if it does not close."""
+    # gap + rate t + gain t^2 / 2 = 0
     discriminant = rate * rate - 2.0 * gain * gap
     if discriminant < 0.0:
         return math.inf
+    # smaller root in the form without cancellation
     denominator = -rate + math.sqrt(discriminant)
     return 2.0 * gap / denominator if denominator > 0.0 else math.inf
 
 
 @kernel(_t.float64(_t.int64, _t.float64, _t.float64, MEMORY))
 def next_impact_time(count, half, time_left, memory):
-    """Return when the next impact comes, s, at the latest what is left of the step; mark with no floor what strikes then.
+    """Return the time of the next impact, s, at most the remainder of the step; striking contacts get no velocity bound.
 
     Parameters
     ----------
     half : float, s
-        For how long the velocities have gone on since the step.
+        Time over which the velocities were advanced since the step.
     """
     full_step, min_time = memory.step_info[FULL_STEP], time_left
     free_fall_speed = memory.step_info[FREE_FALL_SPEED]
@@ -241,10 +244,12 @@ def next_impact_time(count, half, time_left, memory):
             row[MIN_NORMAL_VELOCITY] = -math.inf
             row[SEARCH_DIRECTION] = time
             min_time = min(min_time, time)
+    # an impact at the end of the step needs no extra step
     if min_time > time_left - SIMULTANEITY * full_step:
         min_time = time_left
     for i in range(count):
         row = memory.constraint_rows[i]
         if row[MIN_NORMAL_VELOCITY] < 0.0 and row[SEARCH_DIRECTION] > min_time + 2.0 * row[SIMULTANEITY_WINDOW] * full_step:
+            # strikes well after the first impact: bounded in this step like a resting contact
             row[MIN_NORMAL_VELOCITY] = 0.0
     return min_time

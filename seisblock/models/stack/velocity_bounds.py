@@ -1,4 +1,4 @@
-"""What a step asks of its points: the least velocities they may have at its end, and how these change as their bodies turn and roll."""
+"""Velocity bounds of constraint rows (gap closure, Baumgarte correction) and their rotation and rolling bias."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from seisblock.models.stack.pgs import TOLERANCE
 _t = types()
 
 MIN_STEP_RATIO = 0.00390625
-"""Of a whole step: the least that one has that ends since a rim's lowest point has wandered far."""
+"""Shortest step that ends because a rim's lowest point has moved too far, over a full step."""
 
 BAUMGARTE_FACTOR, MAX_CORRECTION_SPEED = 0.2, 0.05
-"""Part of a gap closed too far that a step makes good, and the speed, m/s, that it may take for it."""
+"""Share of an overlap corrected per step (Baumgarte stabilisation), and largest speed of the correction, m/s."""
 
 
 @kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
 def _add_rotation_bias(velocity, arm, half, bias):
-    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r) + w' x r."""
+    """Add the change of a body point's velocity by rotation over a time: w x (w x r) + w' x r (derived here)."""
     x, y, z = velocity[3], velocity[4], velocity[5]
     projection = x * arm[0] + y * arm[1] + z * arm[2]
     square = x * x + y * y + z * z
@@ -36,14 +36,14 @@ def _add_rotation_bias(velocity, arm, half, bias):
 
 @kernel(_t.float64(_t.int64, _t.int64, _t.float64, VECTOR, VECTOR, MEMORY), inline=True)
 def _rolling_bias(a, b, dt, row, bias, memory):
-    """Add what :func:`seisblock.models.stack.cylinder.rolling_bias` does with the spins of two bodies, and return what it returns."""
+    """Add the rolling bias of a rim contact for the relative spin of two bodies; return the time until it has moved far, s."""
     u, v = memory.body_velocities[a], memory.body_velocities[b]
     return rolling_bias(row, u[3] - v[3], u[4] - v[4], u[5] - v[5], dt, bias)
 
 
 @kernel(_t.float64(_t.int64, _t.float64, MEMORY))
 def max_roll_time(count, time_left, memory):
-    """Return when the lowest point of a rim will have wandered far round it, s, at the latest what is left of the step."""
+    """Return the time until the lowest point of a rim has moved too far round it, s, at most the remainder of the step."""
     bias, min_time = memory.scratch[0], time_left
     for i in range(count):
         if memory.constraint_rows[i, RIM_RADIUS] != 0.0:
@@ -56,9 +56,9 @@ def max_roll_time(count, time_left, memory):
 
 @kernel(_t.void(_t.int64, _t.float64, MEMORY), inline=True)
 def set_velocity_bounds(count, dt, memory):
-    """Write the least normal velocities of a step: an open gap may close and no more, one closed too far opens slowly.
+    """Write the velocity bounds of a step: an open gap may just close, an overlap opens slowly.
 
-    A gap that the tolerance of the sweeps left is none: a step that is short would let its point do nothing, and the others bear its part.
+    A gap within the solver tolerance counts as closed: in a short step its contact would otherwise stay inactive and overload the others.
     """
     full_step = memory.step_info[FULL_STEP]
     gap_tolerance, closing_time = TOLERANCE * memory.step_info[FREE_FALL_SPEED] * full_step, max(dt, MIN_FORCE_TIME_RATIO * full_step)
@@ -66,6 +66,7 @@ def set_velocity_bounds(count, dt, memory):
         row, gap, a, b = memory.constraint_rows[i], memory.constraint_rows[i, GAP], memory.contact_ids[i, 0], memory.contact_ids[i, 1]
         row[BILATERAL] = 0.0
         if row[MIN_NORMAL_VELOCITY] == 0.0:
+            # Baumgarte correction: overlaps are reduced by a fixed share per step, with limited speed, so that they add no energy
             row[MIN_NORMAL_VELOCITY] = (
                 -gap / (dt if gap > gap_tolerance else closing_time)
                 if gap > 0.0

@@ -1,8 +1,8 @@
-"""What a point remembers: the force of the one that was where it is, or its part of what all of them bore.
+"""Warm start: match contact points between steps and carry over their forces, or redistribute the joint load.
 
-Points are not the same from step to step: those of a round face go round with the push, and where two faces lie over each other corners
-come and go. The velocities of a step are changed by the forces of half the step before. Forces that no point went on with would be missing
-for as long; where there are such, the new points share what all the old ones bore: force, moment and twist of a flat joint remain.
+Contact points differ from step to step: those of a round face follow the load, and corners of an overlap appear and vanish. The forces
+of the last step act for half a step. A force without a matching point would be missing for that time; the new points then share the
+load of all old ones, which preserves force, moment and twist of a flat joint.
 """
 
 from __future__ import annotations
@@ -18,26 +18,25 @@ from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_S
 _t = types()
 
 MATCH_RADIUS = 0.02
-"""How far, m, a point of a meeting is sought of which another remembers the force."""
+"""Largest distance, m, between an old and a new contact point that are matched."""
 
 MAX_SHIFT_RATIO = 1e-3
-"""How far, over the size of a stone, the points of a flat face may be laid anew and go on with the forces that they had."""
+"""Largest shift of a point on a flat face, over the stone's size, at which it keeps its force."""
 
 MIN_AREA = 1e-9
-"""Twice the area, m^2, of a triangle that is none."""
+"""Twice the area, m^2, below which a triangle is degenerate."""
 
 MAX_TENSION_RATIO = 0.1
-"""Part of a load with which a point may pull that takes over from others: as much as to keep its moment where it lies just beyond."""
+"""Largest tension of a redistributed load, as a share of it: enough to keep the moment of a load just outside the triangle."""
 
 LOAD_FORCE, LOAD_CENTRE, LOAD_TWIST, LOAD_NORMAL, LOAD_SLIDING = 0, 3, 5, 6, 7
 LOAD_COLUMNS = 8
-"""What a flat joint bears, in the partner's axes: force (3), where it presses (2), its twist about there, and what presses; and behind it
-whether a point slid."""
+"""Load of a flat joint in the partner's axes: force (3), centre of pressure (2), twist about it, normal force; and 1 if a point slid."""
 
 
 @kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def store_point(slot, y0, y1, y2, axis):
-    """Note a point and its normal in a slot."""
+    """Write a contact point and its normal into a slot."""
     slot[POSITION] = y0
     slot[POSITION + 1] = y1
     slot[POSITION + 2] = y2
@@ -47,7 +46,7 @@ def store_point(slot, y0, y1, y2, axis):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX), inline=True)
 def save_slots(count, slots, old_slots):
-    """Keep what points remember, and let them be found anew."""
+    """Copy the slots of the last step and mark them free."""
     for i in range(count):
         for j in range(SLOT):
             old_slots[i, j] = slots[i, j]
@@ -56,7 +55,7 @@ def save_slots(count, slots, old_slots):
 
 @kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
 def match_point(slot, old_slots, count):
-    """Let a point remember the force of the one that was nearest to it."""
+    """Warm-start a contact from the nearest unmatched point of the last step."""
     match, min_distance_squared = -1, MATCH_RADIUS**2
     for i in range(count):
         old = old_slots[i]
@@ -76,6 +75,7 @@ def match_point(slot, old_slots, count):
         for i in range(3):
             slot[CACHED_FORCE + i] = old[CACHED_FORCE + i]
             slot[PREVIOUS_FORCE + i] = old[PREVIOUS_FORCE + i]
+        # an old point gives its force to one new point only
         old[ACTIVE] = 0.0
 
 
@@ -92,7 +92,7 @@ def _to_body_axes(force, frame):
 
 @kernel(_t.void(_t.int64, MATRIX, VECTOR, VECTOR), inline=True)
 def _sum_forces(field, slots, frame, load):
-    """Add up the forces that the points of a flat joint remember in a field."""
+    """Sum the forces of a flat joint's points stored in one field of their slots."""
     for k in range(LOAD_COLUMNS):
         load[k] = 0.0
     for i in range(slots.shape[0]):
@@ -115,7 +115,7 @@ def _sum_forces(field, slots, frame, load):
 
 @kernel(_t.boolean(MATRIX, VECTOR, MATRIX), inline=True)
 def sum_joint_load(slots, frame, loads):
-    """Add up what the points of a flat joint bore; return whether they bore anything.
+    """Sum the load of a flat joint's points; return whether it is not zero.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def sum_joint_load(slots, frame, loads):
     frame : (31,) array
         The partner's body.
     loads : (2, 18) array
-        What they bore in the last step, and in the one before.
+        Load in the last step, and in the step before.
     """
     _sum_forces(CACHED_FORCE, slots, frame, loads[0])
     _sum_forces(PREVIOUS_FORCE, slots, frame, loads[1])
@@ -135,7 +135,7 @@ def sum_joint_load(slots, frame, loads):
 
 @kernel(_t.boolean(_t.int64, MATRIX, MATRIX, _t.float64), inline=True)
 def has_lost_loaded_point(points, slots, old_slots, radius):
-    """Whether a point that bore something has none of the new ones as near as `radius`, m."""
+    """Return whether a loaded point of the last step has no new point within `radius`, m."""
     for i in range(old_slots.shape[0]):
         old, is_near = old_slots[i], False
         if old[ACTIVE] == 0.0 or (old[CACHED_FORCE] == 0.0 and old[CACHED_FORCE + 1] == 0.0 and old[CACHED_FORCE + 2] == 0.0):
@@ -150,7 +150,7 @@ def has_lost_loaded_point(points, slots, old_slots, radius):
 
 @kernel(_t.UniTuple(_t.float64, 3)(VECTOR, VECTOR, VECTOR, _t.float64, _t.float64), inline=True)
 def _barycentric(a, b, c, x, y):
-    """Return the parts in which three points bear what presses at a place: negative where it lies beyond them."""
+    """Return the barycentric coordinates of a position in a triangle of points: negative outside."""
     a0, a1, b0, b1, c0, c1 = (
         a[POSITION] - x,
         a[POSITION + 1] - y,
@@ -168,9 +168,10 @@ def _barycentric(a, b, c, x, y):
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR, VECTOR, VECTOR, VECTOR), inline=True)
 def _distribute_to_triangle(field, a, b, c, load, frame):
-    """Let three points bear a load together, each its part of the force, and of the twist by how far it is from where that presses."""
+    """Distribute a load to three points: forces by barycentric coordinates, twist by the distance from the centre of pressure."""
     x, y = load[LOAD_CENTRE], load[LOAD_CENTRE + 1]
     u, v, w = _barycentric(a, b, c, x, y)
+    # a load slightly outside the triangle is kept by limited tension, else its moment would be lost
     u, v, w = max(u, -MAX_TENSION_RATIO), max(v, -MAX_TENSION_RATIO), max(w, -MAX_TENSION_RATIO)
     total, polar = u + v + w, 0.0
     for q in range(3):
@@ -190,17 +191,18 @@ def _distribute_to_triangle(field, a, b, c, load, frame):
 
 @kernel(_t.boolean(_t.int64, MATRIX, MATRIX, VECTOR))
 def distribute_load(points, slots, loads, frame):
-    """Let the points of a flat joint bear what was gathered, by the three among which it presses most evenly; return whether it has three.
+    """Distribute a load to the triangle of points that carries it most evenly; return whether a triangle exists.
 
     Parameters
     ----------
     slots : (k, 17) array
-        The points where they now are.
+        The new points.
     loads : (2, 18) array
         See :func:`sum_joint_load`.
     frame : (31,) array
         The partner's body.
     """
+    # the triangle with the largest smallest coordinate carries the load most evenly
     best, first, second, third = -math.inf, 0, 0, 0
     for i in range(points):
         for j in range(i):
@@ -224,17 +226,17 @@ def distribute_load(points, slots, loads, frame):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, MATRIX))
 def project_to_plane(first, count, max_gap, table):
-    """Let the points of a flat joint, where more than three touch, press as a plane over the joint does, as far as none then pulls.
+    """Project the normal impulses of a flat joint with more than three points onto a plane distribution without tension.
 
-    Which points bear what they bear together is nowhere told; friction against a twist hangs on it. The plane is the one with the same
-    force and moments, of all loads that have these the one whose squares are least (derived here).
+    The individual forces are statically indeterminate, but friction against twist depends on them. The plane has the same force and
+    moments, and the least sum of squares of all distributions that do (derived here).
 
     Parameters
     ----------
     first, count : int
-        The rows of the joint.
+        Rows of the joint.
     max_gap : float, m
-        The gap within which points touch.
+        Gap below which points are in contact.
     table : (k, 92) array
     """
     if count - first <= 3:
@@ -242,6 +244,7 @@ def project_to_plane(first, count, max_gap, table):
     n0, n1, n2 = table[first, NORMAL], table[first, NORMAL + 1], table[first, NORMAL + 2]
     c0, c1, c2, mean_press = 0.0, 0.0, 0.0, 0.0
     for i in range(first, count):
+        # an open point: the joint is not flat, and the distribution is left alone
         if table[i, GAP] > max_gap:
             return
         c0 += table[i, ARM_B]
@@ -262,10 +265,12 @@ def project_to_plane(first, count, max_gap, table):
         yy += y * y
         mx += x * normal_impulse
         my += y * normal_impulse
+    # least-squares plane: mean force and two slopes along axes in the joint's plane
     d = xx * yy - xy * xy
     if d <= MIN_AREA * xx * yy:
         return
     gx, gy, scale = (mx * yy - my * xy) / d, (my * xx - mx * xy) / d, 1.0
+    # the first pass limits the change so that no point pulls, the second applies it
     for stage in range(2):
         for i in range(first, count):
             a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2

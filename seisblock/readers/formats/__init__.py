@@ -1,1 +1,1 @@
-"""One file per format that is read."""
+"""Readers of file formats, one module per format."""

@@ -1,4 +1,4 @@
-"""PEER's AT2: one component in g, its direction in the second line of the header or in the file's name."""
+"""PEER AT2: one component in g, direction in the second header line or in the file name."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FILE_NAME = re.compile(
 
 
 def is_at2(head: bytes) -> bool:
-    """Return whether a file's first bytes are an AT2 header: text with NPTS and DT in its first lines, and no velocity or displacement."""
+    """Return whether bytes begin an AT2 header: NPTS and DT in the first lines, no velocity or displacement."""
     text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
     if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
         return False
@@ -37,26 +37,24 @@ def is_at2(head: bytes) -> bool:
 
 
 def read_at2(blob: RawFile) -> Record:
-    """Return the one component in an AT2 file.
+    """Return the component in an AT2 file.
 
     Notes
     -----
     Azimuths 0 and 360 are called ``NS``, 90 ``EW``; any other direction keeps its azimuth as its code (``180``, ``164``), with its sign
-    as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with the sign turned, which the history says. The header has a date but no time:
-    `start` is None, and ``metadata["event"]`` tells which files belong together.
+    as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with reversed sign, noted in the history. The header has a date but no time: `start`
+    is None, and ``metadata["event"]`` identifies files of one recording.
     """
     lines = decode_text(blob).split("\n")
     sampling_line, count, dt = _parse_sampling(blob.name, lines)
     header = " ".join(lines[:sampling_line])
     unit_match = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
     if unit_match and unit_match[1].upper() not in ("G", "G'S", "GS"):
-        raise RecordFormatError(
-            "{name}: an AT2 file is in g, but its header says {found!r}: expected an acceleration in g", name=blob.name, found=unit_match[1]
-        )
+        raise RecordFormatError("{name}: AT2 unit {found!r} in the header: expected acceleration in g", name=blob.name, found=unit_match[1])
     values = _parse_samples(blob.name, lines[sampling_line + 1 :], sampling_line + 2)
     if values.size != count:
         raise RecordFormatError(
-            "{name}: its header promises {count} samples (NPTS), it holds {found}: it is cut or damaged",
+            "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged",
             name=blob.name,
             count=count,
             found=values.size,
@@ -64,13 +62,13 @@ def read_at2(blob: RawFile) -> Record:
     event, station, direction = _parse_title(lines[1] if sampling_line > 1 else "", blob.basename)
     code, azimuth, sign = parse_orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
-    history = (lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=direction),) if sign < 0 else ()
+    history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
     return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
 
 
 def parse_orientation(direction: str) -> tuple[str, float | None, float]:
-    """Return code, azimuth in degrees clockwise from north, and sign, of a direction as PEER writes it.
+    """Return code, azimuth in degrees clockwise from north, and sign of a PEER direction.
 
     Examples
     --------
@@ -84,7 +82,7 @@ def parse_orientation(direction: str) -> tuple[str, float | None, float]:
 
 
 def split_direction(basename: str) -> tuple[str, str] | None:
-    """Return a file name without the direction, and the direction, or None when it holds none.
+    """Return a file name without the direction, and the direction; None if there is none.
 
     Examples
     --------
@@ -98,7 +96,7 @@ def split_direction(basename: str) -> tuple[str, str] | None:
 
 
 def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
-    """Return the index of the line with NPTS and DT, and both."""
+    """Return line index, NPTS and DT of the sampling line."""
     for index, line in enumerate(lines[:_HEADER_LINES]):
         old_match = _OLD_STYLE.match(line)
         count, interval = (
@@ -106,6 +104,7 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
         )
         if count and interval:
             stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
+            # contradicting values indicate concatenated or edited headers
             if any(len(values) > 1 for values in stated_values):
                 raise_line_error(
                     name,
@@ -119,17 +118,17 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
                 )
             return index, int(count), dt
     raise RecordFormatError(
-        "{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {count}",
+        "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines",
         name=name,
         count=_HEADER_LINES,
     )
 
 
 def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
-    """Return the samples, g, row after row."""
+    """Return the samples, g, (n,)."""
     tokens = " ".join(lines).split()
     if not tokens:
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
     try:
         values = np.fromiter(map(float, tokens), dtype=np.float64, count=len(tokens))
     except ValueError:
@@ -143,7 +142,7 @@ def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArr
 
 
 def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
-    """Return event, station and direction from the header's second line, the direction else from the file's name."""
+    """Return event, station and direction from the second header line, else the direction from the file name."""
     fields = [field.strip() for field in line.split(",")]
     name_parts = split_direction(basename)
     if len(fields) >= 4:

@@ -1,7 +1,7 @@
-"""COSMOS, volumes 1 and 2 (format v1.20): text, 100 integers, 100 reals, comments, then the samples of a channel, one or more in a file.
+"""COSMOS format v1.20, volumes 1 and 2: text, integer and real header, comments and samples per channel.
 
-Each part of a header tells how many values follow in which Fortran format. Raw counts (volume 0), pairs of time and acceleration,
-velocities and displacements are recognised by the first line, or by the integers, and refused by name.
+Each header section states the number of values and their Fortran format. Raw counts (volume 0), pairs of time and acceleration,
+velocities and displacements are identified by the first line or by the integers and raise an error that names them.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ _COMMENTS = re.compile(r"\s*(\d+)\s+Comment line\(s\) follow", re.IGNORECASE)
 _DATA = re.compile(r"\s*(\d+)\s+([A-Za-z. ]+?)\s*pts,.*units\s*=\s*([^,(]*)\((\d+)\)", re.IGNORECASE)
 _END_MARK = re.compile(r"(?:/&[\s-]*End of data for channel\s+\S+\s+-{10}|End-of-data for \S.*acceleration)\s*\Z", re.IGNORECASE)
 TITLE, RECORD, HYPOCENTRE, ORIGIN, STATION, START_TIME, CHANNEL, PEAK = 0, 1, 2, 3, 4, 7, 8, 10
-"""Lines of text."""
+"""Text line numbers, from 0."""
 
 LEVEL, QUANTITY, UNIT, STRUCTURE, YEAR, MONTH, DAY, HOUR, MINUTE, AZIMUTH = 0, 1, 2, 18, 39, 41, 42, 43, 44, 53
-"""Places of the integers, from 0."""
+"""Indices of the integer header, from 0."""
 
 REAL_INDICES = {
     "station_latitude_deg": 0,
@@ -47,28 +47,28 @@ REAL_INDICES = {
     "epicentral_distance_km": 16,
 }
 MAGNITUDES, SECOND, INTERVAL_MS, LENGTH = (12, 14, 13), 29, 61, 62
-"""Places of the reals, from 0: moment, local and surface-wave magnitude."""
+"""Indices of the real header, from 0; magnitudes: moment, local, surface-wave."""
 
 MISSING_BELOW = -998.0
-"""Reals from here down say nothing: COSMOS writes -999."""
+"""Real values below this are missing; COSMOS writes -999."""
 
 _UNITS = {2: ("g", 1.0), 4: ("gal", 1.0), 7: ("gal", 2.54), 10: ("gal", 1.0), 11: ("g", 1e-3), 12: ("g", 1e-6)}
-"""Units of acceleration and their factor, by COSMOS's number; 7 is in/s^2, 11 mg, 12 micro-g."""
+"""Acceleration unit and factor by COSMOS unit code; 7 is in/s^2, 11 mg, 12 micro-g."""
 
 _DIRECTIONS = {400: "UP", 401: "DOWN", 402: "UP", 500: "R", 501: "TRANS", 600: "L", 601: "TRANS", 700: "H1", 701: "H2"}
 _STRUCTURES = {10, 11, 12, 13, 15, 20}
-"""Numbers of stations in a building, bridge, dam, wharf, or other structure."""
+"""Station type codes of buildings, bridges, dams, wharves and other structures."""
 
 _UNSUPPORTED = {
-    "raw": N_("raw counts (volume 0): take volume 1 or 2 of the same record"),
-    "velocity": N_("a velocity: take the file of accelerations of the same record"),
-    "displacement": N_("a displacement: take the file of accelerations of the same record"),
-    "uneven": N_("uneven samples, pairs of time and acceleration: take volume 2 of the same record, whose samples are even"),
+    "raw": N_("raw counts (volume 0): use volume 1 or 2 of the same record"),
+    "velocity": N_("velocity: use the acceleration file of the same record"),
+    "displacement": N_("displacement: use the acceleration file of the same record"),
+    "uneven": N_("unevenly sampled pairs of time and acceleration: use volume 2 of the same record (evenly sampled)"),
 }
 
 
 class _ChannelBlock(NamedTuple):
-    """One channel: its text, header, comments and samples, the line of its data, and where the next begins."""
+    """One channel: text, headers, comments and samples, line of its data, and index of the line after it."""
 
     text: Sequence[str]
     integers: list[int]
@@ -80,17 +80,17 @@ class _ChannelBlock(NamedTuple):
 
 
 def is_cosmos(head: bytes) -> bool:
-    """Return whether a file's first line tells the format of COSMOS and how many lines of text follow."""
+    """Return whether bytes begin with a COSMOS title line (format version, number of text lines)."""
     return _TITLE_LINE.match(head) is not None
 
 
 def read_cosmos(blob: RawFile) -> list[Record]:
-    """Return the channels in a COSMOS file of volume 1 or 2, as records of one component each.
+    """Return the channels in a COSMOS file of volume 1 or 2, as single-component records.
 
     Notes
     -----
-    Channels in a building, bridge or dam are stations of their own by the place that the header tells. The header's peak, and the length
-    of the record, are compared with the samples.
+    Channels in a building, bridge or dam become separate stations by their location. Header peak and record length are checked against
+    the samples.
     """
     lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     while lines and not lines[-1].strip():
@@ -124,26 +124,27 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     count = int(comment_head[1][:4])
     comments = lines[line_index + 1 : line_index + 1 + count]
     if len(comments) < count or not all(line.lstrip().startswith("|") for line in comments):
-        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comments that begin with |", count=count))
+        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comment lines beginning with |", count=count))
     line_index += 1 + count
     data, layout = _DATA.match(lines[line_index] if line_index < len(lines) else ""), parse_fortran_format(_line_text(lines, line_index))
     if data is None or layout is None:
         message = lazy_gettext(
-            "expected a line with count, unit and format of the samples below it, found {text!r}", text=_line_text(lines, line_index)
+            "expected a line with count, unit and format of the samples, found {text!r}", text=_line_text(lines, line_index)
         )
         raise_line_error(name, line_index + 1, message)
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
+    # unit code 3 marks pairs of time and acceleration
     if int(data[4]) == 3 or integer_values[UNIT] == 3:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
     samples = parse_fixed_width(name, lines, line_index + 1, size, layout)
     end = line_index + 1 + count_lines(size, layout)
     if end < len(lines) and not re.match(r"/&|End-of-data", lines[end], re.IGNORECASE):
         raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=_line_text(lines, end)))
     if int(data[4]) != integer_values[UNIT]:
         message = lazy_gettext(
-            "the unit of the samples is {one} here and {other} in the integers", one=data[3].strip(), other=integer_values[UNIT]
+            "sample unit {one} contradicts unit code {other} in the integer header", one=data[3].strip(), other=integer_values[UNIT]
         )
         raise_line_error(name, line_index + 1, message)
     text = [*lines[begin : begin + int(title[2][:3])], *[""] * (PEAK + 1)]
@@ -151,24 +152,24 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
 
 
 def _check_quantity(name: str, quantity: str) -> None:
-    """Refuse what is no acceleration."""
+    """Raise if the quantity of a channel is not acceleration."""
     stated_quantity = re.sub(r"^(?:un)?corrected\s+", "", quantity.strip().lower())
     reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if stated_quantity.startswith(word)), None)
     if reason is not None:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(reason))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(reason))
 
 
 def _line_text(lines: Sequence[str], index: int) -> str:
-    """Return what stands in a line, nothing behind the last."""
+    """Return a line for messages; empty past the end."""
     return lines[index].strip()[:80] if index < len(lines) else ""
 
 
 def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -> tuple[FloatArray, int]:
-    """Return the integers or reals of a header, and the index of the line behind them."""
+    """Return the values of a header section, and the index of the line after them."""
     head, layout = _SECTION_HEAD.match(_line_text(lines, line_index)), parse_fortran_format(_line_text(lines, line_index))
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
         message = lazy_gettext(
-            "expected the number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
+            "expected number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
         )
         raise_line_error(name, line_index + 1, message)
     count = int(head[1][:6])
@@ -176,24 +177,23 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
 
 
 def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
-    """Return one channel."""
     if block.integers[UNIT] not in _UNITS:
         unit_code = block.integers[UNIT]
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=name, line=block.data_line + 1, text=unit_code)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=block.data_line + 1, text=unit_code)
     unit, factor = _UNITS[block.integers[UNIT]]
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
         raise_line_error(
             name,
             block.data_line + 1,
-            lazy_gettext("the reals above tell a sampling interval of {dt:g} ms: expected one above 0", dt=1000.0 * dt),
+            lazy_gettext("expected a sampling interval above 0 ms in the real header, found {dt:g} ms", dt=1000.0 * dt),
         )
     direction, direction_name = _parse_direction(block)
     scaled_samples = block.samples if factor == 1.0 else factor * block.samples
     component, history = make_component(direction, to_si(scaled_samples, unit), direction_name)
     flags = _qc_flags(direction.code, block, dt)
     if not is_complete:
-        flags += (QCFlag("cut", lazy_gettext("the mark that ends the last channel is missing: the file looks cut")),)
+        flags += (QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated")),)
     start = _start_time(block)
     return Record(
         (component,),
@@ -209,8 +209,9 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
 
 
 def _parse_direction(block: _ChannelBlock) -> tuple[Direction, str]:
-    """Return the direction of a channel and its name: by the integers, else by the text, else by the SEED code among the comments."""
+    """Return direction and name of a channel from the integers, else the text, else the SEED code in the comments."""
     azimuth = block.integers[AZIMUTH]
+    # codes above 360 denote vertical, radial, transverse and other directions
     if 1 <= azimuth <= 360:
         return direction_from_azimuth(float(azimuth)), str(azimuth)
     channel_match = re.search(r"Chan?\s*\S*?:\s*(\d{1,3}\s*deg\b|[^\s(]+)", block.text[CHANNEL], re.IGNORECASE)
@@ -232,13 +233,11 @@ def _parse_station(block: _ChannelBlock) -> tuple[str, str, str]:
 
 
 def _start_time(block: _ChannelBlock) -> datetime | None:
-    """Return the time of the first sample, UTC."""
     year, month, day, hour, minute = (block.integers[place] for place in (YEAR, MONTH, DAY, HOUR, MINUTE))
     return utc_datetime(year, month, day, hour, minute, float(block.reals[SECOND])) or parse_datetime(block.text[START_TIME])[0]
 
 
 def _metadata(block: _ChannelBlock) -> dict[str, object]:
-    """Return what the header says of station and earthquake."""
     _, network, name = _parse_station(block)
     metadata: dict[str, object] = {key: value for key, value in (("network", network), ("station_name", name)) if value}
     metadata |= {key: float(block.reals[place]) for key, place in REAL_INDICES.items() if block.reals[place] > MISSING_BELOW}
@@ -257,14 +256,18 @@ def _metadata(block: _ChannelBlock) -> dict[str, object]:
 
 
 def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
-    """Return what the header says of the samples that is not so: peak and length of the record."""
+    """Return flags for peak and record length that differ from the header."""
     peak = re.search(r"Max\s*=\s*(-?[\d.]+)", block.text[PEAK], re.IGNORECASE)
     peak_text = peak[1] if peak else ""
     flags = flag_peak_mismatch(code, peak_text, block.samples, _UNITS[block.integers[UNIT]][0], 2.0 * half_last_digit(peak_text))
     size, length = block.samples.size, float(block.reals[LENGTH])
+    # 1.5 intervals and the printed decimals: the length may count samples or intervals
     if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=f"{length:g}",
-        count=size,
-                    seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=f"{length:g}",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

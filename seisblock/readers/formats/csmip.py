@@ -1,9 +1,9 @@
-"""CSMIP (California): volumes 1 and 2, all channels of a station in one file, text, integers and reals in lines of their own.
+"""CSMIP (California), volumes 1 and 2: all channels of a station in one file.
 
-Seen in files: volume 1 has 13 lines of text, 7 of integers and 7 of reals, volume 2 has 25, 7 and 13; then a line that tells count,
-interval, unit and format of the samples below it, in volume 2 once more for velocities and displacements, which are passed over; and a
-mark where the channel ends. Volume 1 of films is uneven, pairs of time and acceleration: it is refused by name, as are volume 3 (spectra)
-and the files of USC.
+Layout found in files: volume 1 has 13 lines of text, 7 of integers and 7 of reals, volume 2 has 25, 7 and 13; then a line with count,
+interval, unit and format of the samples below it, in volume 2 also for velocities and displacements, which are skipped; then an end mark.
+Volume 1 of film records is unevenly sampled pairs of time and acceleration; these, volume 3 (spectra) and USC files raise an error that
+names them.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ from seisblock.records.site import UTC_OFFSETS
 
 FORMAT = "CSMIP"
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
-"""Lines above the samples of a channel, by volume."""
+"""Header lines above the samples of a channel, by volume."""
 
 _FORMS = {1: (8, 9), 2: (8, 10)}
-"""Of samples whose format is not told."""
+"""Default numbers per line and field width of the samples, by volume."""
 
 EVENT, ORIGIN, TRIGGER, STATION, NAME, CHANNEL, HYPOCENTRE = 1, 2, 3, 4, 5, 6, 8
-"""Lines of text in volume 1; in volume 2 each is one further down."""
+"""Text line numbers in volume 1; in volume 2 one more."""
 
 _TITLE = re.compile(
     rb"[ ]*(UNCORRECTED ACCELEROGRAM DATA|CORRECTED ACCELEROGRAM\b|RESPONSE AND FOURIER|FILE\s+\d+ OF UNCORRECTED)", re.IGNORECASE
@@ -46,18 +46,18 @@ _SECTION = re.compile(r"\s*(\d+)\s+(?:points of\s+)?(accel|veloc|displ)", re.IGN
 _INTERVAL = re.compile(r"\bat\s+([\d.]+)\s*(sec|pts/sec)", re.IGNORECASE)
 _UNIT = re.compile(r"(?:units?\s*(?:of|:)|\bin(?! units))\s*([a-z][a-z0-9/]*)", re.IGNORECASE)
 _PEAKS = {1: r"\bmax\s*=\s*(-?[\d.]+)", 2: r"\bpeak acceleration\s*=\s*(-?[\d.]+)"}
-"""How the header tells the largest sample, by volume."""
+"""Patterns of the header peak, by volume."""
 
 _END_MARK = re.compile(r"/&[\s-]*END OF DATA FOR CHANNEL\s+\S+\s+-{10}", re.IGNORECASE)
 _UNSUPPORTED = {
-    "RES": N_("response spectra (volume 3): take volume 2 of the same record"),
-    "FIL": N_("uncorrected, uneven samples in the layout of USC: take corrected, even ones of the same record, volume 2"),
+    "RES": N_("response spectra (volume 3): use volume 2 of the same record"),
+    "FIL": N_("uncorrected, unevenly sampled data in USC format: use the corrected volume 2 of the same record"),
 }
-_UNEVEN = N_("uneven samples (volume 1, pairs of time and acceleration): take volume 2 of the same record, whose samples are even")
+_UNEVEN = N_("unevenly sampled pairs of time and acceleration (volume 1): use volume 2 of the same record (evenly sampled)")
 
 
 class _Section(NamedTuple):
-    """Samples of one quantity: what it is, their interval and unit as told, and where the lines below begin."""
+    """Samples of one quantity: quantity, interval, unit, values, and index of the line after them."""
 
     quantity: str
     dt: float
@@ -67,7 +67,7 @@ class _Section(NamedTuple):
 
 
 def is_csmip(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of a CSMIP file of any volume, or of USC: its title, then upright columns of text."""
+    """Return whether bytes begin with the title of a CSMIP or USC file."""
     match = _TITLE.match(head)
     if match is None or b"GNS SCIENCE" in head[:200].upper():
         return False
@@ -75,12 +75,12 @@ def is_csmip(head: bytes) -> bool:
 
 
 def read_csmip(blob: RawFile) -> list[Record]:
-    """Return the channels in a CSMIP file of volume 1 or 2, as records of one component each.
+    """Return the channels in a CSMIP file of volume 1 or 2, as single-component records.
 
     Notes
     -----
-    The azimuths are kept. A file of more than three channels, or of two in one direction, is a structure's: each place in it is a station
-    of its own. Peak, count and length that the header tells are compared with the samples.
+    Azimuths are kept. A file with more than three channels, or two in one direction, is that of a structure: each location becomes a
+    station. Header peak, count and length are checked against the samples.
     """
     lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     while lines and not lines[-1].strip():
@@ -97,19 +97,19 @@ def read_csmip(blob: RawFile) -> list[Record]:
 
 
 def _flag_truncated(part: Record) -> Record:
-    """Return a record with the doubt that its file lacks its end."""
-    flag = QCFlag("cut", lazy_gettext("the mark that ends the last channel is missing: the file looks cut"))
+    """Return a record with the flag of a missing end mark."""
+    flag = QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated"))
     return replace(part, doubts=(*part.doubts, flag))
 
 
 def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record, int]:
-    """Return the channel that begins at a line, and where the next does."""
+    """Return the channel that begins at a line, and the index of the next."""
     title = _TITLE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
         raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
     kind = title[1][:3].decode().upper()
     if kind in _UNSUPPORTED:
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
     volume = _VOLUMES[kind]
     line_index = begin + _HEADERS[volume]
     sections = [_parse_section(name, lines, line_index, volume)]
@@ -120,21 +120,20 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
         raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
     acceleration = next((section for section in sections if section.quantity == "accel"), None)
     if acceleration is None:
-        raise RecordFormatError("{name}, line {line}: there is no acceleration in this channel", name=name, line=begin + 1)
+        raise RecordFormatError("{name}, line {line}: no acceleration in this channel", name=name, line=begin + 1)
     return _to_record(name, lines[begin:line_index], begin, volume, acceleration), end + 1
 
 
 def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int) -> _Section:
-    """Return the samples whose count, interval and unit stand in a line."""
+    """Return the samples described by the line at `line_index`."""
     text = lines[line_index] if line_index < len(lines) else ""
     match, interval, unit = _SECTION.match(text), _INTERVAL.search(text), _UNIT.search(text)
+    # bare numbers instead of the data line: volume 1 of film records
     if match is None and volume == 1 and re.fullmatch(r"[\s\d.+-]+", text):
-        raise RecordFormatError("{name} holds {what}", name=name, what=lazy_gettext(_UNEVEN))
+        raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
-        message = lazy_gettext(
-            "expected a line with count, interval and unit of the samples below it, found {text!r}", text=text.strip()[:80]
-        )
+        message = lazy_gettext("expected a line with count, interval and unit of the samples, found {text!r}", text=text.strip()[:80])
         raise_line_error(name, line_index + 1, message)
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
@@ -148,11 +147,10 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
 
 
 def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
-    """Return one channel."""
     unit = normalize_unit(section.unit)
     if unit is None:
         line = begin + len(text) + 1
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=name, line=line, text=section.unit)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=line, text=section.unit)
     line_shift = volume - 1
     channel = re.match(r"\s*CHAN\s+(\S+?)\s*:\s*(\d{1,3}\s*deg\b|\S+)(.*)", text[CHANNEL + line_shift], re.IGNORECASE)
     station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + line_shift], re.IGNORECASE)
@@ -166,6 +164,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     start, _ = parse_datetime(text[TRIGGER + line_shift])
     metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
     metadata |= {"channels": {direction.code: channel[1]}} | ({"place": parse_location(channel[3])} if parse_location(channel[3]) else {})
+    # without a trigger time, event and origin text identify the recording
     if start is None:
         metadata["event"] = " ".join(f"{text[EVENT + line_shift]} {text[ORIGIN + line_shift]}".split())
     return Record(
@@ -182,7 +181,6 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
 
 
 def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
-    """Return what the text says of station and earthquake."""
     event, origin, trigger, station, name, hypocentre = (
         text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
     )
@@ -205,7 +203,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
 
 
 def parse_magnitude(text: str) -> dict[str, object]:
-    """Return the magnitude in a text, Mw before ML before Ms, ready for the metadata.
+    """Return metadata with the magnitude in a text, Mw before ML before Ms.
 
     Examples
     --------
@@ -220,7 +218,7 @@ def parse_magnitude(text: str) -> dict[str, object]:
 
 
 def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
-    """Return what the text says of the samples that is not so: peak, count, interval and length of the record."""
+    """Return flags for peak, count and record length that differ from the header."""
     size, dt = section.values.size, section.dt
     peak = re.search(_PEAKS[volume], text, re.IGNORECASE)
     peak_text = peak[1] if peak else ""
@@ -229,15 +227,16 @@ def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCF
     promised_count = int((count_match[1] or count_match[2])[:12]) if count_match else 0
     if promised_count != size:
         flags += (
-            QCFlag(
-                "count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=size)
-            ),
+            QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=size)),
         )
     length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
     seconds = parse_number(length[1]) if length else None
     if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
-        text=length[1] if length else "-",
-                    count=size, seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=length[1] if length else "-",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

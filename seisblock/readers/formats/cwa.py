@@ -1,8 +1,8 @@
-"""Free-field strong-motion text files of Taiwan's Central Weather Administration (CWA; CWB until 2023): ``#`` header, then time, U, N, E.
+"""Free-field strong-motion text files of Taiwan's CWA (CWB until 2023): ``#`` header, then time, U, N, E.
 
-What the layout is known from: headers that public programs quote, ``#StationCode`` to ``#Data: 4F10.3`` of single files, and those that
-begin with ``#Earthquake Information`` of the data centre, whose times are told in ``(GMT+08)``. Times without that are UTC, as those of
-Chi-Chi, 1999, are. ``#AmplitudeMAX. U: 4.094~ -4.353`` tells the largest and the smallest sample.
+The layout is known from headers quoted by public programs: ``#StationCode`` to ``#Data: 4F10.3`` of single files, and files of the data
+centre that begin with ``#Earthquake Information`` and give times in ``(GMT+08)``. Times without that mark are UTC, as for Chi-Chi, 1999.
+``#AmplitudeMAX. U: 4.094~ -4.353`` gives the largest and the smallest sample.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from seisblock.records.site import UTC_OFFSETS
 
 FORMAT = "CWA"
 TAIWAN_CLOCK = "GMT+08"
-"""What the header calls the clock of Taiwan."""
+"""Name of the Taiwan time zone in headers."""
 
 MAX_FIRST_TIME_S = 1e7
-"""A first sample later than this after the instant 0, s, is damage and no time."""
+"""Largest plausible time of the first sample in the table, s."""
 
 _KEY = re.compile(r"#\s*([^:(]+?)\s*(?:\(([^)]*)\))?\s*:\s*(.*?)\s*$")
 _SEQUENCE = re.compile(r"Time\s+(?:[A-Z]+\(\+\)[;,\s]*){1,3}$", re.IGNORECASE)
@@ -49,7 +49,7 @@ _NUMBERS = {
 
 
 class _Entry(NamedTuple):
-    """One line of the header: what stands in brackets behind its name, what it says, and its number."""
+    """Header entry: qualifier in brackets, value, line number."""
 
     qualifier: str
     value: str
@@ -57,18 +57,18 @@ class _Entry(NamedTuple):
 
 
 def is_cwa(head: bytes) -> bool:
-    """Return whether a file's first bytes are the header of a strong-motion text file of CWA."""
+    """Return whether bytes begin the header of a CWA strong-motion text file."""
     begins = re.match(rb"(?:\xef\xbb\xbf)?\s*#\s*(?:StationCode|Earthquake Information)", head, re.IGNORECASE)
     return begins is not None and re.search(rb"^\s*#\s*DataSequence\s*:", head, re.IGNORECASE | re.MULTILINE) is not None
 
 
 def read_cwa(blob: RawFile) -> Record:
-    """Return the record in a strong-motion text file of CWA.
+    """Return the record in a CWA strong-motion text file.
 
     Raises
     ------
     RecordFormatError
-        If the header lacks rate, unit or the sequence of the columns, contradicts the times, or a line breaks the table.
+        If the header lacks rate, unit or column sequence, contradicts the times, or a line of the table is malformed.
     """
     lines = decode_text(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")), len(lines))
@@ -78,7 +78,7 @@ def read_cwa(blob: RawFile) -> Record:
     if unit is None:
         entry = header["amplitudeunit"]
         raise_line_error(
-            blob.name, entry.line, lazy_gettext("expected a unit of acceleration such as gal, found {text!r}", text=entry.value[:40])
+            blob.name, entry.line, lazy_gettext("expected an acceleration unit such as gal, found {text!r}", text=entry.value[:40])
         )
     labels = {"Time": 0, **{code: i + 1 for i, code in enumerate(directions)}}
     rows = parse_columns(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
@@ -100,7 +100,7 @@ def read_cwa(blob: RawFile) -> Record:
 
 
 def _parse_header(lines: Sequence[str]) -> dict[str, _Entry]:
-    """Return what the header says, by its names in small letters without blanks; of one that stands twice the first."""
+    """Return the header entries by name in lower case without blanks; the first of duplicates."""
     entries: dict[str, _Entry] = {}
     for index, line in enumerate(lines):
         match = _KEY.match(line.lstrip("\ufeff "))
@@ -110,43 +110,43 @@ def _parse_header(lines: Sequence[str]) -> dict[str, _Entry]:
 
 
 def _require_entry(name: str, header: Mapping[str, _Entry], key: str) -> _Entry:
-    """Return a line that the header must have."""
     if key not in header:
         line_names = {"amplitudeunit": "#AmplitudeUnit", "samplerate": "#SampleRate(Hz)", "datasequence": "#DataSequence"}
         raise RecordFormatError(
-            "{name}: the header of a CWA file lacks the line {line}: it is cut or damaged, fetch it again", name=name, line=line_names[key]
+            "{name}: CWA header line {line} missing: file truncated or damaged; download it again", name=name, line=line_names[key]
         )
     return header[key]
 
 
 def _parse_directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Direction]:
-    """Return the directions of the columns behind the time, by their codes, in their order."""
+    """Return the directions of the acceleration columns by code, in column order."""
     entry = _require_entry(name, header, "datasequence")
     letters = re.findall(r"([A-Z]+)\(\+\)", entry.value, re.IGNORECASE)
     parsed_directions = [parse_direction(letter) for letter in letters]
     directions = {direction.code: direction for direction in parsed_directions if direction is not None and direction.sign > 0.0}
     if not _SEQUENCE.match(entry.value) or len(directions) != len(letters):
-        message = lazy_gettext("expected the sequence of the columns, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
+        message = lazy_gettext("expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
         raise_line_error(name, entry.line, message)
     return directions
 
 
 def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: Sequence[str]) -> float:
-    """Return the sampling interval, s, in which the header's rate and the times agree."""
+    """Return the sampling interval, s, on which header rate and times agree."""
     entry = _require_entry(name, header, "samplerate")
     rate = parse_number(entry.value)
     if rate is None or not rate > 0.0:
-        raise_line_error(name, entry.line, lazy_gettext("expected samples per second, found {text!r}", text=entry.value[:40]))
+        raise_line_error(name, entry.line, lazy_gettext("expected the number of samples per second, found {text!r}", text=entry.value[:40]))
     dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
+    # the times have three decimals; the rate of the header is exact
     if abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
-            "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=name, rate=rate, dt=dt
+            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged", name=name, rate=rate, dt=dt
         )
     return 1.0 / rate
 
 
 def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> datetime | None:
-    """Return the time of the first sample, UTC, so long after the instant 0 of the table; None where the header has none."""
+    """Return the UTC time of the first sample, at table time `first_s`; None if not in the header."""
     entry = header.get("starttime")
     if entry is None or not entry.value:
         return None
@@ -159,27 +159,27 @@ def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> date
 
 
 def _parse_time(entry: _Entry) -> datetime | None:
-    """Return a moment of the header, UTC."""
     day, _, time = re.sub(r"(?<=\d)[T-](?=\d\d?:)", " ", entry.value).partition(" ")
     local_time, _ = parse_datetime(f"{day.replace('-', '/')} {time}")
     return local_time - UTC_OFFSETS[TAIWAN_CLOCK] if local_time is not None and _is_local(entry) else local_time
 
 
 def _is_local(entry: _Entry) -> bool:
-    """Return whether a time is told by the clock of Taiwan."""
+    """Return whether a header time is in Taiwan time."""
     return re.fullmatch(r"(?:GMT|UTC)\s*\+\s*0?8(?::?00)?", entry.qualifier.strip(), re.IGNORECASE) is not None
 
 
 def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterator[QCFlag]:
-    """Yield a doubt about a length of the record that is another than the header's: of all samples, or from the first to the last."""
+    """Yield a flag if the header record length differs from the samples (n or n - 1 intervals)."""
     entry = header.get("recordlength")
     if entry is None:
         return
     seconds = parse_number(entry.value)
+    # headers state the length as n or n - 1 intervals
     slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
         message = lazy_gettext(
-            "the header tells a duration of {text} s, {count} samples take {seconds:g} s",
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
             text=entry.value[:20] or "-",
             count=count,
             seconds=count * dt,
@@ -188,7 +188,7 @@ def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterato
 
 
 def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[QCFlag]:
-    """Yield a doubt for each component whose largest and smallest sample are not those of the header."""
+    """Yield flags for components whose extremes differ from the header."""
     for key, entry in header.items():
         match = _EXTREMES.fullmatch(key)
         direction = parse_direction(match[1]) if match else None
@@ -201,7 +201,7 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
         text = lazy_gettext(
-            "{component}: the header says that the samples lie within {told!r}, they reach from {low:g} to {high:g} {unit}",
+            "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}",
             component=direction.code,
             told=entry.value[:40],
             low=sample_extremes[0],
@@ -212,7 +212,6 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
 
 
 def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
-    """Return what the header says of station and earthquake."""
     metadata: dict[str, object] = {"network": "TW"}
     metadata |= {"clock": TAIWAN_CLOCK} if "starttime" in header and _is_local(header["starttime"]) else {}
     metadata |= {"station_name": header["stationname"].value} if header.get("stationname", _Entry("", "", 0)).value else {}

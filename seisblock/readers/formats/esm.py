@@ -1,4 +1,4 @@
-"""ASCII of the Engineering Strong-Motion database (ESM): one component, 64 lines ``KEY: value``, then a sample in each line."""
+"""ESM (Engineering Strong-Motion database) ASCII: one component, 64 header lines ``KEY: value``, one sample per line."""
 
 from __future__ import annotations
 
@@ -23,37 +23,37 @@ from seisblock.records import QCFlag, Record
 FORMAT = "ESM"
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
 _MAX_HEADER_LINES = 100
-"""Lines of a header, of which there are 64."""
+"""Number of lines searched for the end of the header (64 lines)."""
 
 _DURATION_TOLERANCE = 1.5
-"""How many intervals the header's duration may lie from the count."""
+"""Tolerance of the header duration, in sampling intervals."""
 
 Header = dict[str, tuple[int, str]]
-"""Of each key the number of its line, and its value."""
+"""Line number and value by key."""
 
 
 def is_esm(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of ESM's ASCII: the event's name, then its identifier, each behind its key."""
+    """Return whether bytes begin an ESM ASCII header (EVENT_NAME, EVENT_ID)."""
     return re.match(rb"(?:\xef\xbb\xbf)?EVENT_NAME:[^\n]*\r?\nEVENT_ID:", head) is not None
 
 
 def read_esm(blob: RawFile) -> Record:
-    """Return the one component in an ASCII file of ESM.
+    """Return the component in an ESM ASCII file.
 
     Notes
     -----
-    Count, peak, time of the peak and duration are the header's own; where the samples differ it is doubted, and a file that ends before
-    its count is refused. Velocities, displacements and spectra are refused by what they say they are.
+    Header peak and duration are checked against the samples (quality flags); a count that differs is an error, as are velocities,
+    displacements and spectra.
     """
     lines = decode_text(blob).split("\n")
     header, body = _parse_header(blob.name, lines)
     kind = _get_value(blob.name, header, "DATA_TYPE")[1]
     if kind.upper() != "ACCELERATION":
-        raise RecordFormatError("{name} holds {what} by its own header: take the file of accelerations (ACC)", name=blob.name, what=kind)
+        raise RecordFormatError("{name}: header states {what}: use the acceleration file (ACC)", name=blob.name, what=kind)
     line, unit_text = _get_value(blob.name, header, "UNITS")
     unit = normalize_unit(unit_text)
     if unit is None:
-        raise UnitError("{name}, line {line}: unknown unit of acceleration {text!r}", name=blob.name, line=line, text=unit_text)
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=blob.name, line=line, text=unit_text)
     line, text = _get_value(blob.name, header, "SAMPLING_INTERVAL_S")
     dt = parse_number(text)
     if not dt or dt < 0:
@@ -62,7 +62,7 @@ def read_esm(blob: RawFile) -> Record:
     (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
         raise RecordFormatError(
-            "{name}: its header promises {count} samples (NDATA), it holds {found}: it is cut or damaged",
+            "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged",
             name=blob.name,
             count=count,
             found=values.size,
@@ -84,31 +84,31 @@ def read_esm(blob: RawFile) -> Record:
 
 
 def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
-    """Return the keys of the header, and the index of the first sample."""
+    """Return the header and the index of the first sample line."""
     header: Header = {}
     for index, line in enumerate(lines[:_MAX_HEADER_LINES]):
         match = _KEY.match(line.strip("\ufeff\r "))
         if match is None:
             if parse_number(line) is None:
                 raise_line_error(
-                    name, index + 1, lazy_gettext("expected KEY: value, or the first sample, found {text!r}", text=line.strip()[:80])
+                    name, index + 1, lazy_gettext("expected 'KEY: value' or the first sample, found {text!r}", text=line.strip()[:80])
                 )
             return header, index
         if match[1] in header:
-            raise_line_error(name, index + 1, lazy_gettext("the header tells {key} twice", key=match[1]))
+            raise_line_error(name, index + 1, lazy_gettext("duplicate header entry {key}", key=match[1]))
         header[match[1]] = (index + 1, (match[2] or "").strip())
-    raise RecordFormatError("{name}: no sample among the first {count} lines: it is cut or damaged", name=name, count=_MAX_HEADER_LINES)
+    raise RecordFormatError("{name}: no sample in the first {count} lines: file truncated or damaged", name=name, count=_MAX_HEADER_LINES)
 
 
 def _get_value(name: str, header: Header, key: str) -> tuple[int, str]:
-    """Return the line and the value of a key."""
+    """Return line number and value of a required key."""
     if key not in header:
-        raise RecordFormatError("{name}: its header has no {key}: it is cut or damaged", name=name, key=key)
+        raise RecordFormatError("{name}: header entry {key} missing: file truncated or damaged", name=name, key=key)
     return header[key]
 
 
 def _parse_time(text: str) -> datetime | None:
-    """Return the UTC time of ``20190728_160919.870``, None where it is none."""
+    """Return the UTC time of ``20190728_160919.870``, or None."""
     match = re.fullmatch(r"(\d{4})(\d\d)(\d\d)_?(\d\d)(\d\d)(\d\d(?:\.\d+)?)", text.strip())
     if match is None:
         return None
@@ -117,8 +117,6 @@ def _parse_time(text: str) -> datetime | None:
 
 
 def _metadata(header: Header) -> dict[str, object]:
-    """Return what the header says of station and earthquake."""
-
     def header_value(key: str) -> str:
         return header.get(key, (0, ""))[1]
 
@@ -135,6 +133,7 @@ def _metadata(header: Header) -> dict[str, object]:
         "epicentral_distance_km": "EPICENTRAL_DISTANCE_KM",
     }
     metadata |= {key: value for key, label in numbers.items() if (value := parse_number(header_value(label))) is not None}
+    # moment magnitude before local magnitude
     magnitude = next((value for key in ("MAGNITUDE_W", "MAGNITUDE_L") if (value := parse_number(header_value(key))) is not None), None)
     origin = _parse_time(header_value("EVENT_DATE_YYYYMMDD") + "_" + header_value("EVENT_TIME_HHMMSS"))
     metadata |= {"origin_time": origin} if origin else {}
@@ -142,7 +141,7 @@ def _metadata(header: Header) -> dict[str, object]:
 
 
 def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: float) -> tuple[QCFlag, ...]:
-    """Return what the header says of the samples that is not so: the peak, and the duration."""
+    """Return flags for peak and duration that differ from the header."""
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
     peak_text = header.get(key, (0, ""))[1]
     flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
@@ -150,16 +149,22 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     duration = parse_number(text)
     if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
         flags += (
-            QCFlag("count", lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s",
-            text=text[:20] or "-",
-                                count=values.size, seconds=values.size * dt)),
-        )  # fmt: skip
+            QCFlag(
+                "count",
+                lazy_gettext(
+                    "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+                    text=text[:20] or "-",
+                    count=values.size,
+                    seconds=values.size * dt,
+                ),
+            ),
+        )
     return flags
 
 
 def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
-    """Return a doubt about a file whose last sample has fewer decimals than the one before and no end of line."""
+    """Return a flag if the last sample has fewer decimals than the previous one and no line end."""
     last = lines[-1].strip()
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()
-    return (QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")),)
+    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)

@@ -1,7 +1,7 @@
-"""Accelerograms of GeoNet (GNS Science, New Zealand), volumes 1 and 2: three components in one file, mm/s^2.
+"""GeoNet accelerograms (GNS Science, New Zealand), volumes 1 and 2: three components in mm/s^2 in one file.
 
-Samples stand ten in a line, eight characters each. Each component has sixteen lines of text, four of ten integers and six of ten reals;
-then its samples, and in volume 2 its velocities and displacements, which are passed over.
+Ten samples of eight characters per line. Each component has 16 lines of text, 4 of ten integers and 6 of ten reals, then its samples; in
+volume 2 velocities and displacements follow and are skipped.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from seisblock.records import QCFlag, Record
 
 FORMAT = "GEONET"
 TEXT, INTEGERS, REALS = 16, 4, 6
-"""Lines of each kind above the samples of a component."""
+"""Lines of text, integers and reals above the samples of a component."""
 
 _FORM = (10, 8)
 _UNIT = "mm/s2"
 SITE, NAME, EVENT, DAY, EPICENTRE, COMPONENT, PEAK = 1, 2, 6, 7, 8, 12, 13
-"""Lines of text."""
+"""Text line numbers, from 0."""
 
 SAMPLES, VELOCITIES, DISPLACEMENTS = 33, 34, 35
 START_TIME = (8, 9, 18, 19, 38, 39)
-"""Places of the integers: counts; year, month, day, hour, minute and milliseconds of the first sample."""
+"""Indices of the integers: counts; year, month, day, hour, minute and milliseconds of the first sample."""
 
 INTERVAL_INDEX = 25
-"""Place of the interval of the samples among the reals."""
+"""Index of the sampling interval among the reals."""
 
 _MONTHS = ("january", "february", "march", "april", "may", "june", "july", "august", "september", "october", "november", "december")
 
 
 class _ComponentBlock(NamedTuple):
-    """One component: its lines of text, the numbers below, and where the next begins."""
+    """One component: text lines, header numbers, samples, first line number, and index of the next block."""
 
     text: Sequence[str]
     integers: list[int]
@@ -54,16 +54,16 @@ class _ComponentBlock(NamedTuple):
 
 
 def is_geonet(head: bytes) -> bool:
-    """Return whether a file's first line is that of an accelerogram of GNS Science."""
+    """Return whether bytes begin with the title of a GNS Science accelerogram."""
     return re.match(rb"[ ]*(?:Unc|C)orrected accelerogram [^\n]*GNS Science", head, re.IGNORECASE) is not None
 
 
 def read_geonet(blob: RawFile) -> list[Record]:
-    """Return the components in a GeoNet file of volume 1 or 2, as records of one component each.
+    """Return the components in a GeoNet file of volume 1 or 2, as single-component records.
 
     Notes
     -----
-    The azimuths are kept: N10E is called ``10``. The header's peak of each component, and its duration, are compared with the samples.
+    Azimuths are kept: the code of N10E is ``10``. Header peak and duration of each component are checked against the samples.
     """
     lines = decode_text(blob).split("\n")
     while lines and not lines[-1].strip():
@@ -90,6 +90,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock
     first = begin + TEXT + INTEGERS + REALS
     samples = parse_fixed_width(name, lines, first, counts[0], _FORM)
     end = first + count_lines(counts[0], _FORM)
+    # velocities and displacements are parsed for validity and skipped
     for count in filter(None, counts[1:]):
         parse_fixed_width(name, lines, end, count, _FORM)
         end += count_lines(count, _FORM)
@@ -97,7 +98,6 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock
 
 
 def _to_record(name: str, block: _ComponentBlock) -> Record:
-    """Return one component."""
     dt = float(block.reals[INTERVAL_INDEX])
     if not dt > 0.0:
         raise_line_error(
@@ -132,14 +132,12 @@ def _to_record(name: str, block: _ComponentBlock) -> Record:
 
 
 def _start_time(integers: Sequence[int]) -> datetime | None:
-    """Return the time of the first sample, UTC."""
     year, month, day, hour, minute, milliseconds = (integers[place] for place in START_TIME)
     start = utc_datetime(year, month, day, hour, minute, 0.0)
     return start + timedelta(milliseconds=milliseconds) if start is not None and 0 <= milliseconds < 3_600_000 else None
 
 
 def _metadata(block: _ComponentBlock) -> dict[str, object]:
-    """Return what the text says of station and earthquake."""
     site, name, event, day, epicentre = (block.text[place] for place in (SITE, NAME, EVENT, DAY, EPICENTRE))
     metadata: dict[str, object] = {"unit": _UNIT, "network": "NZ"}
     metadata |= {"station_name": name.strip()} if name.strip() else {}
@@ -164,7 +162,7 @@ def _metadata(block: _ComponentBlock) -> dict[str, object]:
 
 
 def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: float) -> tuple[QCFlag, ...]:
-    """Return what the text says of the samples that is not so: peak, count and duration."""
+    """Return flags for peak, count and duration that differ from the header."""
     peak = re.search(r"peak\s+(-?[\d.]+)\s*mm/s/s", block.text[PEAK], re.IGNORECASE)
     peak_text = peak[1] if peak else block.text[PEAK].partition(":")[2].strip()
     flags = flag_peak_mismatch(direction.code, peak_text, scale * block.samples, "mm/s/s", 2.0 * half_last_digit(peak_text))
@@ -172,12 +170,13 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
     count, text = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
     size, seconds = block.samples.size, parse_number(text)
     if count != size:
-        flags += (
-            QCFlag("count", lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=count, count=size)),
-        )
+        flags += (QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=count, count=size)),)
     if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
-        message = lazy_gettext("the header tells a duration of {text} s, {count} samples take {seconds:g} s", text=text[:20] or "-",
-        count=size,
-                    seconds=size * dt)  # fmt: skip
+        message = lazy_gettext(
+            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            text=text[:20] or "-",
+            count=size,
+            seconds=size * dt,
+        )
         flags += (QCFlag("count", message),)
     return flags

@@ -1,4 +1,4 @@
-"""JMA's acceleration CSV: header in Shift-JIS, gal, JST, one column per component."""
+"""JMA acceleration CSV: Shift-JIS header, gal, JST, one column per component."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from seisblock.readers.table.precision import flag_missing_points
 from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "JMA-CSV"
-_HEADER_LINES = 40  # 7 in every file seen; old ones may carry more
+_HEADER_LINES = 40  # 7 in all files examined
 _CODES = ("NS", "EW", "UD", "X", "Y")
 _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
 
 
 def is_jma_csv(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of a JMA CSV."""
+    """Return whether bytes begin a JMA CSV."""
     first = head.removeprefix(b"\xef\xbb\xbf").lstrip()[:9].upper()
     return first == b"SITE CODE"
 
@@ -33,8 +33,7 @@ def read_jma_csv(blob: RawFile) -> Record:
 
     Notes
     -----
-    Header keys may be spelled with or without blanks around ``=``; columns are taken by name in any order; trailing commas, two-digit
-    years and UTF-8 re-encodings are accepted. The level is left as published.
+    Blanks around ``=``, any column order, trailing commas, two-digit years and UTF-8 re-encodings are accepted. The mean is not removed.
     """
     lines = read_lines(blob)
     header, last = _parse_header(blob.name, lines)
@@ -50,7 +49,7 @@ def read_jma_csv(blob: RawFile) -> Record:
     station, metadata = _parse_site(_get_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
         value = parse_number(header[key][1].split(",")[0]) if key in header else None
-        if value:  # 0.0000 means unknown
+        if value:  # 0.0000: unknown
             metadata[label] = value
     metadata |= {"unit": unit, "clock": "JST"}
     return Record(
@@ -66,14 +65,14 @@ def read_jma_csv(blob: RawFile) -> Record:
 
 
 def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ...]:
-    """Return what speaks for a file that was cut: JMA ends its last line, and publishes whole seconds."""
+    """Return flags for a truncated file: JMA files end with a line end and have whole seconds."""
     flags = []
     if lines[-1].strip():
-        flags.append(QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")))
+        flags.append(QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
         text = lazy_gettext(
-            "{samples} samples are no whole number of seconds ({seconds:.6g} s): lines are missing, or the file was cut",
+            "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
             samples=samples,
             seconds=seconds,
         )
@@ -82,22 +81,23 @@ def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ..
 
 
 def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int, str]], int]:
-    """Return the header's keys with line number and value, and the index of the line that names the components."""
+    """Return line number and value by header key, and the index of the line with component names."""
     header: dict[str, tuple[int, str]] = {}
     for index, line in enumerate(lines[:_HEADER_LINES]):
         match = _KEY.match(line)
         if match:
             header[" ".join(match[1].upper().split())] = (index + 1, match[2].strip())
+        # the header ends at the line with at least two component names
         elif len({component_code(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
     raise RecordFormatError(
-        "{name}: the JMA header is cut short: {count} lines, none of which names the components (NS,EW,UD)", name=name, count=count
+        "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)", name=name, count=count
     )
 
 
 def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]:
-    """Return which column holds which component; a column that is none, or stands twice, is refused."""
+    """Return column index by component; raise for unknown or duplicate columns."""
     columns: dict[str, int] = {}
     for index, heading in enumerate(names):
         code = component_code(heading)
@@ -110,13 +110,11 @@ def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]
 
 
 def _get_value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[int, str]:
-    """Return the line number and the value of the first of some keys that the header has."""
+    """Return line number and value of the first key present."""
     for key in keys:
         if key in header:
             return header[key][0], header[key][1].rstrip(", ")
-    raise RecordFormatError(
-        "{name}: the JMA header has no {key!r} line: it is cut short, or this is not a JMA file", name=name, key=keys[0]
-    )
+    raise RecordFormatError("{name}: JMA header line {key!r} missing: file truncated or not a JMA file", name=name, key=keys[0])
 
 
 def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
@@ -130,11 +128,10 @@ def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
 
 
 def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
-    """Return the unit the header states."""
     line, text = _get_value(name, header, "UNIT")
     stated_units = {normalize_unit(part.rstrip(") ")) for part in text.split("(")} - {None}
     if len(stated_units) > 1:
-        raise UnitError("{name}, line {line}: {text!r} states two units: expected gal(cm/s/s)", name=name, line=line, text=text)
+        raise UnitError("{name}, line {line}: two units in {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
     unit = next(iter(stated_units), None)
     if unit is None:
         raise UnitError("{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
@@ -142,7 +139,6 @@ def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
 
 
 def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
-    """Return the time of the first sample, UTC."""
     line, text = _get_value(name, header, "INITIAL TIME")
     parts = re.split(r"[\s/:]+", text)
     try:
@@ -155,7 +151,7 @@ def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
 
 
 def _parse_site(text: str) -> tuple[str, dict[str, object]]:
-    """Return the station code, and what else the first line says: name, epicentre, origin time, travel times of P and S."""
+    """Return station code and the metadata of the first line: name, epicentre, origin and travel times."""
     site, *extra_fields = [part.strip() for part in text.split(",")]
     match = re.match(r"([0-9A-Za-z]*)\s*(.*)\Z", site)
     code, station_name = (match[1], match[2]) if match else ("", site)
@@ -165,7 +161,7 @@ def _parse_site(text: str) -> tuple[str, dict[str, object]]:
     if len(numbers) >= 4 and any(numbers[:4]):
         metadata.update({label: value for label, value in zip(labels, numbers, strict=False) if value is not None})
     if len(numbers) >= 5 and numbers[4] and 0.0 < numbers[4] < 1e5:
-        # an Excel serial day, JST
+        # Excel serial day number, JST
         metadata["origin_time"] = datetime(1899, 12, 30, tzinfo=UTC) + timedelta(days=numbers[4]) - JST
     if len(numbers) >= 7 and numbers[5] and numbers[6]:
         metadata["travel_time_p_s"], metadata["travel_time_s_s"] = numbers[5], numbers[6]

@@ -1,4 +1,4 @@
-"""K-NET and KiK-net ASCII: obspy decodes, the header's own maximum judges."""
+"""K-NET and KiK-net ASCII, decoded by ObsPy and checked against the header maximum."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from seisblock.records import Component, QCFlag, Record
 
 FORMAT, KIK_FORMAT = "KNET", "KIKNET"
 TRIGGER_DELAY = timedelta(seconds=15)
-"""The header's record time lies this long after the first sample."""
+"""Delay of the header's record time after the first sample."""
 
-# as obspy spells them; what is after | may vary
+# header labels as expected by obspy; the part after | may vary
 _LABELS = (
     "Origin Time",
     "Lat.",
@@ -64,22 +64,22 @@ _LABELS = (
 _CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
 _FILE_NAME = re.compile(r"(?:(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)[12]?\Z", re.IGNORECASE)
 _MAXIMUM_TOLERANCE = 0.0011
-"""The header's maximum has three decimals, gal."""
+"""Tolerance of the header maximum, gal, which has three decimals."""
 
 
 def is_knet(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of K-NET or KiK-net ASCII."""
+    """Return whether bytes begin a K-NET or KiK-net ASCII file."""
     return head.startswith(b"Origin Time")
 
 
 def read_knet(blob: RawFile) -> Record:
-    """Return the one component in a K-NET or KiK-net ASCII file.
+    """Return the component in a K-NET or KiK-net ASCII file.
 
     Notes
     -----
-    The scale factor of the header is applied, the trigger delay of 15 s is taken off the record time, and the offset of the counts is
-    kept and told: ``metadata["carries_offset"]`` and ``metadata["offset_gal"]``. ``metadata["level"]`` is the sensor of a KiK-net file.
-    The header's ``Max. Acc.`` is compared with the largest deviation from the mean, its duration with the count: a difference is a doubt.
+    The scale factor is applied, and the trigger delay of 15 s is subtracted from the record time. The offset of the counts is kept:
+    ``metadata["carries_offset"]`` is True and ``metadata["offset_gal"]`` its value. ``metadata["level"]`` is the sensor of a KiK-net file.
+    The header's ``Max. Acc.`` is checked against the largest deviation from the mean, its duration against the count.
     """
     lines = decode_text(blob).split("\n")
     values = _parse_header(blob.name, lines)
@@ -103,7 +103,7 @@ def read_knet(blob: RawFile) -> Record:
         )
     counts = _decode_counts(blob.name, values, lines)
     flags = _flag_length(blob.name, counts.size, values[DURATION], rate)
-    # one correctly rounded division: counts and factors are whole numbers
+    # counts and factors are whole numbers: a single, correctly rounded division
     acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
     metadata = _metadata(values, code, level, 100.0 * acceleration)
     flags += _flag_maximum(code, values[MAXIMUM], 100.0 * acceleration) + _flag_name(blob.basename, code, values[STATION])
@@ -126,9 +126,9 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
         line = lines[index] if index < len(lines) else ""
         if not line.startswith(label.split("|")[0]):
             expected_label = label.replace("|", "")
-            actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("the file ends")
+            actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("found the end of the file")
             raise RecordFormatError(
-                "{name}, line {line}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged",
+                "{name}, line {line}: expected {wanted!r}, {found}: K-NET header (17 lines) truncated or damaged",
                 name=name,
                 line=index + 1,
                 wanted=expected_label,
@@ -139,7 +139,7 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
 
 
 def _parse_direction(name: str, text: str) -> tuple[str, str]:
-    """Return the component code and, for KiK-net's channel numbers, the level of the sensor."""
+    """Return the component code and, for KiK-net channel numbers, the sensor level."""
     if text in _CHANNELS:
         return _CHANNELS[text], "borehole" if text in "123" else "surface"
     code = component_code(text)
@@ -149,37 +149,37 @@ def _parse_direction(name: str, text: str) -> tuple[str, str]:
 
 
 def _decode_counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArray:
-    """Return the counts as obspy decodes them."""
+    """Return the counts decoded by obspy."""
     body = lines[len(_LABELS) :]
     if not any(line.strip() for line in body):
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=len(_LABELS))
-    import obspy  # lazily: it takes longer to import than to read
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=len(_LABELS))
+    import obspy  # imported here: the import takes longer than reading
 
     text = "\n".join([*_canonical_header(values), *body])
     try:
         counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
     except (ValueError, IndexError, TypeError) as error:
         _raise_bad_line(name, body)
-        raise RecordFormatError("{name}: obspy cannot decode this K-NET file ({error})", name=name, error=error) from error
+        raise RecordFormatError("{name}: obspy cannot decode the K-NET file ({error})", name=name, error=error) from error
     if not (np.abs(counts) < MAX_COUNT).all():
         _raise_bad_line(name, body)
     return counts
 
 
 def _canonical_header(values: Sequence[str]) -> list[str]:
-    """Return the header as obspy wants it, so that an empty or oddly spelled field that is not needed raises no IndexError."""
+    """Return the header with optional fields normalised, so that obspy accepts empty or unusual ones."""
     fields = list(values)
     for index in (EVENT_LAT, EVENT_LON, DEPTH, MAGNITUDE, LAT, LON, HEIGHT, DURATION, MAXIMUM):
         fields[index] = values[index] if parse_number(values[index]) is not None else "nan"
     for index in (ORIGIN, CORRECTION):
-        fields[index] = values[RECORD_TIME]  # not used: obspy insists on a time
+        fields[index] = values[RECORD_TIME]  # unused here, but obspy requires a time
     fields[STATION] = "STATION"
     fields[MEMO] = ""
     return [f"{label.replace('|', ''):<18}{value}" for label, value in zip(_LABELS, fields, strict=True)]
 
 
 def _raise_bad_line(name: str, body: Sequence[str]) -> None:
-    """Raise the error that names the first line with something else than numbers."""
+    """Raise for the first line with a value that is not a count."""
     for offset, line in enumerate(body):
         for cell in line.split():
             value = parse_number(cell)
@@ -188,15 +188,17 @@ def _raise_bad_line(name: str, body: Sequence[str]) -> None:
 
 
 def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag, ...]:
-    """Refuse a file that ends before its header says, and doubt one that is longer or does not say."""
+    """Raise for a file shorter than its header duration; flag a longer file or an unreadable duration."""
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        message = lazy_gettext("header Duration Time {text!r} is not a number; number of samples not checked", text=text[:20])
         return (QCFlag("header", message),)
     promised_count = round(duration * rate)
+    # a short file is truncated and cannot be trusted; a longer one is flagged
     if count < promised_count:
         raise RecordFormatError(
-            "{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again",
+            "{name}: file truncated: header states {promised} samples ({duration:g} s at {rate:g} Hz), file contains {count}; "
+            "download it again",
             name=name,
             promised=promised_count,
             duration=duration,
@@ -204,22 +206,22 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
             count=count,
         )
     if count > promised_count:
-        message = lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=count)
+        message = lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=count)
         return (QCFlag("count", message),)
     return ()
 
 
 def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
-    """Doubt samples whose largest distance from their mean is not the header's own maximum."""
+    """Return a flag if the largest deviation from the mean differs from the header maximum."""
     header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
     if header_maximum is None:
         message = lazy_gettext(
-            "{component}: the header's Max. Acc. is no number ({text!r}): the samples cannot be checked", component=code, text=text[:20]
+            "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked", component=code, text=text[:20]
         )
         return (QCFlag("header", message, code),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
         message = lazy_gettext(
-            "{component}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",
+            "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal",
             component=code,
             told=header_maximum,
             peak=peak,
@@ -229,7 +231,7 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
 
 
 def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
-    """Doubt a file whose name, in the manner of NIED, tells another component or another station than its header."""
+    """Return flags if station or component in a NIED file name differ from the header."""
     match = _FILE_NAME.match(basename)
     if match is None:
         return ()
@@ -237,7 +239,7 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
     return tuple(
         QCFlag(
             "header",
-            lazy_gettext("{name}: the name says {named}, the header {told}", name=basename, named=file_value, told=header_value),
+            lazy_gettext("{name}: file name ({named}) and header ({told}) disagree", name=basename, named=file_value, told=header_value),
             code,
         )
         for file_value, header_value in pairs
@@ -246,7 +248,6 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
 
 
 def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:
-    """Return what the header says, and the offset."""
     metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
     if level:
         metadata["level"] = level

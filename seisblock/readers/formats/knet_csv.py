@@ -1,4 +1,4 @@
-"""NIED's K-NET CSV: comment lines that hold a header, gal, offset not removed."""
+"""NIED K-NET CSV: header in comment lines, gal, offset not removed."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ _CHANNELS |= {"4": ("NS", "surface"), "5": ("EW", "surface"), "6": ("UD", "surfa
 
 
 def is_knet_csv(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of NIED's CSV of K-NET or KiK-net."""
+    """Return whether bytes begin a K-NET or KiK-net CSV of NIED."""
     return re.match(rb"(?:\xef\xbb\xbf)?#\s*(?:K-NET|KiK-net)\s*CSV", head, re.IGNORECASE) is not None
 
 
 def read_knet_csv(blob: RawFile) -> list[Record]:
-    """Return the record in a CSV of NIED; of KiK-net's ``1(gal)`` to ``6(gal)`` two, borehole and surface.
+    """Return the record in a NIED CSV; for KiK-net (``1(gal)`` to ``6(gal)``) two, borehole and surface.
 
     Notes
     -----
-    The time column is taken as the true time of the samples, JST: the trigger delay is already off. The offset is kept and told.
+    The time column is the true time of the samples, JST, without the trigger delay. The offset is kept and recorded in the metadata.
     """
     lines = decode_text(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
@@ -44,7 +44,7 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     names_line = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
     if names_line is None:
         raise RecordFormatError(
-            "{name}: the K-NET CSV header is cut short: no line names the columns (#Time,RelativeTime(s),...)", name=blob.name
+            "{name}: K-NET CSV header incomplete: no line with the column names (#Time,RelativeTime(s),...)", name=blob.name
         )
     names = [cell.strip() for cell in header[names_line].split(",")]
     sensors = _sensor_columns(blob.name, names)
@@ -55,7 +55,10 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     rate = parse_number(_line_after(header, "SamplingFrequency(Hz)"))
     if rate and abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(
-            "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=blob.name, rate=rate, dt=dt
+            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged",
+            name=blob.name,
+            rate=rate,
+            dt=dt,
         )
     start = _start_time(blob.name, lines[body], body + 1, float(columns[time_index][0]))
     flags = _qc_flags(header, columns[time_index].size, rate or 1.0 / dt) + _flag_clock(lines[body:], columns[time_index], dt)
@@ -79,37 +82,38 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
 
 
 def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag, ...]:
-    """Return what speaks against the count of samples: the header's duration is another, or no number."""
+    """Return a flag if the header duration differs from the samples or is unreadable."""
     text = _line_after(header, "DurationTime(s)")
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("the header's DurationTime is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        message = lazy_gettext("header DurationTime {text!r} is not a number; number of samples not checked", text=text[:20])
         return (QCFlag("header", message),)
     promised_count = round(duration * rate)
     if samples != promised_count:
         return (
             QCFlag(
                 "count",
-                lazy_gettext("the header promises {promised} samples, the file holds {count}", promised=promised_count, count=samples),
+                lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=samples),
             ),
         )
     return ()
 
 
 def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> tuple[QCFlag, ...]:
-    """Return what speaks against the times of the day, which the seconds beside them have to go with."""
+    """Return a flag if the time of day disagrees with the relative time."""
     time_texts = [line.partition(",")[0].strip().replace("/", "-").replace(" ", "T") for line in lines if line.strip(" \t,")]
     try:
         if not all(map(_TIME_OF_DAY.fullmatch, time_texts)):
             raise ValueError
         elapsed_s = (np.array(time_texts, dtype="datetime64[us]") - np.datetime64(time_texts[0], "us")) / np.timedelta64(1, "s")
     except ValueError:
-        return (QCFlag("clock", lazy_gettext("the times of the day in the first column cannot all be read")),)
+        return (QCFlag("clock", lazy_gettext("unreadable time of day in the first column")),)
+    # half an interval: larger differences are a shifted or missing line
     mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
     if not mismatches.size:
         return ()
     text = lazy_gettext(
-        "the time of the day and the seconds beside it differ in {count} line(s), first at {seconds:.2f} s",
+        "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s",
         count=mismatches.size,
         seconds=float(relative_times[mismatches[0]]),
     )
@@ -117,7 +121,7 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
 
 
 def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
-    """Return, for each sensor (of K-NET one, without a level), which column holds which component."""
+    """Return column index by component for each sensor level (empty for K-NET)."""
     sensors: dict[str, dict[str, int]] = {}
     for index, column in enumerate(names):
         code, level = _CHANNELS.get(column.split("(")[0], (component_code(column), ""))
@@ -126,25 +130,25 @@ def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]
         unit = split_unit(column)[1]
         if unit and normalize_unit(unit) != "gal":
             raise UnitError(
-                "{name}: column {column!r} is in {unit}, and a K-NET CSV is in gal: the file is damaged",
+                "{name}: unit {unit} in column {column!r}: expected gal in a K-NET CSV; file damaged",
                 name=name,
                 column=column,
                 unit=unit,
             )
         if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
             raise RecordFormatError(
-                "{name}: column {column!r} is none of N-S, E-W, U-D (or 1 to 6), or stands twice: the file is damaged",
+                "{name}: column {column!r} unknown or duplicate: expected N-S, E-W, U-D (or 1 to 6) once each; file damaged",
                 name=name,
                 column=column,
             )
         sensors.setdefault(level, {})[code] = index
     if not sensors:
-        raise RecordFormatError("{name}: no column of acceleration among {names}", name=name, names=names)
+        raise RecordFormatError("{name}: no acceleration column among {names}", name=name, names=names)
     return sensors
 
 
 def _line_after(header: Sequence[str], key: str) -> str:
-    """Return the header line that follows the line beginning with a key."""
+    """Return the header line after the line that begins with a key."""
     for line, next_line in pairwise(header):
         if line.startswith(key):
             return next_line
@@ -152,7 +156,6 @@ def _line_after(header: Sequence[str], key: str) -> str:
 
 
 def _start_time(name: str, line: str, line_number: int, relative_time: float) -> datetime:
-    """Return the time of the first sample, UTC."""
     text = line.split(",")[0]
     time = parse_jst(text)
     if time is None:
@@ -161,7 +164,6 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
 
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
-    """Return what the header says of event and station."""
     metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
     if level:
         metadata["level"] = level

@@ -1,4 +1,4 @@
-"""Any other format that obspy reads, once its unit is known."""
+"""Other formats read by ObsPy, with the unit given by the user."""
 
 from __future__ import annotations
 
@@ -20,40 +20,41 @@ from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import to_si_in_place
 from seisblock.records import Component, QCFlag, Record
 
-# PICKLE runs whatever the file says; the others have a reader here
+# unpickling executes arbitrary code; the other formats have a reader here
 _SKIPPED_FORMATS = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "CWA", "KNET", "GSE1", "GSE2"}
 _CRASHING_FORMATS = {"GSE1", "GSE2"}
-"""Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
+"""Formats whose obspy decoder crashes (segmentation fault) on damaged files."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
 
 def is_gse(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of GSE 1 or 2, which no reader here takes."""
+    """Return whether bytes begin a GSE 1 or 2 file (not supported)."""
     return _GSE.search(head) is not None
 
 
 def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None) -> list[Record]:
-    """Return the components in a file that obspy recognises.
+    """Return the components in a file of a format known to obspy.
 
     Parameters
     ----------
-    blob : Blob
-        Any waveform format of obspy but its pickles.
+    blob : RawFile
+        File of any waveform format of obspy except PICKLE.
     units : str or None
-        Unit of the samples as obspy gives them; formats with a calibration of their own (``stats.calib``) are not calibrated further.
+        Unit of the samples as returned by obspy; the calibration factor ``stats.calib`` is not applied.
     waveform : str or None
-        Name of the format as obspy spells it; None tries them all.
+        Format name of obspy; None tries all formats.
 
     Raises
     ------
     RecordFormatError
-        If obspy knows no such format, or fails on the file.
+        If obspy does not know the format or fails on the file.
     UnitError
-        If the unit is not given.
+        If the unit is missing or unknown.
     """
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
+        # keep the suffix, which format detection of obspy may use
         suffix = "".join(c for c in Path(blob.basename).suffix[:12] if c.isalnum() or c == ".")
         path = Path(directory) / f"record{suffix}"
         path.write_bytes(blob.data)
@@ -61,19 +62,16 @@ def read_obspy(blob: RawFile, *, units: str | None, waveform: str | None = None)
         traces, warning_texts = _read_traces(blob.name, path, name)
     flags = flag_obspy_file(blob.data, name, traces, warning_texts)
     if units is None:
-        raise UnitError(
-            "{name} is a {format} file, which does not say the unit of its samples: give `units`, gal|m/s2|g", name=blob.name, format=name
-        )
+        raise UnitError("{name}: {format} file without a sample unit: give `units`, gal|m/s2|g", name=blob.name, format=name)
     unit = normalize_unit(units)
     if unit is None:
-        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
+        raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
     traces.reverse()
-    # one by one out of the list: obspy's samples go as ours come
+    # popped one by one, so that the samples of obspy are freed during conversion
     return [_to_record(blob.name, traces.pop(), name, unit, flags) for _ in range(len(traces))]
 
 
 def _detect_obspy_format(blob: RawFile, path: Path) -> str:
-    """Return obspy's name of the format of a file."""
     from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
     for candidate, entry in ENTRY_POINTS["waveform"].items():
@@ -94,17 +92,16 @@ def _detect_obspy_format(blob: RawFile, path: Path) -> str:
 
 
 def _raise_unsupported(name: str, waveform: str) -> NoReturn:
-    """Refuse a format whose decoder cannot be trusted."""
+    """Raise for a format whose decoder is unsafe."""
     raise RecordFormatError(
-        "{name}: {format} is not read here, for its decoder in obspy crashes on damaged files: convert the record, "
-        "with obspy for example, to MSEED or SAC",
+        "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC",
         name=name,
         format=waveform,
     )
 
 
 def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]:
-    """Return the traces of a file, gapless pieces of one channel joined, and what obspy warned of."""
+    """Return the traces of a file, contiguous pieces merged, and the warnings of obspy."""
     import obspy
     from obspy.core.util.base import ENTRY_POINTS
 
@@ -113,8 +110,8 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
         known_formats = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING_FORMATS - {"PICKLE"}))
         raise ParameterError(
-            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, CSV, or OBSPY: "
-            "and one of {usable}",
+            "unknown format {waveform!r}: expected JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, "
+            "CSV, or OBSPY: followed by one of {usable}",
             waveform=waveform,
             usable=known_formats,
         )
@@ -124,25 +121,25 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # obspy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
-        raise RecordFormatError("{name}: obspy cannot read it as {format} ({why})", name=name, format=waveform, why=reason) from error
+        raise RecordFormatError("{name}: obspy cannot read the file as {format} ({why})", name=name, format=waveform, why=reason) from error
     if not stream:
-        raise RecordFormatError("{name}: obspy finds no samples in it", name=name)
+        raise RecordFormatError("{name}: no samples found by obspy", name=name)
     return list(stream), [str(warning.message) for warning in warning_list if issubclass(warning.category, UserWarning)]
 
 
 def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCFlag, ...]) -> Record:
-    """Return one trace as a record of one component."""
+    """Return one trace as a single-component record."""
     from datetime import UTC
 
     stats = trace.stats
     if np.ma.is_masked(trace.data):
-        raise RecordFormatError("{name}: channel {channel} has gaps: cut the record to a stretch without", name=name, channel=trace.id)
+        raise RecordFormatError("{name}: channel {channel} has gaps; extract a window without gaps", name=name, channel=trace.id)
     if trace.data.dtype.kind not in "iuf":
-        raise RecordFormatError("{name}: channel {channel} holds text, not samples", name=name, channel=trace.id)
-    values = np.require(trace.data, np.float64, ["C", "O", "W"])  # nobody holds them but us
+        raise RecordFormatError("{name}: channel {channel} contains text, not samples", name=name, channel=trace.id)
+    values = np.require(trace.data, np.float64, ["C", "O", "W"])  # owned, so that they can be scaled in place
     if values.size < 2 or not stats.delta > 0:
         raise RecordFormatError(
-            "{name}: channel {channel} holds {count} samples at an interval of {dt} s: no waveform",
+            "{name}: channel {channel} is not a waveform ({count} samples, interval {dt} s)",
             name=name,
             channel=trace.id,
             count=values.size,
@@ -151,7 +148,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
         text = lazy_gettext(
-            "{channel}: the calibration factor {factor:g} of the file was not applied: units are as you said",
+            "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`",
             channel=trace.id,
             factor=stats.calib,
         )

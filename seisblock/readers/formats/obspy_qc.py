@@ -1,4 +1,4 @@
-"""What speaks against a file that obspy has read: its own counts, times and extremes, and what obspy warned of."""
+"""Quality control of files read by ObsPy: counts, times, extremes, and warnings of ObsPy."""
 
 from __future__ import annotations
 
@@ -17,31 +17,32 @@ from seisblock.records import QCFlag
 _COUNTED_FORMATS = {"SLIST", "TSPAIR"}
 _TIMESERIES = re.compile(r"^TIMESERIES[ \t]+(.*)$", re.MULTILINE)
 _SAC_UNDEFINED = -12345.0
-"""What a SAC header holds where it says nothing."""
+"""SAC value of undefined header entries."""
 
 _EXTREME_TOLERANCE = 1e-5
-"""How far an extreme of a SAC header may lie from the samples', in the largest of them: both are of single precision."""
+"""Tolerance of SAC extremes relative to the largest sample; both are single precision."""
 
 _TIME_TOLERANCE_S = 1.5e-6
-"""How far a time may lie from its place, s: TSPAIR prints microseconds."""
+"""Tolerance of sample times, s; TSPAIR prints microseconds."""
 
 
 def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_texts: Sequence[str]) -> tuple[QCFlag, ...]:
-    """Return what speaks against a file.
+    """Return the quality flags of a file.
 
     Parameters
     ----------
     data : bytes
-        Of the file.
+        Content of the file.
     waveform : str
-        Its format, as obspy spells it.
-    traces : sequence of obspy's Trace
-        What was read from it.
+        Format name of obspy.
+    traces : sequence of obspy Trace
+        Traces read from the file.
     warning_texts : sequence of str
-        What obspy warned of meanwhile: integrity checks of miniSEED, ends of files in the middle of a block.
+        Warnings of obspy: integrity checks of miniSEED, incomplete blocks at the end of the file.
     """
     obspy_flags = (
-        QCFlag("header", lazy_gettext("obspy: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH])) for text in warning_texts
+        QCFlag("header", lazy_gettext("obspy warning: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]))
+        for text in warning_texts
     )
     file_flags: Iterator[QCFlag] = iter(())
     if waveform in _COUNTED_FORMATS:
@@ -54,7 +55,7 @@ def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_t
 
 
 def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
-    """Yield a doubt for each channel of SLIST or TSPAIR whose header states another number of samples, or whose times are not even."""
+    """Yield flags for SLIST or TSPAIR channels with a wrong sample count or uneven times."""
     pieces = _TIMESERIES.split(text)
     total_count = 0
     for head, body in zip(pieces[1::2], pieces[2::2], strict=True):
@@ -63,28 +64,28 @@ def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
         stated_count = parse_number(words[0]) if words else None
         cells = body.split()
         has_times = any(field.upper() == "TSPAIR" for field in fields)
+        # TSPAIR lists pairs of time and value
         count = len(cells) // (2 if has_times else 1)
         total_count += count
         if stated_count is None or stated_count != count:
             text = lazy_gettext(
-                "{channel}: the header states {stated} samples, {count} follow",
+                "{channel}: header states {stated} samples, file contains {count}",
                 channel=fields[0],
                 stated=words[0][:20] if words else "no",
                 count=count,
             )
             yield QCFlag("count", text)
         if has_times and not _is_evenly_sampled(cells[::2]):
-            yield QCFlag("clock", lazy_gettext("{channel}: the times of its samples are not those of an even clock", channel=fields[0]))
+            yield QCFlag("clock", lazy_gettext("{channel}: sample times are not evenly spaced", channel=fields[0]))
     if total_count != read_count:
-        yield QCFlag("count", lazy_gettext("of {promised} samples in the file obspy read {read}", promised=total_count, read=read_count))
+        yield QCFlag("count", lazy_gettext("obspy read {read} of {promised} samples in the file", promised=total_count, read=read_count))
 
 
 def _is_evenly_sampled(times: Sequence[str]) -> bool:
-    """Return whether times are those of an even clock."""
     try:
         instants = [datetime.fromisoformat(time) for time in times]
         seconds = np.array([(instant - instants[0]).total_seconds() for instant in instants])
-    except (ValueError, TypeError):  # no times, or some with a time zone
+    except (ValueError, TypeError):  # unreadable times, or mixed time zones
         return False
     if not seconds.size:
         return True
@@ -93,14 +94,14 @@ def _is_evenly_sampled(times: Sequence[str]) -> bool:
 
 
 def _flag_partial_block(size: int, traces: Sequence[Any]) -> Iterator[QCFlag]:
-    """Yield a doubt about a miniSEED file of so many bytes that ends in the middle of a block, which obspy passes over."""
+    """Yield a flag if a miniSEED file of `size` bytes ends inside a block, which obspy ignores."""
     length = min(int(trace.stats.mseed.record_length) for trace in traces)
     if size % length:
-        yield QCFlag("cut", lazy_gettext("the file ends in the middle of a block of {length} bytes: it looks cut", length=length))
+        yield QCFlag("cut", lazy_gettext("file ends inside a block of {length} bytes: probably truncated", length=length))
 
 
 def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
-    """Yield a doubt for each extreme and each mean of a SAC header that is not that of the samples."""
+    """Yield flags for extremes and means in a SAC header that differ from the samples."""
     for trace in traces:
         header, row = trace.stats.sac, np.asarray(trace.data, dtype=np.float64)
         extremes = {"depmin": row.min(), "depmax": row.max(), "depmen": row.mean()} if row.size else {}
@@ -109,7 +110,7 @@ def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
             header_value = float(header.get(key, _SAC_UNDEFINED))
             if header_value != _SAC_UNDEFINED and not abs(header_value - value) <= slack:
                 text = lazy_gettext(
-                    "{channel}: the header says {key} {told:g}, that of the samples is {value:g}",
+                    "{channel}: header {key} {told:g} differs from the value of the samples, {value:g}",
                     channel=trace.id,
                     key=key.upper(),
                     told=header_value,

@@ -1,4 +1,4 @@
-"""Plain tables: columns by name, with units in the names, any common separator."""
+"""Plain tables: named columns with units and any common separator."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from seisblock.records import Component, QCFlag, Record
 
 FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
-_TIME_GUESSED_NOTE = N_("took the first column, which climbs evenly, as the time in s")
+_TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s")
 
 
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
@@ -37,23 +37,22 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
 
     Parameters
     ----------
-    blob : Blob
-        Cells are separated by commas, semicolons (then a decimal comma is allowed), tabs or blanks; ``#`` starts a comment. The first line
-        may name the columns (:func:`seisblock.readers.table.columns.parse_header`), a unit may stand in a name: ``EW (gal)``, ``ew_gal``,
-        ``NS[m/s^2]``, or in a line of units below the names. A time column gives the sampling interval and must be even within the digits
-        printed; where a clock tells the times (``16:10:10.25``, ``2024-01-01T16:10:10Z``) the first with its date is the start. Without
-        names, a first column that climbs evenly is the time.
+    blob : RawFile
+        Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name
+        the columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in
+        a line below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time
+        with a date (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time.
     units : str or None
-        Unit of columns that name none.
+        Unit of columns without a unit.
     dt : float or None, s
         Sampling interval of a table without a time column.
 
     Raises
     ------
     RecordFormatError
-        If a column is not understood or a cell is no number, with its name or line.
+        If a column is unknown or a cell is not a number; the message has its name or line.
     UnitError
-        If a unit is unknown, or missing and not given.
+        If a unit is unknown or missing.
     ParameterError
         If the sampling interval is missing, or contradicts the time column.
     """
@@ -77,7 +76,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         else columns
     )
     if has_names and dt is None and not any(column.code == TIME for column in columns.columns):
-        raise _missing_interval_error(blob.name)  # before a day of numbers is read
+        raise _missing_interval_error(blob.name)  # before reading the numbers, which may take long
     first_timestamp, body = _replace_timestamps(columns, body, layout.separator)
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in columns.columns}
     rows = parse_columns(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
@@ -95,7 +94,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     components = [Component(c.code, to_si_in_place(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(
-            "{name} holds no acceleration: expected at least one such column, found {columns}",
+            "{name}: no acceleration column: expected at least one, found {columns}",
             name=blob.name,
             columns=[name.strip() for name in layout.names] if has_names else [lazy_gettext("time")],
         )
@@ -103,6 +102,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     has_time = any(column.code == TIME for column in columns.columns)
     flags = _qc_flags(lines, layout.body, has_time=has_time) + flag_missing_points(body, layout.body + 1, layout.separator)
     flags += flag_comment_mismatch(lines[: layout.body], columns.columns, rows[0].size, dt)
+    # one flag for a truncated end is enough
     if not any(flag.kind == "cut" for flag in flags):
         flags += flag_truncated_end(body, layout.separator)
     return Record(
@@ -123,7 +123,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
 
 
 def _replace_timestamps(columns: TableColumns, body: Sequence[str], separator: str | None) -> tuple[Timestamp | None, Sequence[str]]:
-    """Return the first moment of a column of times that a clock tells, None where it holds seconds, and the body with seconds in it."""
+    """Return the first clock time of the time column, None for seconds, and the body with seconds in its place."""
     column = next((c for c in columns.columns if c.code == TIME), None)
     cells = next((line for line in body if line.strip()), "").split(separator)
     first = parse_timestamp(cells[column.index]) if column is not None and column.index < len(cells) else None
@@ -133,23 +133,21 @@ def _replace_timestamps(columns: TableColumns, body: Sequence[str], separator: s
 
 
 def _zone_offset_s(columns: TableColumns) -> int | None:
-    """Return how far the clock that the name of the column of times tells is ahead of UTC, s: ``time (JST)``."""
+    """Return the UTC offset, s, in the name of the time column: ``time (JST)``."""
     return next((zone_offset_s(split_unit(column.label)[1]) for column in columns.columns if column.code == TIME), None)
 
 
 def _start_time(timestamp: Timestamp | None, zone_s: int | None) -> tuple[datetime | None, tuple[str, ...]]:
-    """Return the start that a clock tells, UTC, and what is to be said of it."""
+    """Return the UTC start from a clock time, and history notes."""
     if timestamp is None or timestamp.utc is None:
         return None, ()
     if timestamp.utc_offset_s is None and zone_s is not None:
         return timestamp.utc - timedelta(seconds=zone_s), ()
-    return timestamp.utc, () if timestamp.utc_offset_s is not None else (
-        lazy_gettext("took the times of the file as UTC: no time zone stands beside them"),
-    )
+    return timestamp.utc, () if timestamp.utc_offset_s is not None else (lazy_gettext("times taken as UTC (no time zone in the file)"),)
 
 
 def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> TableColumns:
-    """Return what the columns are by their names; where these are not understood and a table begins further down, that is said."""
+    """Return the columns by their names; an unknown header above a table further down raises its own error."""
     try:
         return parse_header(name, names, units)
     except InputError:
@@ -160,46 +158,44 @@ def _parse_columns(name: str, lines: Sequence[str], names: Sequence[str], units:
 
 
 def _missing_interval_error(name: str) -> ParameterError:
-    """Return the error of a table that does not say how far apart its samples are."""
-    return ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=name)
+    return ParameterError("{name}: no time column: give the sampling interval with `dt`, for example 0.01 s", name=name)
 
 
 def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFlag, ...]:
-    """Return what speaks for lines that were lost: one that is empty where nothing else counts them, and a last one cut short."""
+    """Return flags for empty lines in a table without times and for a truncated last line."""
     flags = []
     last = max(i for i, line in enumerate(lines) if is_data_line(line))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
         text = lazy_gettext(
-            "{count} line(s) are empty (the first is line {line}) where each stands for a sample: if samples are missing there, all later "
-            "ones come too early",
+            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
             count=len(empty_lines),
             line=empty_lines[0],
         )
         flags.append(QCFlag("line", text))
     if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
         flags.append(
-            QCFlag("cut", lazy_gettext("the last line is the shortest and has no end: the file looks cut, and its last number with it"))
+            QCFlag("cut", lazy_gettext("last line shortest and without line end: file probably truncated, last number incomplete"))
         )
     return tuple(flags)
 
 
 def _unnamed_columns(width: int) -> TableColumns:
-    """Return the columns of a table without names, before anything is known of them."""
     return TableColumns(tuple(Column(i, f"number {i + 1}", "") for i in range(width)))
 
 
 def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> TableColumns:
-    """Return what the columns of a table without names are: a first one that climbs evenly is the time, the others are accelerations."""
+    """Return the columns of a table without names: an evenly increasing first column is time, others acceleration."""
     first_column = rows[0]
     steps = np.diff(first_column)
     has_time = len(rows) > 1 and first_column.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
     names = ["time" if has_time and i == 0 else f"C{i + 1}" for i in range(len(rows))]
+    # a single column is named ACC, several C1, C2, ...
     if len(rows) - has_time == 1:
         names[-1] = "ACC"
     if units is None:
         raise UnitError(
-            "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
+            "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g",
             name=name,
             column=1 + has_time,
         )
@@ -208,7 +204,7 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
 
 
 def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
-    """Return the sampling interval that a column of times gives, s, which an interval given beside it must not contradict."""
+    """Return the sampling interval of the time column, s; raise if `dt` contradicts it."""
 
     def printed_times() -> list[str]:
         return [line.split(separator)[column.index].strip() for line in body if line.strip()][: row.size]
@@ -216,7 +212,7 @@ def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[
     interval = sampling_interval(name, row, printed_times, unit=column.seconds)
     if dt is not None and abs(dt - interval) > 1e-6:
         raise ParameterError(
-            "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out",
+            "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`",
             name=name,
             found=interval,
             dt=dt,

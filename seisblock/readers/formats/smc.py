@@ -1,8 +1,8 @@
-"""SMC of the U.S. Geological Survey: one component in cm/s^2, corrected and even; integers and reals of the header at fixed places.
+"""SMC (U.S. Geological Survey): one corrected, evenly sampled component in cm/s^2.
 
-Seen in files: eleven lines of text, six of eight integers, ten of five reals, comments that begin with ``|``, then eight samples of ten
-characters in a line. Uncorrected files hold pairs of time and acceleration; they, velocities, displacements and spectra are refused by
-name.
+Layout found in files: 11 lines of text, 6 of eight integers, 10 of five reals, comments that begin with ``|``, then eight samples of ten
+characters per line. Uncorrected files (pairs of time and acceleration), velocities, displacements and spectra raise an error that names
+them.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ _TITLE_LINE = re.compile(
     rb"[ ]*(?:[0-9][ ]+)?((?:UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTR\w*|\*)[ ]*\r?\n", re.IGNORECASE
 )
 TEXT, INTEGERS, REALS = 11, 6, 10
-"""Lines of each kind."""
+"""Lines of text, integers and reals."""
 
 _INTEGER, _REAL, _SAMPLE = (8, 10), (5, 15), (8, 10)
 YEAR, DAY, HOUR, MINUTE, SECOND, MILLISECOND, VERTICAL, AZIMUTH, COMMENTS, SAMPLES = 1, 2, 3, 4, 5, 6, 12, 13, 15, 16
 FLOOR, NUMBER = 24, 29
-"""Places of the integers, from 0."""
+"""Indices of the integers, from 0."""
 
 RATE, EVENT_LATITUDE, EVENT_LONGITUDE, DEPTH, MAGNITUDES, LATITUDE, LONGITUDE, HEIGHT, DISTANCE, LARGEST, SMALLEST = (
     1,
@@ -47,25 +47,25 @@ RATE, EVENT_LATITUDE, EVENT_LONGITUDE, DEPTH, MAGNITUDES, LATITUDE, LONGITUDE, H
     29,
     31,
 )
-"""Places of the reals, from 0."""
+"""Indices of the reals, from 0."""
 
 MISSING = 1e38
-"""Reals beyond this say nothing."""
+"""Reals above this are missing."""
 
 _SAMPLE_TOLERANCE = 6e-5
-"""Half a unit of the fifth digit, relatively: what samples are printed to."""
+"""Half a unit of the fifth digit, the printed precision of samples, relative."""
 
 _UNSUPPORTED = {
-    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected accelerogram, whose samples are uneven: take the corrected file of the same record"),
-    "VELOCITY": N_("a velocity: take the corrected accelerogram of the same record"),
-    "DISPLACEMENT": N_("a displacement: take the corrected accelerogram of the same record"),
-    "RESPONSE": N_("a response spectrum: take the corrected accelerogram of the same record"),
-    "*": N_("a file that does not say what its samples are, as raw counts do: take the corrected accelerogram"),
+    "UNCORRECTED ACCELEROGRAM": N_("an uncorrected, unevenly sampled accelerogram: use the corrected file of the same record"),
+    "VELOCITY": N_("velocity: use the corrected accelerogram of the same record"),
+    "DISPLACEMENT": N_("displacement: use the corrected accelerogram of the same record"),
+    "RESPONSE": N_("a response spectrum: use the corrected accelerogram of the same record"),
+    "*": N_("samples of unknown quantity (for example raw counts): use the corrected accelerogram"),
 }
 
 
 def is_smc(head: bytes) -> bool:
-    """Return whether a file's first bytes are those of an SMC file: its title, then a line with a star, then integers in columns."""
+    """Return whether bytes begin an SMC file: title, line with a star, fixed-width integers."""
     if _TITLE_LINE.match(head) is None:
         return False
     lines = head.decode("latin-1").splitlines()
@@ -73,12 +73,12 @@ def is_smc(head: bytes) -> bool:
 
 
 def read_smc(blob: RawFile) -> Record:
-    """Return the one component in a corrected SMC file.
+    """Return the component in a corrected SMC file.
 
     Notes
     -----
-    Start and sampling are those of the header; a file that tells no seconds begins at the full minute, and its times are those of the
-    trigger. The header's largest and smallest sample are compared with the file's: a difference is a doubt.
+    Start and sampling rate are from the header; without seconds, the start is the full minute of the trigger. The largest and smallest
+    sample in the header are checked against the samples.
     """
     lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     name = blob.name
@@ -90,11 +90,15 @@ def read_smc(blob: RawFile) -> Record:
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
-            raise_line_error(name, index + 1, lazy_gettext("expected one of {count} comments that begin with |", count=integers[COMMENTS]))
+            raise_line_error(
+                name, index + 1, lazy_gettext("expected one of {count} comment lines beginning with |", count=integers[COMMENTS])
+            )
     rate = float(reals[RATE])
     if not 0.0 < rate < MISSING:
         raise_line_error(
-            name, TEXT + INTEGERS + 1, lazy_gettext("expected samples per second, found {rate:g}: the samples may be uneven", rate=rate)
+            name,
+            TEXT + INTEGERS + 1,
+            lazy_gettext("expected the number of samples per second, found {rate:g}: samples may be uneven", rate=rate),
         )
     count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
     gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
@@ -103,7 +107,9 @@ def read_smc(blob: RawFile) -> Record:
         raise_line_error(
             name,
             end_line + 1,
-            lazy_gettext("expected the end after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]),
+            lazy_gettext(
+                "expected the end of the file after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]
+            ),
         )
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)
@@ -121,17 +127,18 @@ def read_smc(blob: RawFile) -> Record:
 
 
 def _check_title(name: str, title: str) -> None:
-    """Refuse what is no corrected accelerogram, by what its title says it is."""
+    """Raise unless the title is that of a corrected accelerogram."""
     match = _TITLE_LINE.match(title.encode("latin-1", "replace") + b"\n")
     kind = match[1].decode("latin-1").upper() if match else "*"
     reason = next((reason_text for word, reason_text in _UNSUPPORTED.items() if kind.startswith(word)), None)
     if reason is not None:
-        raise RecordFormatError("{name}: this SMC file holds {what}", name=name, what=lazy_gettext(reason))
+        raise RecordFormatError("{name}: the SMC file contains {what}", name=name, what=lazy_gettext(reason))
 
 
 def _parse_direction(lines: list[str], integers: list[int], missing_value: int) -> tuple[Direction, str]:
-    """Return the direction of the component, and its name in the text: upright sensors by their angle from the vertical."""
+    """Return direction and name of the component; vertical sensors by their angle from the vertical."""
     direction_name = lines[5].partition("component")[2].lstrip("= ").strip()
+    # angle from the vertical: 0 up, 180 down
     if integers[VERTICAL] in (0, 180):
         return Direction("UD", sign=1.0 if integers[VERTICAL] == 0 else -1.0), direction_name
     if integers[AZIMUTH] != missing_value and 0 <= integers[AZIMUTH] <= 360:
@@ -140,13 +147,12 @@ def _parse_direction(lines: list[str], integers: list[int], missing_value: int) 
 
 
 def _station_code(lines: list[str], integers: list[int], missing_value: int) -> str:
-    """Return the number of the station, else the code in the text, and the floor of a building."""
+    """Return the station number, else the code in the text, with the floor in a building."""
     code = lines[2].strip("* \0") if integers[NUMBER] in (missing_value, 0) else str(integers[NUMBER])
     return code if integers[FLOOR] == missing_value else f"{code} floor {integers[FLOOR]}"
 
 
 def _start_time(integers: list[int], missing_value: int) -> datetime | None:
-    """Return the time of the first sample, UTC, as far as the integers tell it."""
     year, day, hour, minute = (integers[place] for place in (YEAR, DAY, HOUR, MINUTE))
     second, millisecond = (0 if integers[place] == missing_value else integers[place] for place in (SECOND, MILLISECOND))
     start = utc_datetime(year, 1, 1, hour, minute, second + millisecond / 1000.0)
@@ -154,7 +160,6 @@ def _start_time(integers: list[int], missing_value: int) -> datetime | None:
 
 
 def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[str, object]:
-    """Return what the header says of station and earthquake."""
     metadata: dict[str, object] = {"unit": "gal"}
     station = re.search(r"station\s*=\s*(.*?)\s*(?:component\b|\Z)", lines[5], re.IGNORECASE)
     if station and station[1]:
@@ -180,7 +185,7 @@ def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[
 
 
 def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ...]:
-    """Return what speaks against the samples: the header's own peak."""
+    """Return a flag if the peak differs from the header."""
     peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
     peak_text = repr(peak) if abs(peak) < MISSING else ""
     return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))

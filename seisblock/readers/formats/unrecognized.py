@@ -1,4 +1,4 @@
-"""What is said of a file that no reader takes: how it begins, and where a table in it does."""
+"""Error for files of unknown format."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from seisblock.readers.source import RawFile
 from seisblock.readers.table.layout import MAX_PREAMBLE_LINES, MAX_QUOTED_LENGTH, preamble_error
 
 _KNOWN_FORMATS = N_(
-    "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, a plain table, a bundle of those, nor a "
-    "waveform format of obspy"
+    "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, a plain table, an archive of "
+    "these, or a waveform format of obspy"
 )
 
 
 def unrecognized_error(blob: RawFile) -> RecordFormatError:
-    """Return the error of a file in no format that is known: of a text it quotes the first line, and tells where a table begins below."""
+    """Return the error of a file of unknown format; quotes the first line and locates a table below it."""
     try:
         lines = read_lines(blob)[:MAX_PREAMBLE_LINES]
     except RecordFormatError:
-        return RecordFormatError("{name} is in no format known here: not {known}", name=blob.name, known=lazy_gettext(_KNOWN_FORMATS))
+        return RecordFormatError("{name}: unknown file format; expected {known}", name=blob.name, known=lazy_gettext(_KNOWN_FORMATS))
     first = next((line.strip() for line in lines if line.strip()), "")[:MAX_QUOTED_LENGTH]
     return preamble_error(blob.name, lines) or RecordFormatError(
-        "{name} is in no format known here: it begins {first!r}; not {known}",
+        "{name}: unknown file format (begins with {first!r}); expected {known}",
         name=blob.name,
         first=first,
         known=lazy_gettext(_KNOWN_FORMATS),

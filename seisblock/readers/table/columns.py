@@ -1,4 +1,7 @@
-"""What each column of a plain table is: no column is dropped in silence, and none is read as what it does not say it is."""
+"""Column headings of plain tables: component, time, unit.
+
+Every column is classified; an ambiguous or unknown heading is an error, and ignored columns are recorded in the history.
+"""
 
 from __future__ import annotations
 
@@ -22,30 +25,30 @@ from seisblock.readers.table.headers import (
 )
 
 ACCEPTED_NAMES = lazy_gettext(
-    "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or an acceleration by its unit, as in 'table (gal)'"
+    "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or a name with an acceleration unit, as in 'table (gal)'"
 )
 _NON_NAMES = {"true", "false", "nan", "inf", "null", "none", "yes"}
 _RIGHT_ANGLE_TOLERANCE_DEG = 1.0
-"""How far from perpendicular, in degrees, two bare numbers may be and still be taken for azimuths."""
+"""Largest deviation from perpendicular, degrees, of two bare numbers taken as azimuths."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """One column that is read.
+    """Column to be read.
 
     Parameters
     ----------
     index : int
-        Its place in the table.
+        Index in the table.
     label : str
-        What messages call it.
+        Name for messages.
     code : str
         Component code, or ``TIME``.
     unit : str
-        Of the acceleration, normalised; of the time, empty.
+        Normalised acceleration unit; empty for time.
     azimuth_deg : float or None
     sign : float
-        -1 where the samples are turned to positive up.
+        -1 if the samples are converted to positive up.
     seconds : float
         Unit of a time column, s.
     """
@@ -61,38 +64,39 @@ class Column:
 
 @dataclass(frozen=True)
 class TableColumns:
-    """The columns that are read, and what is to be said about the others and about guesses."""
+    """Columns to be read, and history notes on ignored columns and assumptions."""
 
     columns: tuple[Column, ...]
     notes: tuple[str, ...] = ()
 
 
 def parse_header(name: str, names: Sequence[str], units: str | None = None) -> TableColumns:
-    """Return what the columns of a table are, by the names in its header.
+    """Return the columns of a table from the names in its header.
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        File name, for messages.
     names : sequence of str
-        As written; at least one is not empty.
+        Column names as written, at least one not empty.
     units : str or None
-        Unit of columns that name none.
+        Unit of columns without a unit.
 
     Raises
     ------
     RecordFormatError
-        If a column is not understood, two mean the same, or a unit or a word stands where a name should.
+        If a column is unknown, two have the same meaning, or a name is a unit or another word.
     UnitError
-        If a unit is unknown, missing or contradicts the option.
+        If a unit is unknown, missing, or contradicts `units`.
     """
     entries = [_classify_column(name, index, heading) for index, heading in enumerate(names)]
     notes = [
-        lazy_gettext("left out column {name!r}: {what}", name=names[i], what=lazy_gettext(entry))
+        lazy_gettext("column {name!r} ignored: {what}", name=names[i], what=lazy_gettext(entry))
         for i, entry in enumerate(entries)
         if isinstance(entry, str)
     ]
     columns = [entry for entry in entries if not isinstance(entry, str)]
+    # D and T depend on the other columns and are resolved after all are classified
     columns = _resolve_transverse(name, names, _resolve_down(names, columns), units)
     _check_ambiguous(name, names, columns, units)
     _check_duplicates(name, names, columns)
@@ -104,7 +108,7 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
         stating_names = _quote_names(names, [c for c in columns if c.unit])
         notes.append(
             lazy_gettext(
-                "took {unit}, which {states} states, for {others}, too",
+                "unit {unit} of {states} also used for {others}",
                 unit=common_unit,
                 states=stating_names,
                 others=_quote_names(names, unitless),
@@ -113,18 +117,18 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
         default_unit = common_unit
     final_columns = tuple(_apply_unit(name, names[column.index], column, default_unit, units) for column in columns)
     notes += [
-        lazy_gettext("turned the sign of {name!r}, which is positive down, to UD, positive up", name=names[c.index])
+        lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=names[c.index])
         for c in final_columns
         if c.sign < 0
     ]
     if len({column.unit for column in final_columns if column.code != TIME}) > 1:
         unit_texts = [f"{names[c.index]!r}: {c.unit}" for c in final_columns if c.code != TIME]
-        notes.append(lazy_gettext("the columns state several units, and each was taken in its own ({units})", units=unit_texts))
+        notes.append(lazy_gettext("columns converted from different units ({units})", units=unit_texts))
     return TableColumns(final_columns, tuple(notes))
 
 
 def is_header_row(names: Sequence[str]) -> bool:
-    """Return whether a line can be a header: one of its words is a direction, the time, or carries a unit of acceleration."""
+    """Return whether a line can be a header: a name is a direction or the time, or has an acceleration unit."""
     return any(
         normalize_unit(split_unit(n)[1])
         or component_code(n) in (TIME, "ACC")
@@ -134,14 +138,14 @@ def is_header_row(names: Sequence[str]) -> bool:
 
 
 def _classify_column(name: str, index: int, heading: str) -> Column | str:
-    """Return a column as its own name tells it, or what it is when it is no acceleration and no time."""
+    """Return a column from its own name, or the quantity of a column to be ignored."""
     unit_text = split_unit(heading)[1]
     bare_heading = strip_name(heading)
     unit, seconds = normalize_unit(unit_text), time_unit_seconds(unit_text)
     inner_unit = normalize_unit(split_unit(split_unit(heading)[0])[1])
     if unit and inner_unit and inner_unit != unit:
         raise UnitError(
-            "{name}: column {written!r} states two units, {inner} and {unit}: keep one of them",
+            "{name}: two units, {inner} and {unit}, in column {written!r}; keep one",
             name=name,
             written=heading,
             inner=inner_unit,
@@ -149,14 +153,14 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         )
     if bare_heading.isdecimal() and parse_direction(bare_heading) is None:
         raise RecordFormatError(
-            "{name}: column {written!r} is named by a number that is no azimuth: expected 0 to 360 degrees, or {understood}",
+            "{name}: column name {written!r} is not an azimuth: expected 0 to 360 degrees, or {understood}",
             name=name,
             written=heading,
             understood=ACCEPTED_NAMES,
         )
     if normalize_unit(bare_heading) or bare_heading.lower() in _NON_NAMES:
         raise RecordFormatError(
-            "{name}: {written!r} stands where column {index} should have a name: expected {understood}",
+            "{name}: {written!r} is not a name for column {index}: expected {understood}",
             name=name,
             written=heading,
             index=index + 1,
@@ -165,10 +169,11 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     direction = parse_direction(bare_heading)
     if unit:
         return _acceleration_column(index, heading, direction or _unknown_direction(bare_heading), unit)
+    # acceleration units come first: 'T (gal)' is transverse, 'T (s)' is time
     if component_code(heading) == TIME or seconds:
         if unit_text and seconds is None and not is_clock_unit(unit_text):
             raise UnitError(
-                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
+                "{name}: unknown time unit {unit_text!r} in column {written!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
                 name=name,
                 written=heading,
                 unit_text=unit_text,
@@ -181,7 +186,7 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
         return quantity
     if unit_text:
         raise UnitError(
-            "{name}: column {written!r} has the unknown unit {unit_text!r}: expected gal, m/s2 or g, or no such column",
+            "{name}: unknown unit {unit_text!r} in column {written!r}: expected gal, m/s2 or g; correct the unit or remove the column",
             name=name,
             written=heading,
             unit_text=unit_text,
@@ -192,19 +197,18 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
 
 
 def _acceleration_column(index: int, heading: str, direction: Direction, unit: str) -> Column:
-    """Return a column of acceleration."""
     return Column(index, heading, direction.code, unit, direction.azimuth_deg, direction.sign)
 
 
 def _unknown_direction(bare_heading: str) -> Direction:
-    """Return the direction, not known, of a column that is an acceleration by its unit; ``T`` beside a unit is transverse."""
+    """Return the direction of a column known as acceleration by its unit; ``T`` with a unit is transverse."""
     return Direction(
         component_code(bare_heading) if component_code(bare_heading) != TIME else bare_heading.upper() if bare_heading else "ACC"
     )
 
 
 def _resolve_down(names: Sequence[str], columns: list[Column]) -> list[Column]:
-    """Return the columns with a lone ``D`` taken as down only beside two horizontals that are known, and no vertical."""
+    """Return the columns; a lone ``D`` is down only beside two oriented horizontals and no vertical."""
     down_column = next((c for c in columns if c.sign < 0.0 and strip_name(names[c.index]).lower() == "d"), None)
     known_count = sum(c.azimuth_deg is not None for c in columns)
     if down_column is None or (known_count == 2 and sum(c.code == down_column.code for c in columns) == 1):
@@ -213,16 +217,16 @@ def _resolve_down(names: Sequence[str], columns: list[Column]) -> list[Column]:
 
 
 def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> list[Column]:
-    """Return the columns with a lone ``T`` beside ``L`` or ``R`` taken as transverse where a unit of acceleration is known."""
+    """Return the columns; a lone ``T`` beside ``L`` or ``R`` is transverse if an acceleration unit is known."""
     time_columns = [c for c in columns if c.code == TIME]
-    # t and T: the small letter is the time
+    # with both t and T, the lower-case letter is the time
     time_column = next((c for c in time_columns if names[c.index] == "T" or (names[c.index] == "t" and len(time_columns) == 1)), None)
     if time_column is None or not {"L", "R"} & {c.code for c in columns}:
         return columns
     if units is None and not any(c.unit for c in columns):
         raise UnitError(
-            "{name}: columns {names} without a unit: {one!r} may be the time or the transverse direction; name the unit in "
-            "the header, as in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
+            "{name}: columns {names} have no unit: {one!r} may be time or the transverse direction; add the unit to the header, as "
+            "in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=[repr(n) for n in names],
             one=names[time_column.index],
@@ -231,12 +235,12 @@ def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], 
 
 
 def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> None:
-    """Refuse what is not understood, and complete what needs company: bare numbers, and channels whose unit is an option."""
+    """Raise for ambiguous or unknown columns; name the remaining columns when `units` is given."""
     bare_azimuths = [c for c in columns if not c.unit and (d := parse_direction(strip_name(names[c.index]))) and d.is_bare_number]
     if bare_azimuths and not (len(bare_azimuths) == 2 and _are_perpendicular(*bare_azimuths)):
         raise RecordFormatError(
-            "{name}: no names in the header: {names}; azimuths come as a perpendicular pair (10,280), with N and E (N10E), or "
-            "with a degree sign (10°)",
+            "{name}: ambiguous column names {names}: write azimuths as a perpendicular pair (10,280), with N and E (N10E) or with "
+            "a degree sign (10°)",
             name=name,
             names=_quote_names(names, bare_azimuths),
         )
@@ -245,8 +249,8 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     ]
     if velocity_columns:
         raise UnitError(
-            "{name}: codes of instruments that measure velocity: {names}; expected accelerations: if they are, name the unit in "
-            "the header, as in 'HHN (gal)', or give `units`, gal|m/s2|g",
+            "{name}: velocity-sensor codes {names}: expected accelerations; for accelerations, add the unit to the header, as in "
+            "'HHN (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=_quote_names(names, velocity_columns),
         )
@@ -254,29 +258,28 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     known_columns = [c for c in columns if c.code and c.code != TIME]
     if unknown_columns and (known_columns or units is None):
         raise RecordFormatError(
-            "{name}: column not understood: {names}; expected {understood}; name it so, or take it out",
+            "{name}: unknown column {names}: expected {understood}; rename or remove the column",
             name=name,
             names=_quote_names(names, unknown_columns),
             understood=ACCEPTED_NAMES,
         )
     for position, column in enumerate(columns):
-        if not column.code:  # the option says that they are accelerations
+        if not column.code:  # `units` declares all columns as accelerations
             columns[position] = replace(column, code=re.sub(r"\s+", " ", names[column.index].upper()) or f"C{column.index + 1}")
 
 
 def _are_perpendicular(first: Column, second: Column) -> bool:
-    """Return whether two azimuths are a right angle apart."""
     angle = abs((first.azimuth_deg or 0.0) - (second.azimuth_deg or 0.0)) % 180.0
     return abs(angle - 90.0) <= _RIGHT_ANGLE_TOLERANCE_DEG
 
 
 def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]) -> None:
-    """Refuse two columns that mean the same."""
+    """Raise if two columns have the same meaning."""
     for code, count in Counter(c.code for c in columns).items():
         if count > 1:
-            meaning = lazy_gettext("the time") if code == TIME else code
+            meaning = lazy_gettext("time") if code == TIME else code
             raise RecordFormatError(
-                "{name}: several columns mean {meant} ({names}): keep one of them",
+                "{name}: several columns for {meant} ({names}); keep one",
                 name=name,
                 meant=meaning,
                 names=_quote_names(names, [c for c in columns if c.code == code]),
@@ -284,27 +287,26 @@ def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]
 
 
 def _parse_units_option(units: str | None) -> str | None:
-    """Return the unit that the caller states."""
     unit = None if units is None else normalize_unit(units)
     if units is not None and unit is None:
-        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
+        raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=units)
     return unit
 
 
 def _apply_unit(name: str, heading: str, column: Column, option: str | None, units: str | None) -> Column:
-    """Return a column of acceleration with the unit it states, or the one that is given."""
+    """Return an acceleration column with its own unit or the default unit."""
     if column.code == TIME:
         return column
     unit = column.unit or option
     if unit is None:
         raise UnitError(
-            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
+            "{name}: column {written!r} has no unit: add it to the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
             name=name,
             written=heading or column.index + 1,
         )
     if units is not None and unit != option:
         raise UnitError(
-            "{name}: column {written!r} is in {unit}, the option says {units}: leave the option out",
+            "{name}: unit {unit} of column {written!r} contradicts `units` {units}; omit `units`",
             name=name,
             written=heading,
             unit=unit,
@@ -314,5 +316,5 @@ def _apply_unit(name: str, heading: str, column: Column, option: str | None, uni
 
 
 def _quote_names(names: Sequence[str], columns: Sequence[Column]) -> str:
-    """Return the names of columns as they are written, each in quotes."""
+    """Return the names of columns as written, quoted."""
     return ", ".join(repr(names[c.index]) for c in columns)

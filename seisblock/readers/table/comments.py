@@ -1,4 +1,4 @@
-"""What the comments above a plain table say of it, held against the table: how many samples, how far apart, in which unit."""
+"""Check of a plain table against its comments: number of samples, sampling interval, unit."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ _INTERVAL = re.compile(r"\b(?:dt|(?:sampling|time) (?:interval|step))(?:\s*\(s\)
 _RATE = re.compile(r"\b(?:fs|(?:sampling|sample) (?:rate|frequency))(?:\s*\(Hz\))?" + _NUMBER + r"(?!\s*kHz)", re.IGNORECASE)
 _UNIT = re.compile(r"\bunits?\s*[=:]\s*([^\s,;]+)", re.IGNORECASE)
 _INTERVAL_TOLERANCE = 1e-3
-"""How far, relatively, an interval may lie from the one that a comment tells: comments are rounded."""
+"""Relative tolerance of an interval against a comment, which is rounded."""
 
 
 def flag_comment_mismatch(comments: Sequence[str], columns: Sequence[Column], samples: int, dt: float) -> tuple[QCFlag, ...]:
-    """Return what comments say that the table does not bear out.
+    """Return flags for comments that contradict the table.
 
     Parameters
     ----------
     comments : sequence of str
-        The lines above the numbers.
+        Lines above the numbers.
     columns : sequence of Column
-        Those that are read.
+        Columns read.
     samples : int
     dt : float, s
     """
@@ -37,30 +37,30 @@ def flag_comment_mismatch(comments: Sequence[str], columns: Sequence[Column], sa
 
 
 def _flag_count(text: str, samples: int) -> Iterator[QCFlag]:
-    """Yield a doubt for each number of samples that is another."""
     for count in _COUNT.findall(text):
         if parse_number(count) not in (None, samples):
             yield QCFlag(
-                "count", lazy_gettext("a comment promises {promised} samples, the file holds {count}", promised=count, count=samples)
+                "count", lazy_gettext("{promised} samples stated in a comment, file contains {count}", promised=count, count=samples)
             )
 
 
 def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
-    """Yield a doubt for each sampling interval or rate that is another."""
     for pattern, actual, unit in ((_INTERVAL, dt, "s"), (_RATE, 1.0 / dt, "Hz")):
         for value_text in pattern.findall(text):
             value = parse_number(value_text)
             if value is not None and abs(value - actual) > _INTERVAL_TOLERANCE * actual:
                 yield QCFlag(
-                    "clock", lazy_gettext("a comment says {told} {unit}, the samples are {dt:g} s apart", told=value_text, unit=unit, dt=dt)
+                    "clock",
+                    lazy_gettext(
+                        "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", told=value_text, unit=unit, dt=dt
+                    ),
                 )
 
 
 def _flag_unit(text: str, columns: Sequence[Column]) -> Iterator[QCFlag]:
-    """Yield a doubt for each unit of acceleration that no column is in."""
     units = {column.unit for column in columns if column.code != TIME}
     for unit_text in _UNIT.findall(text):
         unit = normalize_unit(unit_text.rstrip(".)"))
         if unit is not None and unit not in units:
-            text = lazy_gettext("a comment says that the unit is {told}, the columns are in {units}", told=unit, units=sorted(units))
+            text = lazy_gettext("unit {told} in a comment differs from the unit of the columns, {units}", told=unit, units=sorted(units))
             yield QCFlag("header", text)

@@ -1,4 +1,4 @@
-"""Names of columns that the first line of a table does not tell whole: units in a line of their own, a first column without a name."""
+"""Incomplete header rows: units in a separate line, first column without a name."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from seisblock.readers.table.headers import is_clock_unit, is_unit, split_unit
 from seisblock.readers.table.timestamps import parse_timestamp
 
 TIME_HEADING = "time (s)"
-"""What a first column without a name is called that climbs."""
+"""Name given to an unnamed first column of evenly increasing values."""
 
 NO_UNIT_MARKS = ("-", "--", "―", "なし")
-"""What stands in a line of units where a column has none."""
+"""Cells of a unit line for columns without a unit."""
 
 INSPECTED_LINES = 50
-"""Lines that show what a column without a name is."""
+"""Number of lines inspected to guess the meaning of a column."""
 
 
 def merge_unit_row(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...] | None:
-    """Return names with the units that stand in the line below them, or None where that is no line of units.
+    """Return names with the units of the line below, or None if that is not a unit line.
 
     Examples
     --------
@@ -39,18 +39,19 @@ def merge_unit_row(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...
 
 
 def guess_first_name(lines: Sequence[str], separator: str | None) -> str:
-    """Return what a first column without a name is: ``index`` where whole numbers go up by one, the time where it climbs, else nothing.
+    """Return the name of an unnamed first column: ``index``, time, or empty.
 
     Parameters
     ----------
     lines : sequence of str
-        The first lines of the table.
+        First lines of the table.
     separator : str or None
     """
     cells = [line.split(separator)[0].strip().strip('"') for line in lines if line.strip()]
     if cells and all(parse_timestamp(cell) for cell in cells):
         return "time"
     values = [parse_number(cell) for cell in cells]
+    # whole numbers in steps of one are line numbers, other steps below 1 are times in s
     steps = [b - a for a, b in pairwise(values) if a is not None and b is not None]
     if not steps or len(steps) + 1 != len(values):
         return ""

@@ -1,4 +1,4 @@
-"""What stands in a column's name besides its direction: the time, a unit, another quantity."""
+"""Parsing of column names: time, unit, other quantities."""
 
 from __future__ import annotations
 
@@ -53,28 +53,28 @@ _TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0,
 _ZONES = {"jst": 32400, "日本時間": 32400, "日本標準時": 32400, "utc": 0, "gmt": 0}
 _CLOCK = re.compile(r"(?:y+[-/]m+[-/]d+[t ]*)?h+:m+(?::s+(?:\.[sf]+)?)?", re.IGNORECASE)
 _OTHER_UNITS = {
-    N_("a velocity"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
-    N_("a displacement"): ("m", "cm", "mm"),
-    N_("an angle"): ("deg", "rad"),
-    N_("a frequency"): ("hz",),
+    N_("velocity values"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
+    N_("displacement values"): ("m", "cm", "mm"),
+    N_("angle"): ("deg", "rad"),
+    N_("frequency"): ("hz",),
 }
 _OTHER_NAMES = {
-    N_("a velocity"): ("vel", "velocity", "速度"),
-    N_("a displacement"): ("disp", "displacement", "変位"),
-    N_("a number of the line"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
-    N_("a note"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
+    N_("velocity values"): ("vel", "velocity", "速度"),
+    N_("displacement values"): ("disp", "displacement", "変位"),
+    N_("line number"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
+    N_("remarks"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
-_QUANTITY_BY_UNIT = {spelling: what for what, spellings in _OTHER_UNITS.items() for spelling in spellings}
-_QUANTITY_BY_NAME = {spelling: what for what, spellings in _OTHER_NAMES.items() for spelling in spellings}
+_QUANTITY_BY_UNIT = {spelling: quantity for quantity, spellings in _OTHER_UNITS.items() for spelling in spellings}
+_QUANTITY_BY_NAME = {spelling: quantity for quantity, spellings in _OTHER_NAMES.items() for spelling in spellings}
 
 
 def normalize_cell(text: str) -> str:
-    """Return a cell without quotes, blanks around it and full-width letters."""
+    """Return a cell without quotes, surrounding blanks and full-width letters."""
     return unicodedata.normalize("NFKC", text).strip().strip("\"'").strip()
 
 
 def normalize_unit(text: str) -> str | None:
-    """Return ``gal``, ``m/s2``, ``mm/s2``, ``g`` or ``mg`` (a thousandth of g) for any spelling of an acceleration unit, else None.
+    """Return ``gal``, ``m/s2``, ``mm/s2``, ``g`` or ``mg`` for a spelling of an acceleration unit, else None.
 
     Examples
     --------
@@ -86,27 +86,27 @@ def normalize_unit(text: str) -> str | None:
 
 
 def time_unit_seconds(text: str) -> float | None:
-    """Return the value of a unit of time in seconds, or None."""
+    """Return a time unit in seconds, or None."""
     return _TIME_UNITS.get(normalize_cell(text).lower())
 
 
 def zone_offset_s(text: str) -> int | None:
-    """Return how far the clock of a zone is ahead of UTC, s: of what stands in the place of a unit of time, ``time (JST)``; else None."""
+    """Return the UTC offset, s, of a time zone written as a unit (``time (JST)``), or None."""
     return _ZONES.get(normalize_cell(text).lower())
 
 
 def is_clock_unit(text: str) -> bool:
-    """Return whether what stands in the place of a unit of time says that a clock tells it: ``JST``, ``hh:mm:ss``."""
+    """Return whether a text in the place of a time unit denotes clock time: ``JST``, ``hh:mm:ss``."""
     return zone_offset_s(text) is not None or _CLOCK.fullmatch(normalize_cell(text)) is not None
 
 
 def is_unit(text: str) -> bool:
-    """Return whether a text is a unit: of acceleration, of time, or of what a table holds beside them."""
+    """Return whether a text is a unit of acceleration, time or another known quantity."""
     return bool(normalize_unit(text) or time_unit_seconds(text) or normalize_cell(text).lower() in _QUANTITY_BY_UNIT)
 
 
 def split_unit(text: str) -> tuple[str, str]:
-    """Return a column's name and the unit that stands in it, empty when there is none.
+    """Return the name and the unit of a column heading; the unit may be empty.
 
     Examples
     --------
@@ -122,17 +122,17 @@ def split_unit(text: str) -> tuple[str, str]:
 
 
 def strip_name(text: str) -> str:
-    """Return a column's name without unit and without the words acceleration, component and direction: ``x`` of ``acc_x (gal)``."""
+    """Return a column name without unit and filler words: ``x`` for ``acc_x (gal)``."""
     return strip_component_words(split_unit(text)[0])
 
 
 def classify_other_quantity(text: str) -> str | None:
-    """Return what a column holds that is no acceleration and no time by its own name or unit, or None.
+    """Return the quantity of a column that is neither acceleration nor time, or None.
 
     Examples
     --------
     >>> classify_other_quantity("vel (cm/s)"), classify_other_quantity("index"), classify_other_quantity("NS (gal)")
-    ('a velocity', 'a number of the line', None)
+    ('velocity values', 'line number', None)
     """
     name, unit = split_unit(text)
     if normalize_unit(unit) or time_unit_seconds(unit):
@@ -141,7 +141,7 @@ def classify_other_quantity(text: str) -> str | None:
 
 
 def component_code(text: str) -> str:
-    """Return the component code that a column's name means: ``NS``, ``EW``, ``UD``, an azimuth, ``TIME``, else the name in capitals.
+    """Return the code of a column name: ``NS``, ``EW``, ``UD``, azimuth, ``TIME``, else the name in capitals.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where the numbers of a plain table begin, what separates them, and which line names its columns."""
+"""Layout of plain tables: first line of numbers, separator, header line."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from seisblock.readers.table.columns import is_header_row
 from seisblock.readers.table.header_rows import merge_unit_row
 
 FORTRAN_EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d)")
-"""The letter of an exponent of double precision."""
+"""Exponent letter of Fortran double precision."""
 
 MAX_PREAMBLE_LINES = 100
-"""Lines among which the names of a table are looked for that are not in the first."""
+"""Number of lines searched for a header below other text."""
 
 MAX_QUOTED_LENGTH = 60
-"""Letters of a line that are quoted."""
+"""Longest quotation of a line in messages, letters."""
 
 _WIDTH_TOLERANT = {",", ";", "\t"}
 
 
 @dataclass(frozen=True)
 class TableLayout:
-    """Where the numbers of a table begin and what its columns are called."""
+    """Column names, index of the first line of numbers, and separator of a table."""
 
     names: tuple[str, ...]
     body: int
@@ -34,7 +34,7 @@ class TableLayout:
 
 
 def looks_like_csv(lines: Sequence[str]) -> bool:
-    """Return whether a text is a table of numbers, or at least has a header that names components or units."""
+    """Return whether a text is a table of numbers or has a header with components or units."""
     body = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if body is None:
         return False
@@ -49,15 +49,14 @@ def looks_like_csv(lines: Sequence[str]) -> bool:
 
 
 def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
-    """Return the error of a file in which a table begins below other lines than comments, or None where it does not."""
+    """Return the error of a table below lines that are not comments, or None."""
     head = lines[:MAX_PREAMBLE_LINES]
     table_line = next((table_line for table_line in range(len(head)) if is_table_start(head[table_line:])), None)
     first = next((line.strip() for line in head if is_data_line(line)), "")
     if table_line is None or head[table_line].strip() == first:
         return None
     return RecordFormatError(
-        "{name}: the names of the columns stand in line {line} only ({header!r}), and the file begins {first!r}: take the lines above "
-        "the names out, or put # before each",
+        "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #",
         name=name,
         line=table_line + 1,
         header=head[table_line].strip()[:MAX_QUOTED_LENGTH],
@@ -66,7 +65,7 @@ def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
 
 
 def is_table_start(lines: Sequence[str]) -> bool:
-    """Return whether the names of columns stand in the first of some lines, and as many numbers below it."""
+    """Return whether the first line is a header followed by a row with as many numbers."""
     cells = _split_cells(lines[0], find_separator(lines[0]))
     if (
         not is_data_line(lines[0])
@@ -83,10 +82,10 @@ def is_table_start(lines: Sequence[str]) -> bool:
 
 
 def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
-    """Return where the numbers begin, the names of the columns and the separator."""
+    """Return the layout of a table."""
     first = next((i for i, line in enumerate(lines) if is_data_line(line)), None)
     if first is None:
-        raise RecordFormatError("{name} holds comments only: expected columns of numbers", name=name)
+        raise RecordFormatError("{name}: comments only; expected columns of numbers", name=name)
     separator = find_separator(lines[first])
     if not _is_numeric_row(lines[first], separator):
         names = tuple(_split_cells(lines[first], separator))
@@ -97,6 +96,7 @@ def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
             TableLayout(names, first + 1, separator) if merged_names is None else TableLayout(merged_names, units_line + 1, separator),
         )
     width = len(_split_cells(lines[first], separator))
+    # without a header line, the last comment may name the columns
     comment = next((line for line in reversed(lines[:first]) if line.strip()), "").lstrip("\ufeff# ")
     names = tuple(_split_cells(comment, separator if separator in _WIDTH_TOLERANT else find_separator(comment)))
     if comment and len(names) == width and is_header_row(names):
@@ -105,12 +105,13 @@ def find_layout(name: str, lines: Sequence[str]) -> TableLayout:
 
 
 def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
-    """Return the layout after a look at the first line of numbers: trailing empty names off, another separator, decimal commas."""
+    """Return the layout adjusted to the first line of numbers: trailing empty names, separator, decimal commas."""
     names = list(layout.names)
     while len(names) > 1 and not names[-1].strip() and any(names):
         names.pop()
     sample = next((line for line in lines[layout.body :] if is_data_line(line)), "")
     separator = layout.separator
+    # the header may use another separator than the numbers
     if sample and separator is not None and separator not in sample and len(names) > 1:
         separator = find_separator(sample)
     return TableLayout(
@@ -119,7 +120,7 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
 
 
 def find_separator(line: str) -> str | None:
-    """Return the separator of a line: semicolon, tab, comma, else blanks (None)."""
+    """Return the separator of a line: semicolon, tab, comma, else None for blanks."""
     return next((mark for mark in (";", "\t", ",") if mark in line), None)
 
 
@@ -129,21 +130,20 @@ def is_data_line(line: str) -> bool:
 
 
 def _unit_cells(line: str, separator: str | None) -> list[str]:
-    """Return the cells of a line that may hold the units of the names above it."""
     return line.split() if separator is None else _split_cells(line, separator)
 
 
 def _split_cells(line: str, separator: str | None) -> list[str]:
-    """Return the cells of a header line; units in brackets may hold blanks."""
+    """Return the cells of a header line; bracketed units may contain blanks."""
     if separator is None:
         return re.findall(r"\S+(?:\s*[(\[][^)\]]*[)\]])?", line)
-    # a name in quotes may hold the separator
+    # a quoted name may contain the separator
     cells = next(csv.reader([line.strip()], delimiter=separator)) if '"' in line else line.strip().split(separator)
     return [cell.strip().strip('"').strip() for cell in cells]
 
 
 def _is_numeric_row(line: str, separator: str | None) -> bool:
-    """Return whether every filled cell of a line is a finite or infinite number."""
+    """Return whether every nonempty cell of a line is a number."""
     cells = [cell for cell in _split_cells(line, separator) if cell]
     try:
         return bool(cells) and all(float(FORTRAN_EXPONENT.sub("E", cell.replace(",", "."))) is not None for cell in cells)

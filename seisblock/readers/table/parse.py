@@ -1,4 +1,4 @@
-"""From lines of text to exact numbers, and to the line number when they are none."""
+"""Conversion of table text to numbers, with the line number in errors."""
 
 from __future__ import annotations
 
@@ -22,23 +22,24 @@ _DECIMAL_SHIFTS = {0.01: 2, 1e-3: 3}
 
 
 def to_si(values: FloatArray, unit: str) -> FloatArray:
-    """Return accelerations in m/s^2; for gal and mm/s^2 the decimal point moves, so that 306.21 gal is 3.0621 m/s^2 to the last bit."""
+    """Return accelerations in m/s^2; gal and mm/s^2 are shifted by decimal places without rounding error."""
     return values if ACCELERATION_UNITS[unit] == 1.0 else _convert(values, unit, np.empty_like(values))
 
 
 def to_si_in_place(values: FloatArray, unit: str, sign: float = 1.0) -> FloatArray:
-    """Return accelerations, (n,), that nobody else holds in m/s^2, in their own place, times a sign; read-only from now on."""
+    """Convert accelerations, (n,), to m/s^2 times a sign in place; return them read-only."""
     _convert(values, unit, values)
     values *= sign
     return readonly(values)
 
 
 def _convert(values: FloatArray, unit: str, target: FloatArray) -> FloatArray:
-    """Write accelerations in m/s^2 into a row, which may be their own, and return it."""
+    """Write accelerations in m/s^2 into `target`, which may be `values`, and return it."""
     factor = ACCELERATION_UNITS[unit]
+    # 306.21 * 0.01 differs from 3.0621 in the last bit; rounding to an integer and one division gives the nearest float
     if factor not in _DECIMAL_SHIFTS:
         return np.multiply(values, factor, out=target)
-    for places in (3, 6):  # decimals that files are written with
+    for places in (3, 6):  # decimals common in files
         if all(_has_decimals(values[begin : begin + CHUNK_SIZE], places) for begin in range(0, values.size, CHUNK_SIZE)):
             np.multiply(values, 10.0**places, out=target)
             np.rint(target, out=target)
@@ -47,7 +48,7 @@ def _convert(values: FloatArray, unit: str, target: FloatArray) -> FloatArray:
 
 
 def _has_decimals(values: FloatArray, places: int) -> bool:
-    """Return whether numbers are those of so many decimals."""
+    """Return whether all values have at most `places` decimals."""
     with np.errstate(over="ignore"):
         scaled_integers = np.rint(values * 10.0**places)
     return bool(np.abs(scaled_integers).max() < 2**53 and np.array_equal(scaled_integers / 10.0**places, values))
@@ -56,54 +57,55 @@ def _has_decimals(values: FloatArray, places: int) -> bool:
 def parse_columns(
     name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None = ","
 ) -> list[FloatArray]:
-    """Return chosen columns of a table, each an array of its own, (lines,), that nobody else holds.
+    """Return selected columns of a table, one array of shape (lines,) each.
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        File name, for messages.
     lines : sequence of str
-        The table; blank lines are skipped.
+        Lines of the table; blank lines are skipped.
     first_line : int
         Number of ``lines[0]`` in the file, counted from 1.
     columns : mapping of str to int
-        Label (for messages) and index of each column wanted.
+        Label (for messages) and index of each selected column.
     width : int
-        Number of columns the header announces; further cells must be blank.
+        Number of columns in the header; further cells must be blank.
     separator : str or None
-        Between cells; None is any run of blanks.
+        Cell separator; None for any run of blanks.
 
     Raises
     ------
     RecordFormatError
-        If there is no line, or a cell is missing, is text or is not finite; the message names the line.
+        If there are no lines, or a cell is missing, not a number, or not finite; the message names the line.
     """
     if not any(line.strip() for line in lines):
-        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples after the header (line {line})", name=name, line=first_line - 1)
     row_count = _count_rows(lines, separator)
     table = None if row_count is None else _parse_with_numpy(lines, columns, separator, row_count)
+    # slow path: locates the first invalid cell
     if table is None or not all(np.isfinite(column).all() for column in table):
         table = list(np.ascontiguousarray(_parse_cell_by_cell(name, lines, first_line, columns, width, separator).T))
     if not table or not table[0].size:
-        raise RecordFormatError("{name}: the lines after its header (line {line}) hold no samples", name=name, line=first_line - 1)
+        raise RecordFormatError("{name}: no samples in the lines after the header (line {line})", name=name, line=first_line - 1)
     return table
 
 
 def _count_rows(lines: Sequence[str], separator: str | None) -> int | None:
-    """Return how many lines are not blank; None where one has not as many separators as the first, so that a cell may have slipped."""
+    """Return the number of nonblank lines; None if lines differ in their number of separators."""
     row_count = separators = nonempty_count = 0
     for piece in iter_chunks(lines):
         row_count += sum(1 for line in piece if line.strip())
         if separator is not None:
             separators += "\n".join(piece).count(separator)
             nonempty_count += sum(1 for line in piece if line)
-    # without a separator the width of the table tells
+    # blank-separated tables are checked by the number of parsed columns instead
     is_regular = separator is None or separators == lines[0].count(separator) * nonempty_count
     return row_count if is_regular else None
 
 
 def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separator: str | None, row_count: int) -> list[FloatArray] | None:
-    """Return the columns through numpy's own parser, or None when it stumbles."""
+    """Return the columns parsed by numpy, or None on failure."""
     indices = list(columns.values())
     arrays = [np.empty(row_count) for _ in indices]
     begin, widths = 0, set()
@@ -112,6 +114,7 @@ def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separato
         try:
             for piece in iter_chunks(lines):
                 if separator is None:
+                    # all columns, to check that every line has the same width
                     rows = np.loadtxt(piece, comments=None, ndmin=2)
                     widths.add(rows.shape[1])
                     rows = rows[:, indices]
@@ -128,11 +131,11 @@ def _parse_with_numpy(lines: Sequence[str], columns: Mapping[str, int], separato
 def _parse_cell_by_cell(
     name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None
 ) -> FloatArray:
-    """Return the table cell by cell, naming the first line that is wrong."""
+    """Return the table parsed cell by cell; raise with the first invalid line."""
     rows: list[list[float]] = []
     last = len(lines)
     while last and not lines[last - 1].strip(" \t" + (separator or "")):
-        last -= 1  # a spreadsheet's empty rows at the end
+        last -= 1  # empty rows at the end of a spreadsheet
     for offset, line in enumerate(lines[:last]):
         if not line.strip():
             continue
@@ -146,7 +149,6 @@ def _parse_cell_by_cell(
 
 
 def _parse_cell(name: str, line: int, label: str, cells: Sequence[str], index: int) -> float:
-    """Return the number in one cell."""
     cell = cells[index].strip() if index < len(cells) else ""
     try:
         value = float(cell)
@@ -155,12 +157,12 @@ def _parse_cell(name: str, line: int, label: str, cells: Sequence[str], index: i
         if cell:
             raise_line_error(name, line, lazy_gettext("expected a number in column {label}, found {cell!r}", label=label, cell=cell))
     if not cell:
-        raise_line_error(name, line, lazy_gettext("the cell of column {label} is empty", label=label))
+        raise_line_error(name, line, lazy_gettext("empty cell in column {label}", label=label))
     if not isfinite(value):
-        raise_line_error(name, line, lazy_gettext("column {label} holds {cell!r}, which is no acceleration", label=label, cell=cell))
+        raise_line_error(name, line, lazy_gettext("expected a finite number in column {label}, found {cell!r}", label=label, cell=cell))
     return value
 
 
 def raise_line_error(name: str, line: int, message: str) -> NoReturn:
-    """Raise the error that a line of a file deserves."""
-    raise RecordFormatError("{name}, line {line}: {what}; correct the file or cut it before that line", name=name, line=line, what=message)
+    """Raise RecordFormatError for a line of a file."""
+    raise RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=message)

@@ -1,4 +1,4 @@
-"""Numbers that lost their decimal point, or at the end of a file decimals: a column that is printed to so many shows them in every line."""
+"""Lost decimal points and truncated last numbers, detected from the printed decimals of a column."""
 
 from __future__ import annotations
 
@@ -9,31 +9,32 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.records import QCFlag
 
 MIN_LINES = 10
-"""Shortest table that shows how it is printed."""
+"""Minimum number of lines to determine the printed decimals."""
 
 MAX_MISSING_SHARE = 0.02
-"""Share of its lines in which a column may lack the point and still be one of decimals."""
+"""Largest ratio of lines without a decimal point in a column of decimals."""
 
 TAIL_LINES = 100
-"""Lines at the end that show how the last number would be printed."""
+"""Lines at the end used to determine the decimals of the last number."""
 
 _DECIMALS = re.compile(r"[-+]?\d*\.(\d*)(?:[eEdD][-+]?\d+)?")
 _INTEGER = re.compile(r"[-+]?\d+")
 
 
 def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | None) -> tuple[QCFlag, ...]:
-    """Return a doubt about a table in which a number has no decimal point though all others of its column have as many decimals.
+    """Return a flag if numbers lack the decimal point while all others of the column have equal decimals.
 
     Parameters
     ----------
     lines : sequence of str
-        The table; blank lines are passed over.
+        Lines of the table; blank lines are skipped.
     first_line : int
         Number of ``lines[0]`` in the file, counted from 1.
     separator : str or None
-        Between cells; None is any run of blanks.
+        Cell separator; None for any run of blanks.
     """
     count = sum(1 for line in lines if line.strip())
+    # the prefilter avoids splitting every line of a large table
     if count < MIN_LINES or not _may_miss_points(lines, count):
         return ()
     numbered_lines = [(first_line + i, line) for i, line in enumerate(lines) if line.strip()]
@@ -48,8 +49,8 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
         return ()
     line, cell, printed_decimals = min(cells_without_point)
     text = lazy_gettext(
-        "{count} number(s) have no decimal point (the first in line {line}: {cell}) where all others of the column have {decimals} "
-        "decimals: the point may be lost",
+        "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
+        "decimals: decimal point probably lost",
         count=len(cells_without_point),
         line=line,
         cell=cell[:40],
@@ -59,28 +60,27 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
 
 
 def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCFlag, ...]:
-    """Return a doubt about a table that ends without an end of line, in a number of fewer decimals than its column has.
+    """Return a flag if the last line has no line end and its last number fewer decimals than its column.
 
     Parameters
     ----------
     lines, separator
-        As in :func:`flag_missing_points`; a text that ends with an end of line has an empty last one.
+        As in :func:`flag_missing_points`; a text with a final line end has an empty last line.
     """
     if not lines or not lines[-1].strip():
         return ()
     *decimal_counts, last = [_count_decimals(line.split(separator)[-1]) for line in lines[-TAIL_LINES:] if line.strip()]
     if len(decimal_counts) < MIN_LINES or len(set(decimal_counts)) > 1 or last >= decimal_counts[0]:
         return ()
-    return (QCFlag("cut", lazy_gettext("the last line has no end: the file looks cut, and its last number with it")),)
+    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
 
 
 def _count_decimals(cell: str) -> int:
-    """Return how many decimals a number is printed to."""
     match = _DECIMALS.fullmatch(cell.strip())
     return len(match[1]) if match else 0
 
 
 def _may_miss_points(lines: Sequence[str], row_count: int) -> bool:
-    """Return whether the number of points in a table is a little short of a whole number of columns: counting costs next to nothing."""
+    """Return whether the total of points is slightly below a multiple of the rows, a cheap prefilter."""
     missing_count = -sum(line.count(".") for line in lines) % row_count
     return 0 < missing_count <= max(1.0, MAX_MISSING_SHARE * row_count) * 8

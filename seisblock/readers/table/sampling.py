@@ -1,4 +1,4 @@
-"""Whether a column of times is even within the digits it is printed with, and its step."""
+"""Sampling interval of a time column, even within the printed digits."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.typing import FloatArray
 
 TIME_TOLERANCE = 1e-6
-"""How far, in s, a time may lie from its place on an even clock, where more digits are printed than that."""
+"""Tolerance of sample times against an even spacing, s, where more digits are printed."""
 
 MIN_ROUNDED_STEPS, MIN_ROUNDED_SHARE = 3, 0.05
-"""How many steps, and which share of them, must differ from the usual one before the digits printed are blamed for it."""
+"""Number and ratio of irregular steps required to attribute them to rounding of the printed times."""
 
 _NUMBER = re.compile(r"[-+]?(\d*)\.?(\d*)(?:[eEdD]([-+]?\d+))?")
 
@@ -22,45 +22,47 @@ _NUMBER = re.compile(r"[-+]?(\d*)\.?(\d*)(?:[eEdD]([-+]?\d+))?")
 def sampling_interval(
     name: str, times: FloatArray, printed_times: Callable[[], Sequence[str]] | None = None, *, unit: float = 1.0
 ) -> float:
-    """Return the sampling interval of a column of times, s.
+    """Return the sampling interval of a time column, s.
 
-    Among the intervals that fit, one of six digits or a whole number of samples per second is preferred: 0.02, not 0.020000000000000004.
-    Times printed to few digits (100.001, 100.002, 100.004 for steps of 0.00125 s) are even when such an interval explains each of them
-    to half a unit of its last digit.
+    Of the intervals that fit, one with six digits or a whole number of samples per second is preferred: 0.02, not 0.020000000000000004.
+    Times printed with few digits (100.001, 100.002, 100.004 for steps of 0.00125 s) are even if such an interval explains each of them to
+    half a unit of its last digit.
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        File name, for messages.
     times : (n,) array
-        As read, in `unit`.
+        Times as read, in `unit`.
     printed_times : callable or None
-        Returns the times as the file writes them; asked for only when they are not even to 1e-6 s.
+        Function that returns the times as printed in the file; called only if they are not even to 1e-6 s.
     unit : float, s
         Unit of the times.
 
     Raises
     ------
     RecordFormatError
-        If there are fewer than two times, or one lies off its even place.
+        If there are fewer than two times, or they are not evenly spaced.
     """
     seconds = times if unit == 1.0 else times * unit
     count = seconds.size
     if count < 2:
         raise RecordFormatError("{name}: a record needs at least 2 samples, found {count}", name=name, count=count)
     dt = float(seconds[-1] - seconds[0]) / (count - 1)
-    # the interval that most rows have shows which row is wrong; the mean only that one is
+    # the median step locates an irregular row; the mean only shows that there is one
     median_step = float(np.median(np.diff(seconds), overwrite_input=True))
     deviations = np.arange(count, dtype=np.float64)
     deviations *= dt
     deviations += seconds[0]
     deviations -= seconds
     np.abs(deviations, out=deviations)
+    # 4 eps of the largest time: rounding of times far from zero
     if median_step > 0.0 and deviations.max() <= TIME_TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * max(
         seconds.max(), -seconds.min()
     ):
         return next((candidate for candidate in _round_intervals(dt) if abs(candidate - dt) * (count - 1) <= TIME_TOLERANCE), dt)
     if printed_times is not None and dt > 0.0:
+        # second attempt: even within the rounding of the printed times
         slack = unit * half_last_digits(printed_times())
         for candidate in _round_intervals(dt, digits=4):
             if _is_even_within_rounding(candidate, seconds, slack):
@@ -69,8 +71,8 @@ def sampling_interval(
     repeat_count = int(np.count_nonzero(steps == 0.0))
     if steps.min() >= 0.0 and repeat_count > max(MIN_ROUNDED_STEPS, MIN_ROUNDED_SHARE * steps.size):
         raise RecordFormatError(
-            "{name}: its times are printed to too few digits: {repeats} of {count} are those of the line before (the first: {first:g} s): "
-            "print more of them, or leave the column out and give `dt`, the sampling interval in s",
+            "{name}: too few digits in the time column: {repeats} of {count} times repeat the previous line (first: {first:g} s); "
+            "write more digits, or remove the column and give the sampling interval with `dt`, in s",
             name=name,
             repeats=repeat_count,
             count=count,
@@ -78,12 +80,12 @@ def sampling_interval(
         )
     if not median_step > 0.0:
         raise RecordFormatError(
-            "{name}: its time does not increase (step {usual:g} s): expected an even time in s", name=name, usual=median_step
+            "{name}: time column does not increase (usual step {usual:g} s): expected evenly increasing times", name=name, usual=median_step
         )
     row = int(np.argmax(np.abs(steps - median_step)))
     raise RecordFormatError(
-        "{name}: its time is uneven: from {first:.9g} to {second:.9g} s, where most steps are {usual:.9g} s: a line is "
-        "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed",
+        "{name}: uneven time column: step from {first:.9g} to {second:.9g} s, usual step {usual:.9g} s (line missing or "
+        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits",
         name=name,
         first=seconds[row],
         second=seconds[row + 1],
@@ -92,10 +94,10 @@ def sampling_interval(
 
 
 def half_last_digits(texts: Sequence[str]) -> FloatArray:
-    """Return half a unit of the last digit to which each number is printed, (n,), in the unit of the numbers.
+    """Return half a unit of the last printed digit of each number, (n,), in the unit of the numbers.
 
-    A program prints a fixed number of decimals, or a fixed number of significant digits and then without the zeros at the end: the most
-    of either that any number shows is what it printed to.
+    A program prints a fixed number of decimals, or a fixed number of significant digits without trailing zeros: the maximum of either
+    over all numbers is the printed precision.
 
     Examples
     --------
@@ -109,21 +111,21 @@ def half_last_digits(texts: Sequence[str]) -> FloatArray:
         digits = (integer_part + fraction).lstrip("0")
         decimal_places.append(len(fraction) - exponent)
         significant_digits.append(len(digits))
-        leading_exponents.append(len(digits) - len(fraction) + exponent)  # the first digit stands for 10 to this, less one
+        leading_exponents.append(len(digits) - len(fraction) + exponent)  # first digit: 10**(exponent - 1)
     max_decimals, max_significant = max(decimal_places, default=0), max(significant_digits, default=1)
     return 0.5 * 10.0 ** np.maximum(-float(max_decimals), np.array(leading_exponents, dtype=np.float64) - max_significant)
 
 
 def _round_intervals(dt: float, *, digits: int = 6) -> tuple[float, ...]:
-    """Return the intervals near a mean step that a recorder would have: few digits, or a whole number of samples per second."""
+    """Return plausible recorder intervals near a mean step: few digits, or a whole number of samples per second."""
     rounded = float(f"{dt:.{digits}g}")
     return (rounded, 1.0 / round(1.0 / dt)) if 0.0 < dt < 0.5 else (rounded,)
 
 
 def _is_even_within_rounding(dt: float, seconds: FloatArray, slack: FloatArray) -> bool:
-    """Return whether times lie within half a unit of their last digit of an even clock, whose first tick may be rounded, too.
+    """Return whether times are evenly spaced within half a unit of their last digit.
 
-    Rounding leaves its mark on many steps; one or two that are off are a missing or a repeated line.
+    Rounding affects many steps; one or two irregular steps are a missing or a repeated line. The start time may be rounded, too.
     """
     steps = np.diff(seconds)
     irregular = np.count_nonzero(np.abs(steps - np.median(steps)) > 1e-3 * dt)
@@ -131,4 +133,5 @@ def _is_even_within_rounding(dt: float, seconds: FloatArray, slack: FloatArray) 
         return False
     slack = slack + 1e-9 + 4.0 * np.finfo(float).eps * np.abs(seconds)
     start_offsets = seconds - dt * np.arange(seconds.size)
+    # some start time lies within the rounding of every sample
     return bool((start_offsets - slack).max() <= (start_offsets + slack).min())

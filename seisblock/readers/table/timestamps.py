@@ -1,4 +1,4 @@
-"""A column of times that are told by a clock: ``16:10:10.25``, ``2024-01-01T16:10:10Z``, ``2024/1/1 16:10:10.250``."""
+"""Clock times in a column: ``16:10:10.25``, ``2024-01-01T16:10:10Z``, ``2024/1/1 16:10:10.250``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from datetime import UTC, date, datetime, timedelta
 DAY_S = 86400
 EPOCH = datetime(1000, 1, 1, tzinfo=UTC)
 MAX_YEAR = 9000
-"""From when on, and up to which year, a clock is believed: a zone's hours lead out of neither end of the calendar."""
+"""Origin of the seconds and last accepted year; far enough from the calendar limits for any zone offset."""
 
 _TIMESTAMP = re.compile(
     r"[\"']?(?:(\d{4})([-/])(\d{1,2})\2(\d{1,2})(?:[T ]|\s+))?"
@@ -22,17 +22,17 @@ _ZONES = {"Z": 0, "UTC": 0, "GMT": 0, "JST": 9 * 3600}
 
 @dataclass(frozen=True)
 class Timestamp:
-    """What a clock tells.
+    """Clock time of one cell.
 
     Parameters
     ----------
     seconds : int
-        Since the beginning of the day, or, where the date is told, of the year 1000; of the hour at Greenwich where the zone is told.
+        Seconds since midnight, or since the year 1000 if a date is given; in UTC if a zone is given.
     fraction : str
-        Of a second, the digits as printed.
+        Decimals of the second, as printed.
     has_date : bool
     utc_offset_s : int or None, s
-        Ahead of UTC, None where it is not told.
+        Offset ahead of UTC; None if not given.
     """
 
     seconds: int
@@ -42,14 +42,14 @@ class Timestamp:
 
     @property
     def utc(self) -> datetime | None:
-        """The moment, taken for UTC where no zone is told; None without a date."""
+        """Time in UTC, assumed if no zone is given; None without a date."""
         if not self.has_date:
             return None
         return EPOCH + timedelta(seconds=self.seconds, microseconds=int(f"{self.fraction:0<6}"[:6]))
 
 
 def parse_timestamp(cell: str) -> Timestamp | None:
-    """Return what a clock tells in a cell, or None.
+    """Return the clock time in a cell, or None.
 
     Examples
     --------
@@ -63,6 +63,7 @@ def parse_timestamp(cell: str) -> Timestamp | None:
     if hour > 23 or minute > 59 or second > 59:
         return None
     zone = _parse_zone(match[9])
+    # integer seconds: decimals stay in the printed digits of the fraction
     seconds = 3600 * hour + 60 * minute + second - (zone or 0)
     if match[1]:
         if not EPOCH.year < int(match[1]) < MAX_YEAR:
@@ -75,19 +76,19 @@ def parse_timestamp(cell: str) -> Timestamp | None:
 
 
 def seconds_replacer(index: int, separator: str | None, first: Timestamp) -> Callable[[str], str]:
-    """Return what puts seconds since the first moment, cut to whole ones, in the place of the moments of a column.
+    """Return a function that replaces the clock times of a column by whole seconds since the first, in a line.
 
-    The digits of the fraction stay as they are printed. Clocks without a date go on after midnight. A cell that tells no time stays, to be
-    refused with its line.
+    The printed digits of the fraction are kept. Times without a date continue past midnight. A cell without a time is unchanged and fails
+    later, with its line.
 
     Parameters
     ----------
     index : int
-        Of the column.
+        Index of the column.
     separator : str or None
-        Between cells.
-    first : Moment
-        That of the first line.
+        Cell separator.
+    first : Timestamp
+        Time of the first line.
     """
 
     def replace_cell(line: str) -> str:
@@ -103,7 +104,6 @@ def seconds_replacer(index: int, separator: str | None, first: Timestamp) -> Cal
 
 
 def _parse_zone(text: str | None) -> int | None:
-    """Return how far a zone is ahead of UTC, s."""
     if not text:
         return None
     if text.upper() in _ZONES:

@@ -1,1 +1,1 @@
-"""Records that nobody measured: noise under an envelope, with the spectrum of an earthquake of some size, some way off."""
+"""Synthetic records: enveloped noise with the spectrum of a point-source earthquake model."""

@@ -1,4 +1,4 @@
-"""The Fourier spectrum of the ground's acceleration that an earthquake sends to a site of rock, and how long it shakes there."""
+"""Point-source model: Fourier amplitude spectrum and duration of ground acceleration on rock."""
 
 from __future__ import annotations
 
@@ -11,41 +11,41 @@ from seisblock.core import checks
 from seisblock.core.typing import FloatArray
 
 SHEAR_VELOCITY, DENSITY = 3500.0, 2800.0
-"""Of the rock at the source, m/s and kg/m^3."""
+"""Shear-wave velocity, m/s, and density, kg/m^3, of the rock at the source."""
 
 STRESS_DROP = 1e7
-"""Pa, 100 bar."""
+"""Stress drop, Pa (100 bar)."""
 
 RADIATION, FREE_SURFACE, PARTITION = 0.55, 2.0, 1.0 / math.sqrt(2.0)
-"""Average radiation of shear waves, what the free surface does, and the share of each horizontal component."""
+"""Average radiation coefficient of shear waves, free-surface factor, and partition onto one horizontal component."""
 
 QUALITY, QUALITY_POWER = 180.0, 0.45
-"""Q = 180 f^0.45 of the path."""
+"""Path attenuation Q = 180 f^0.45."""
 
 KAPPA = 0.04
-"""What the uppermost rock takes away, s."""
+"""Near-surface attenuation kappa, s."""
 
 SPREADING_CROSSOVER = 40e3
-"""Beyond this the waves spread along the surface, m."""
+"""Distance beyond which geometrical spreading is that of surface waves, m."""
 
 DURATION_PER_METRE = 0.05e-3
-"""How much longer it shakes for each metre of the path, s/m."""
+"""Increase of duration with distance, s/m."""
 
 AMPLIFICATION_HZ = np.array([0.01, 0.09, 0.16, 0.51, 0.84, 1.25, 2.26, 3.17, 6.05, 16.60, 61.20])
 AMPLIFICATION = np.array([1.00, 1.10, 1.18, 1.42, 1.58, 1.74, 2.06, 2.25, 2.58, 3.13, 4.00])
-"""By how much generic rock amplifies, and at which frequencies, Hz; between them linear in the logarithm of the frequency."""
+"""Amplification of generic rock at the frequencies AMPLIFICATION_HZ, Hz; linear in log frequency in between."""
 
 
 @dataclass(frozen=True)
 class PointSource:
-    """An earthquake seen from a site of generic rock: Brune's source with one corner, in the crust of western North America.
+    """Point source with Brune's single-corner spectrum and a site on generic rock, western North America.
 
     Parameters
     ----------
     magnitude : float, 1
         Moment magnitude.
     distance_m : float, m
-        To the fault's surface, its nearest point.
+        Shortest distance to the fault rupture.
 
     Raises
     ------
@@ -55,8 +55,8 @@ class PointSource:
     Notes
     -----
     The parameters are those of western North America ([Campbell2003]_ table of source models), the amplification that of generic rock
-    ([BooreJoyner1997]_ table of amplifications). The point lies as far from the site as ``effective_distance_m`` says: near a large fault
-    the shaking does not grow without bound.
+    ([BooreJoyner1997]_ table of amplifications). ``effective_distance_m`` replaces the distance and limits the motion near
+    large faults.
 
     Examples
     --------
@@ -89,7 +89,7 @@ class PointSource:
 
     @property
     def duration_s(self) -> float:
-        """How long it shakes, s: 1/corner at the source, and 0.05 s more with each km ([Boore2003]_ method)."""
+        """Duration of shaking, s: 1/corner at the source, plus 0.05 s per km ([Boore2003]_ method)."""
         return 1.0 / self.corner_hz + DURATION_PER_METRE * self.effective_distance_m
 
     def spectrum(self, frequency: FloatArray) -> FloatArray:
@@ -103,7 +103,7 @@ class PointSource:
         Notes
         -----
         C M0 (2 pi f)^2/(1 + (f/fc)^2) G(R) exp(-pi f R/(Q beta)) A(f) exp(-pi kappa f) with C = 0.55 * 2 * 0.707/(4 pi rho beta^3)
-        ([Boore2003]_ method: source, path, site). It falls with f^2 towards zero: the ground comes to rest.
+        ([Boore2003]_ method: source, path, site). Proportional to f^2 at low frequency: the ground comes to rest.
         """
         f = np.asarray(frequency, dtype=np.float64)
         distance = self.effective_distance_m

@@ -1,4 +1,4 @@
-"""A suite of synthetic records: as many as one likes of one magnitude at one distance, the same ones for one seed."""
+"""Suites of synthetic records for a magnitude and a distance, reproducible by seed."""
 
 from __future__ import annotations
 
@@ -16,41 +16,42 @@ from seisblock.records.record import Component, Record
 from seisblock.records.synthetic.point_source import PointSource
 
 DEFAULT_SUITE = "synthetic:M7:R20:40"
-"""What stands for a suite where no records are named."""
+"""Suite used when no records are given."""
 
 DT = 0.01
 """Sampling interval, s."""
 
 ROUNDING_SCALE = 1e6
-"""One over the last digit of the samples, s^2/m: what is written with six decimals is the record to the last bit."""
+"""Inverse of the last digit of the samples, s^2/m: six decimals reproduce a record exactly."""
 
 VERTICAL_RATIO = 2.0 / 3.0
-"""The vertical component over a horizontal one."""
+"""Ratio of the vertical to a horizontal component."""
 
 ENVELOPE_PEAK, ENVELOPE_TAIL = 0.2, 0.05
-"""When the envelope is highest, as a share of when it is told; and how high it is then."""
+"""Time of the envelope's peak relative to the tail time, and envelope at the tail time."""
 
 TAIL_TIME, CUTOFF_TIME = 2.0, 3.0
-"""When that is, and how far the envelope is followed, in durations."""
+"""Tail time and end of the envelope, in durations."""
 
 _PATTERN = re.compile(r"synthetic:M(?P<magnitude>[^:]+):R(?P<distance>[^:]+):(?P<count>[^:]+)", re.IGNORECASE)
 
 
 def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: int = 0) -> tuple[Record, ...]:
-    """Return synthetic records of an earthquake at a site of rock: three components each, 100 Hz.
+    """Return synthetic records of an earthquake at a rock site: three components each, 100 Hz.
 
-    The two horizontal components have the same Fourier spectrum in the mean and know nothing of each other, nor of the vertical one, which
-    has two thirds of it. One source, one path and one site: such records differ less than those of several earthquakes do.
+    The two horizontal components have the same mean Fourier spectrum, the vertical component two thirds of it; all three are
+    statistically independent. With one source, path and site, the variability is smaller than between earthquakes.
 
     Parameters
     ----------
     magnitude : float, 1
         Moment magnitude, 4 to 8.5.
     distance_km : float, km
-        To the fault's surface, 1 to 300.
+        Shortest distance to the fault rupture, 1 to 300.
     count : int
+        Number of records.
     seed : int
-        Of the dice; a longer suite begins with a shorter one.
+        Seed of the random generator; a longer suite begins with a shorter one.
 
     Raises
     ------
@@ -61,9 +62,9 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     -----
     White noise under the envelope (t/T)^b exp(-c t/T), whose transform is multiplied by the spectrum of
     :class:`~seisblock.records.synthetic.point_source.PointSource` ([Boore2003]_ method; [SaragoniHart1974]_ method for the envelope).
-    Differs: the noise is brought to the unit power that it has in the mean, not each record's to its own, so that the mean square of the
-    spectra is the target's at each frequency. The vertical component has two thirds of the horizontal ones ([NewmarkHall1982]_ section on
-    vertical motion). The sum of the samples, the last velocity, is zero within their last digit.
+    Differs: the noise is normalised to unit mean power over the suite, not per record, so that the mean square of the spectra equals the
+    target at each frequency. The vertical component has two thirds of the horizontal ones ([NewmarkHall1982]_ section on
+    vertical motion). The sum of the samples, and so the final velocity, is zero within the rounding.
 
     Examples
     --------
@@ -80,8 +81,8 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     target = source.spectrum(np.asarray(np.fft.rfftfreq(envelope.size, DT), dtype=np.float64)) / DT
     name = f"synthetic_M{magnitude:g}_R{distance_km:g}"
     entry = lazy_gettext(
-        "synthetic, no recording: noise with the spectrum of magnitude {magnitude:g} at {distance:g} km on rock, seed {seed}; the noise "
-        "begins at {before:.1f} s",
+        "synthetic (not recorded): noise with the spectrum of magnitude {magnitude:g} at {distance:g} km on rock, seed {seed}, "
+        "starting at {before:.1f} s",
         magnitude=magnitude,
         distance=distance_km,
         seed=seed,
@@ -106,12 +107,12 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
 
 
 def parse_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
-    """Return the suite that a name such as ``synthetic:M7:R20:40`` stands for: magnitude, distance in km, and how many records.
+    """Return the suite of a name such as ``synthetic:M7:R20:40``: magnitude, distance in km, number of records.
 
     Raises
     ------
     ParameterError
-        If it is no such name, or a number lies outside its range.
+        If the name has another form, or a number lies outside its range.
 
     Examples
     --------
@@ -123,7 +124,7 @@ def parse_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
         magnitude, distance, count = float(match["magnitude"]), float(match["distance"]), int(match["count"])  # type: ignore[index]
     except (TypeError, ValueError):
         raise ParameterError(
-            "{text!r} is no suite: expected magnitude, distance in km and how many, such as {example}",
+            "invalid suite {text!r}: expected magnitude, distance in km and number of records, for example {example}",
             text=text[:60],
             example=DEFAULT_SUITE,
         ) from None
@@ -131,19 +132,22 @@ def parse_suite(text: str, *, seed: int = 0) -> tuple[Record, ...]:
 
 
 def _envelope(source: PointSource) -> tuple[FloatArray, float]:
-    """Return the envelope of the noise, (n,), its squares' sum one, and when it begins, s: the spectrum reaches back from there."""
+    """Return the envelope of the noise, (n,), with unit sum of squares, and its start, s."""
     tail_time = TAIL_TIME * source.duration_s
+    # envelope exponents from the position of its peak and its value at the tail time
     b = -ENVELOPE_PEAK * math.log(ENVELOPE_TAIL) / (1.0 + ENVELOPE_PEAK * (math.log(ENVELOPE_PEAK) - 1.0))
+    # the zero-phase spectrum spreads the noise to times before the envelope begins
     onset = 1.0 + 1.0 / source.corner_hz
     seconds = math.ceil(2.0 * onset + CUTOFF_TIME * source.duration_s)
     t = (np.arange(round(seconds / DT)) * DT - onset) / tail_time
+    # zero outside the envelope, where t**b is undefined or negligible
     t[(t < 0.0) | (t > CUTOFF_TIME / TAIL_TIME)] = 0.0
     shape = t**b * np.exp(-b / ENVELOPE_PEAK * t)
     return np.asarray(shape / math.sqrt(float(shape @ shape))), onset
 
 
 def _waveforms(noise: FloatArray, target: FloatArray) -> FloatArray:
-    """Return the waves of one record, (3, n), m/s^2, rounded to the digits that are written."""
+    """Return the accelerations of one record, (3, n), m/s^2, rounded to the digits written to files."""
     spectra = np.fft.rfft(noise) * target
     spectra[2] *= VERTICAL_RATIO
     return np.asarray(np.round(ROUNDING_SCALE * np.fft.irfft(spectra, noise.shape[1])) / ROUNDING_SCALE + 0.0)

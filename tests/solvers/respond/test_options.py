@@ -66,7 +66,7 @@ def test_what_is_no_body_or_no_motion_is_refused():
     """With the sentence that helps."""
     with pytest.raises(KindError, match="found str"):
         solve_respond("a stone", still(), mu=0.5)
-    with pytest.raises(KindError, match="the body comes first"):
+    with pytest.raises(KindError, match="expected the body first"):
         solve_respond(still(), BLOCK, mu=0.5)
 
 

@@ -1,4 +1,4 @@
-"""The rules of the house that a machine can check: citations, docstrings, imports, the size of files."""
+"""Conventions that a machine can check: citations, docstrings, imports."""
 
 import ast
 import builtins
@@ -20,7 +20,6 @@ from tests.trees import tree_of
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
 CITING = ("measures", "criteria", "models", "bodies", "studies")
-LONGEST = 400
 
 HEAVY = {"numba", "obspy", "scipy", "matplotlib", "PIL", "rich", "pandas"}
 LIGHT = (
@@ -42,7 +41,7 @@ LIGHT = (
     "seisblock.report.json.encode",
     "seisblock.report.io.atomic",
 )
-"""Modules that promise to load nothing large."""
+"""Modules that load no large package."""
 
 
 def sources(*folders):
@@ -99,7 +98,7 @@ def formula_in(text):
 
 
 @pytest.mark.parametrize("folder", CITING)
-def test_every_formula_is_located(folder):
+def test_docstring_with_formula_cites_paper_and_equation(folder):
     """A docstring that holds a formula says where in which paper it stands, or that it was derived here; one without needs nothing."""
     assert [(place, formula_in(text)) for place, text in docstrings(folder) if formula_in(text) and not LOCATED.search(text)] == []
 
@@ -117,46 +116,46 @@ def test_every_formula_is_located(folder):
         ("Return the stones that fall.", False, False),
     ],
 )
-def test_what_is_a_formula_and_what_locates_it(text, formula, located):
+def test_formula_in_recognises_formulas_and_locations(text, formula, located):
     """The rule sees formulas in words and Notes, not in units, code and examples; a bare key locates nothing."""
     assert bool(formula_in(text)) is formula
     assert bool(LOCATED.search(text)) is located
 
 
-def test_formulas_are_found():
-    """The rule has something to judge: dozens of formulas, on every floor of physics."""
+def test_formula_rule_has_formulas_to_check():
+    """Every package of physics has formulas in its docstrings."""
     found = {folder: sum(formula_in(text) is not None for _, text in docstrings(folder)) for folder in CITING}
     assert sum(found.values()) > 60 and min(found.values()) > 0, found
 
 
-def test_every_key_exists():
+def test_citation_keys_exist():
     """A key in any docstring, comment or case is one of the references."""
     named = {(path.name, key) for path in sources() for key in CITATION.findall(path.read_text(encoding="utf-8"))}
     assert {(file, key) for file, key in named if key not in REFERENCES} == set()
 
 
-def test_every_reference_stands_once_and_is_used():
-    """The bibliography says nothing twice, and holds nothing that the program does not rely on."""
+def test_references_are_unique_and_used():
+    """The bibliography has no duplicates and no unused entry."""
     bibliography = "".join(path.read_text(encoding="utf-8") for path in sources("references"))
     assert len(re.findall(r"^    Reference\(", bibliography, re.MULTILINE)) == len(REFERENCES)
     text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.parent.name != "references")
     assert set(REFERENCES) <= set(CITATION.findall(text))
 
 
-def test_papers_are_named_in_one_table():
-    """No answer brings a list of papers of its own: a key alone is written in the table of references only."""
+def test_citation_keys_are_written_in_one_table():
+    """A bare key is written in the table of references only."""
     trees = {path: tree_of(path) for path in sources() if path.parent.name != "references"}
     constants = [(path.name, node.value) for path, tree in trees.items() for node in ast.walk(tree) if isinstance(node, ast.Constant)]
     assert [(name, value) for name, value in constants if isinstance(value, str) and value in REFERENCES] == []
 
 
-def test_every_public_function_is_described():
+def test_public_functions_have_docstrings():
     """No public function of the package is without a docstring."""
     assert [f"{path.name}:{name}" for path in sources() for name, text in public_functions(path) if not text] == []
 
 
 @pytest.mark.parametrize("name", [name for name in seisblock.__all__ if inspect.isfunction(getattr(seisblock, name))])
-def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
+def test_public_api_documents_parameters_and_returns(name):
     """Parameters are named with what they are, and the first line or a section says what is returned."""
     function = getattr(seisblock, name)
     text = inspect.getdoc(function)
@@ -171,7 +170,7 @@ def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
 
 
 @pytest.mark.parametrize("name", [name for name in seisblock.__all__ if inspect.isfunction(getattr(seisblock, name))])
-def test_the_public_api_has_examples_that_a_reader_can_copy(name):
+def test_public_api_has_runnable_examples(name):
     """Every function shows one call, in public names and what the example itself imports: pasted into a session, it runs."""
     examples = doctest.DocTestParser().get_examples(inspect.getdoc(getattr(seisblock, name)))
     assert examples, f"{name} has no example"
@@ -182,8 +181,8 @@ def test_the_public_api_has_examples_that_a_reader_can_copy(name):
     assert {node.id for node in names} - made - brought - set(seisblock.__all__) - set(dir(builtins)) == set()
 
 
-def test_no_circle_of_imports():
-    """No module imports, even inside a function or for its types only, what imports it."""
+def test_imports_have_no_cycle():
+    """No import cycle, including imports inside functions and for types."""
     graph = grimp.build_graph("seisblock", exclude_type_checking_imports=False, cache_dir=None)
     modules = {module: graph.find_modules_directly_imported_by(module) for module in graph.modules}
     assert sum(len(imported) for imported in modules.values()) > 1000
@@ -191,20 +190,20 @@ def test_no_circle_of_imports():
 
 
 @pytest.mark.parametrize("module", LIGHT)
-def test_light_modules_are_light(module):
-    """What promises to be lazy loads no large package when imported."""
+def test_light_modules_load_no_large_package(module):
+    """Importing a light module loads no large package."""
     script = f"import sys, {module}; print(' '.join(set(sys.modules) & {HEAVY!r}))"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split() == []
 
 
-def test_the_pile_does_not_load_the_engine():
-    """What shares the engine's statuses and array types only does not wait for its kernels."""
+def test_stack_does_not_load_the_engine():
+    """Stack shares array types and cancellation only and does not load the engine's kernels."""
     script = "import sys, seisblock.models.stack.solve; print(*(name for name in sys.modules if name.startswith('seisblock.dynamics.')))"
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
     assert sorted(loaded) == ["seisblock.dynamics.array_types", "seisblock.dynamics.cancellation"]
 
 
-def test_no_command_imports_heavy_packages_at_its_top():
+def test_commands_import_large_packages_inside_functions():
     """Files of the command line import large packages inside functions only."""
     found = []
     for path in sources("cli"):
@@ -215,19 +214,19 @@ def test_no_command_imports_heavy_packages_at_its_top():
     assert found == []
 
 
-def test_no_answer_waits_for_the_whole_of_scipys_signal_processing():
-    """F8: it loads statistics, interpolation and optimisation for 1.5 s of CPU, a third of a report: evidence alone may use it."""
+def test_only_validation_imports_scipy_signal_or_stats():
+    """They take 1.5 s of CPU to load, a third of a report."""
     loading = re.compile(r"(from|import) scipy\.(signal|stats)\b")
     assert {path.relative_to(PACKAGE).parts[0] for path in sources() if loading.search(path.read_text("utf-8"))} <= {"validation"}
 
 
-def test_only_the_jit_module_decorates_kernels():
+def test_numba_options_are_in_the_jit_package_only():
     """`numba.njit` and its options live in one place."""
     assert [path.name for path in sources() if re.search(r"@(numba\.)?n?jit\b|fastmath=", path.read_text(encoding="utf-8"))] == []
 
 
-def test_every_statement_can_be_reached():
-    """Nothing stands behind a return, a raise, a break or a continue of its own block."""
+def test_no_statement_follows_a_return():
+    """No statement follows return, raise, break or continue in its block."""
     ends = (ast.Return, ast.Raise, ast.Break, ast.Continue)
     for path in sources():
         for node in ast.walk(tree_of(path)):
@@ -237,8 +236,8 @@ def test_every_statement_can_be_reached():
                     assert not isinstance(statement, ends), f"{path}:{statement.lineno} nothing after this is done"
 
 
-def test_nothing_below_the_command_line_prints():
-    """The library is silent: no print and no sys.stdout outside cli."""
+def test_library_does_not_print():
+    """No print and no sys.stdout outside cli."""
     loud = [
         path.name
         for path in sources()
@@ -247,20 +246,14 @@ def test_nothing_below_the_command_line_prints():
     assert loud == []
 
 
-def test_public_names_are_where_the_package_says():
+def test_public_names_can_be_imported():
     """Every name of the public API can be imported, and `dir` lists it."""
     for name in seisblock.__all__:
         assert getattr(seisblock, name) is not None
     assert set(dir(seisblock)) == set(seisblock.__all__)
 
 
-def test_files_answer_one_question():
-    """No file is longer than one person reads in one go."""
-    lengths = {path.relative_to(PACKAGE).as_posix(): len(path.read_text(encoding="utf-8").splitlines()) for path in sources()}
-    assert {name: count for name, count in lengths.items() if count > LONGEST} == {}
-
-
-def test_one_name_means_one_thing():
+def test_public_class_names_are_unique():
     """No two public classes share a name."""
     found = {}
     for path in sources():
@@ -273,8 +266,8 @@ def test_one_name_means_one_thing():
 FLAG = re.compile(r"(?<![\w-])--[a-z]")
 
 
-def test_lower_floors_name_quantities_never_flags():
-    """H4: below the rooms that present and command, a sentence names a parameter, `` `dt` ``; the command line tells it as its option."""
+def test_messages_below_the_command_line_name_parameters():
+    """Below report and cli a message names a parameter, `` `dt` ``; the command line prints its option."""
     found = []
     for path in PACKAGE.rglob("*.py"):
         if path.relative_to(PACKAGE).parts[0] not in {"cli", "report", "validation"}:

@@ -1,0 +1,273 @@
+"""Plain language: docstrings state facts, names are terms of the field, Japanese keeps its register."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import seisblock
+from tests.catalogue import message_key, read_catalogue
+from tests.trees import tree_of
+
+PACKAGE = Path(seisblock.__file__).parent
+ROOT = PACKAGE.parent
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+QUESTION = re.compile(r"(?:What|Where|How|Which|When|Whether|Why)\b")
+
+BARE_WORDS = frozenset(
+    [
+        "found",
+        "each",
+        "told",
+        "given",
+        "whole",
+        "held",
+        "least",
+        "shown",
+        "asked",
+        "made",
+        "chosen",
+        "kept",
+        "own",
+        "what",
+        "known",
+        "one",
+        "other",
+        "most",
+        "named",
+        "others",
+        "some",
+        "seen",
+        "several",
+        "written",
+        "done",
+        "turned",
+        "wanted",
+        "called",
+        "mine",
+        "both",
+        "wrong",
+        "drawn",
+        "needed",
+        "said",
+        "answered",
+        "meant",
+        "noted",
+        "gone",
+        "taken",
+        "judged",
+        "spent",
+        "lost",
+        "here",
+        "there",
+        "where",
+        "when",
+        "who",
+        "why",
+        "which",
+        "far",
+        "near",
+        "alone",
+        "again",
+        "many",
+        "more",
+        "much",
+        "few",
+        "every",
+        "any",
+        "dice",
+        "spoken",
+        "heard",
+    ]
+)
+"""Participles, pronouns and adverbs that name nothing when they stand alone."""
+
+MAX_BARE_NAMES = 0.008
+"""Share of bound names; the codebases that serve as models have 0.0006 to 0.009."""
+
+OLD_MODULES = [
+    "words",
+    "remarks",
+    "showing",
+    "contents",
+    "ledger",
+    "halt",
+    "asked",
+    "part",
+    "seal",
+    "talk",
+    "manners",
+    "meant",
+    "offered",
+    "idle",
+    "emit",
+    "doubts",
+    "whereabouts",
+    "given",
+    "storey",
+    "heap",
+    "shelf",
+    "gather",
+    "cells",
+    "naming",
+    "moments",
+    "decimals",
+    "budget",
+    "siblings",
+    "places",
+    "peaks",
+    "called",
+    "roster",
+    "sheet",
+    "subjects",
+    "spring_choice",
+    "inset",
+    "rocker",
+    "setting",
+    "settings",
+    "aftermath",
+    "tale",
+    "stride",
+    "lanes",
+    "fates",
+    "succession",
+    "turning",
+    "flat",
+    "skid",
+    "still",
+    "following",
+    "changes",
+    "arguments",
+    "contract",
+    "apart",
+    "meet",
+    "remember",
+    "lying",
+    "strike",
+    "floors",
+    "books",
+    "course",
+    "sweeps",
+    "agreement",
+    "standing",
+    "governing",
+    "kept_lines",
+    "followers",
+    "notes",
+    "proposal",
+    "held_out",
+    "plausible",
+    "factors",
+    "judgement",
+    "faces",
+    "page",
+    "leftovers",
+    "formulas",
+    "rulers",
+    "bars",
+    "embed",
+    "films",
+    "onset",
+    "falls",
+    "elsewhere",
+    "sweeping",
+    "batching",
+    "fragilities",
+]
+
+CONTACT_TERMS = ("separating axis", "warm start", "sleeping", "broad phase", "narrow phase", "manifold", "constraint")
+
+USER_PHRASES = re.compile(
+    r"\b(?:is|are) (?:told|said|asked|foretold)\b|\bwhoever\b|\bsomebody\b|\bnobody\b|without a word|\bplausible versions\b|\bas read\b"
+    r"|out of sight|nothing for .* to do|of a careful reader"
+)
+
+
+def documented_nodes():
+    """Yield (place, docstring) of each module, class and function of the package."""
+    for path in SOURCES:
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, (ast.Module, ast.FunctionDef, ast.ClassDef)) and ast.get_docstring(node):
+                yield f"{path.relative_to(PACKAGE).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
+
+
+def bound_names():
+    """Yield every name that the package binds: variables, parameters, functions and classes."""
+    for path in SOURCES:
+        for node in ast.walk(tree_of(path)):
+            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                yield node.id
+            elif isinstance(node, ast.arg):
+                yield node.arg
+            elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                yield node.name
+
+
+def test_docstrings_begin_with_a_fact():
+    """No first line is a question in disguise, and none is a second line."""
+    assert [place for place, text in documented_nodes() if QUESTION.match(text)] == []
+
+
+def test_names_are_nouns_and_verbs():
+    """Participles, pronouns and adverbs alone are rare among bound names."""
+    names = list(bound_names())
+    bare = [name for name in names if name.strip("_").lower() in BARE_WORDS]
+    assert len(names) > 25_000
+    assert len(bare) / len(names) <= MAX_BARE_NAMES, sorted(set(bare))
+
+
+def test_modules_have_standard_names():
+    """None of the former module names is left."""
+    stems = {path.stem for path in SOURCES}
+    assert stems & set(OLD_MODULES) == set()
+
+
+def test_contact_code_uses_the_terms_of_contact_dynamics():
+    """A reader who searches for the standard terms finds the code."""
+    text = " ".join(path.read_text(encoding="utf-8") for path in (PACKAGE / "models" / "stack").glob("*.py")).lower()
+    text = re.sub(r"[-_]", " ", text)
+    assert [term for term in CONTACT_TERMS if term not in text] == []
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"])
+def test_pages_at_the_top_are_plain(name):
+    """README, contributing page and changelog are free of the former phrases."""
+    assert USER_PHRASES.findall((ROOT / name).read_text(encoding="utf-8")) == []
+
+
+def test_user_texts_are_plain():
+    """English messages and pages contain at most a handful of the former phrases."""
+    messages = [message_key(message) for message in read_catalogue("ja") if message.id]
+    pages = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "docs").rglob("*.md"))]
+    phrases = [match[0] for text in (*messages, *pages) for match in USER_PHRASES.finditer(text)]
+    assert len(phrases) <= 15, phrases
+
+
+POLITE_END = re.compile(r"(?:です|ます|ません|でした|ました|でしょう|ください|ましょう)(?:か)?(?:[）)」』\]］}]|\s|\(.*\)|（.*）)*$")
+"""End of a polite sentence, brackets after it included."""
+
+
+def japanese_sentences(text):
+    """Return the sentences of a text that end with a full stop, without values and quoted names."""
+    plain = re.sub(r"\{[^}]*\}", "…", text)
+    return [sentence for sentence in plain.split("。")[:-1] if re.search(r"[\u3040-\u30ff\u4e00-\u9fff]", sentence)]
+
+
+def test_japanese_sentences_are_polite():
+    """Sentences with a full stop end in です・ます; results and headings are noun phrases without one."""
+    plain = [
+        (message_key(message), sentence)
+        for message in read_catalogue("ja")
+        if message.id
+        for string in ([message.string] if isinstance(message.string, str) else message.string)
+        for sentence in japanese_sentences(string)
+        if not POLITE_END.search(sentence)
+    ]
+    assert plain == [], "\n".join(f"{key}: {sentence}" for key, sentence in plain[:40])
+
+
+def test_polite_sentences_are_told_from_plain_ones():
+    """The rule of the register sees both kinds."""
+    assert japanese_sentences("転倒確率 36 %") == []
+    assert [bool(POLITE_END.search(s)) for s in japanese_sentences("ファイルを読み込めません。もう一度指定する。")] == [True, False]
