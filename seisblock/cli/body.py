@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.console import info
 from seisblock.cli.options import check_callback, gravity_option, output_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import INSET, LENGTH
 from seisblock.cli.write_results import write_results
@@ -100,7 +100,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
 )
 @output_options(histories=False, film=False)
 def body(
-    output: Output,
+    output: OutputOptions,
     scan: str,
     density: float,
     inset: EdgeWear | None,

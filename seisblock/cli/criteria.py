@@ -11,7 +11,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.types import MU
 
@@ -34,7 +34,7 @@ from seisblock.cli.types import MU
 @output_options(histories=False, film=False)
 def criteria(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     restitution: float | None,
     linear: bool,

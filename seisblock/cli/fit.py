@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.options import Source, gravity_option, output_options, preparation_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
@@ -123,7 +123,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the random numbers.")
 @gravity_option
 @output_options(histories=False, film=False)
-def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
+def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> None:
     """Parameters of a rigid block that explain under which records an object overturned or remained standing.
 
     Estimates slenderness alpha, frequency parameter p, restitution and edge wear (see --free) with their credible intervals.

@@ -11,7 +11,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import FLOATS, MU, Count
 from seisblock.core.i18n import N_
 
@@ -150,7 +150,7 @@ METHODS = ("stripes", "ida", "cloud")
 @output_options(histories=False, film=False)
 def fragility(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     bodies: tuple[str, ...],
     solver: str,
     limit: tuple[str, ...],

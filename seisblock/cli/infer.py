@@ -16,7 +16,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
 from seisblock.cli.write_results import write_results
@@ -120,7 +120,7 @@ JUMPED_OPTIONS = (
 )
 @gravity_option
 @output_options(histories=False, film=False)
-def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
+def infer(source: Source, output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
     """Ground motion estimated from its effects: fallen gravestones or a displaced object.
 
     Gravestones give PGA, PGV and JMA intensity with their intervals, for one equivalent frequency or over 0.5 to 3 Hz (inverse of
@@ -157,7 +157,7 @@ def _foreign_options(form: str, *, rigid: bool) -> list[str]:
     return [name for name in all_options if name not in form_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
-def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
+def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.infer import StonesParameters, stones_document
     from seisblock.studies.survey.consistency import consistency_warning
@@ -236,7 +236,7 @@ def _assumptions(params: dict[str, Any]) -> Any:
     return make_assumptions(None, limits=partial(rigid_limits, inset=params["inset"] or DEFAULT_WEAR, gravity=params["gravity"]), **options)
 
 
-def _infer_from_displacement(source: Source, output: Output, params: dict[str, Any]) -> None:
+def _infer_from_displacement(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.studies.survey.scale_search import scale_factors

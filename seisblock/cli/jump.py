@@ -13,7 +13,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES, MU
 from seisblock.cli.write_results import write_results
@@ -71,7 +71,7 @@ DEFAULT_BLOCK = "chozusha"
 )
 @gravity_option
 @output_options()
-def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **params: Any) -> None:
+def jump(source: Source, output: OutputOptions, repeat: bool, tenon: float | None, **params: Any) -> None:
     """Rocking, impact, jump, landing and slide-rocking of a two-layer block (Sugimoto et al. 2017).
 
     Each horizontal component is solved separately, as a sequence of chains of motion; a motion under way at the end of the record

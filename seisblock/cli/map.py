@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info, warning
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import Count
 from seisblock.core.i18n import N_, gettext, lazy_gettext
@@ -86,7 +86,7 @@ DEFAULT_RUNS = 50
 @output_options(histories=False, film=False)
 def map(  # noqa: A001 - the command's name
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     cemetery: str | None,
     survey: Path | None,

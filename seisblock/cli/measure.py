@@ -12,7 +12,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH
 from seisblock.core.errors import InputError
@@ -79,7 +79,7 @@ def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> f
 @output_options(film=False)
 def measure(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     direction: str,
     velocity_highpass: float | None,

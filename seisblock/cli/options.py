@@ -12,7 +12,7 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.command import argument, option
-from seisblock.cli.output import DPI, SLOW, Output, check_output
+from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import SIZE, STOREY, WINDOW
 from seisblock.cli.verbosity import quiet_output
@@ -231,14 +231,14 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
     """
     texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
-    return lambda function: _collect_options(_with_output_check(function), declarations, Output, "output")
+    return lambda function: _collect_options(_with_output_check(function), declarations, OutputOptions, "output")
 
 
 def _with_output_check(function: Function) -> Function:
     """Check the output options before the command runs."""
 
     @functools.wraps(function)
-    def looking(*args: Any, output: Output, **kwargs: Any) -> Any:
+    def looking(*args: Any, output: OutputOptions, **kwargs: Any) -> Any:
         check_output(output)
         return function(*args, output=output, **kwargs)
 

@@ -18,7 +18,7 @@ DPI, SLOW = 200, 1.0
 
 
 @dataclass(frozen=True)
-class Output:
+class OutputOptions:
     """Values of the output options."""
 
     json: bool
@@ -33,7 +33,7 @@ class Output:
     slow: float = SLOW
 
 
-def check_output(output: Output) -> None:
+def check_output(output: OutputOptions) -> None:
     """Raise an error for outputs that cannot be written.
 
     Raises
@@ -56,7 +56,7 @@ def check_output(output: Output) -> None:
         check_text_suffix(output.csv, "CSV")
 
 
-def _check_stdout(output: Output) -> None:
+def _check_stdout(output: OutputOptions) -> None:
     """Raise an error for two outputs on stdout."""
     if STDOUT not in (output.csv, output.plot):
         return

@@ -14,7 +14,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
@@ -130,7 +130,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 @gravity_option
 @output_options(histories=False, film=False)
 def overturn_rate(
-    source: Source, output: Output, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **params: Any
+    source: Source, output: OutputOptions, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **params: Any
 ) -> None:
     """Overturning rate of the gravestones of a cemetery (Furukawa et al. 2009).
 

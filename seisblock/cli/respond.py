@@ -12,7 +12,7 @@ from seisblock.cli.bodies.free_standing import choose_free_standing, free_standi
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.versions import pop_spreads, ranges_replaced, version_options
 from seisblock.cli.write_results import write_results
 
@@ -45,7 +45,7 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth
 @output_options()
 def respond(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     vertical: bool | None,
     runs: int,

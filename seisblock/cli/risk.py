@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import check_callback, output_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import gettext
@@ -77,7 +77,7 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
     help="Years without an event: likelihood of each branch of the hazard, years. [default: not computed]",
 )
 @output_options(histories=False, film=False)
-def risk(output: Output, hazard: Path, years: float, stood: float | None, **params: Any) -> None:
+def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None, **params: Any) -> None:
     """Frequency and probability of overturning, sliding or rocking of an object at a site, per year and over a period.
 
     The annual frequency is the integral of the fragility over the hazard curve, a power law between the levels of its table. Beyond

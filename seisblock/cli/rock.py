@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import MU, Count
 from seisblock.cli.write_results import write_results
@@ -66,7 +66,7 @@ DEFAULT_RUNS = 200
 @output_options()
 def rock(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     restitution: float | None,
     linear: bool,

@@ -14,7 +14,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import check_single_window, make_preparation, report_qc
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source
-from seisblock.cli.output import STDOUT, Output
+from seisblock.cli.output import STDOUT, OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import OutputError, ParameterError
@@ -38,7 +38,7 @@ from seisblock.studies.fragility.suite import read_suite
 
 def run_study(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     *,
     bodies: tuple[str, ...],
     solver: str,
@@ -137,7 +137,7 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
     return synthetic, (), suite
 
 
-def _check_exports(output: Output, params: Mapping[str, Any]) -> None:
+def _check_exports(output: OutputOptions, params: Mapping[str, Any]) -> None:
     """Raise an error, before any record is read, for export files that cannot be written."""
     rows, model = params["pelicun"], params["nrml"]
     for path, suffix in ((rows, ".csv"), (model, ".xml")):

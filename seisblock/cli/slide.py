@@ -12,7 +12,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import FLOATS, LENGTH, MUS
 from seisblock.cli.write_results import write_results
@@ -82,7 +82,7 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @output_options()
 def slide(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     mu: tuple[float, ...],
     mu_kinetic: tuple[float, ...] | None,
     kappa: tuple[float, ...] | None,
@@ -119,7 +119,12 @@ def slide(
 
 
 def _run_single(
-    records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
+    records: list[Record],
+    source: Source,
+    output: OutputOptions,
+    directions: list[str] | None,
+    single: dict[str, float],
+    fixed: dict[str, Any],
 ) -> None:
     """Solve one set of parameters for each direction or for the worst azimuth."""
     from seisblock.bodies.sliding_base import sliding_base
@@ -156,7 +161,12 @@ def _run_single(
 
 
 def _run_study(
-    records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
+    records: list[Record],
+    source: Source,
+    output: OutputOptions,
+    directions: list[str] | None,
+    choice: dict[str, Any],
+    fixed: dict[str, Any],
 ) -> None:
     """Solve all combinations of parameters."""
     from seisblock.report.io.atomic import write_table

@@ -15,7 +15,7 @@ from seisblock.cli.azimuth_sweep import is_azimuth_sweep
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
@@ -106,7 +106,7 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
 @output_options(histories=False, film=False, accelerations=False)
 def spectrum(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     kind: str,
     mu: tuple[float, ...] | None,
@@ -211,7 +211,7 @@ def _reject_options(kind: str, values: dict[str, Any]) -> None:
             raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
-def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
+def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
     """Run ``--kind sliding``."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
@@ -237,7 +237,7 @@ def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float
 
 def _run_modes(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     grid: tuple[Any, Any, Any, int],
     restitution: float,

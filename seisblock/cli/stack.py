@@ -13,7 +13,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import INSET, MU, ContactType
 from seisblock.cli.versions import pop_spreads, version_options
 from seisblock.cli.write_results import write_results
@@ -145,7 +145,7 @@ MAX_GRID = 29
 @output_options()
 def stack(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     stones: str,
     reinforced: bool,
     without: tuple[str, ...],
@@ -220,7 +220,7 @@ def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[s
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
 
-def _run_records(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
+def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
     """Solve the pile under each record."""
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
@@ -260,7 +260,7 @@ def _run_records(source: Source, output: Output, body: Pile, contact: Any, width
 
 def _run_study(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     body: Pile,
     contact: Any,
     grid: int,

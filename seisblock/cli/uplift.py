@@ -11,7 +11,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
 from seisblock.cli.write_results import write_results
@@ -76,7 +76,7 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 )
 @gravity_option
 @output_options()
-def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
+def uplift(source: Source, output: OutputOptions, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).
 
     With a record: three-component motion, corner springs without tension; time of first uplift, corner, height and duration. Corners
@@ -106,7 +106,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     )
 
 
-def _run_harmonic(source: Source, output: Output, figure: int | None, params: dict[str, Any]) -> None:
+def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, params: dict[str, Any]) -> None:
     """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.uplift import harmonic_document

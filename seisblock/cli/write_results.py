@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.console import info, print_result, print_tables, warning
-from seisblock.cli.output import STDOUT, Output, check_output
+from seisblock.cli.output import STDOUT, OutputOptions, check_output
 from seisblock.cli.progress import close_line, progress, set_task
 from seisblock.core.errors import OutputError
 from seisblock.core.i18n import escape_control, get_locale, use_locale
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 def write_results(
     document: Document,
-    output: Output,
+    output: OutputOptions,
     *,
     tables: Callable[[], Iterable[Any]],
     responses: Sequence[Response[Any]] = (),
@@ -40,7 +40,7 @@ def write_results(
     Parameters
     ----------
     document : Document
-    output : Output
+    output : OutputOptions
         The output options.
     tables : callable
         Returns the rich tables printed without ``--json``.
@@ -101,7 +101,7 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
                 shutil.copyfileobj(stream, sys.stdout)
 
 
-def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) -> None:
+def _write_figure(figure: Callable[[], Figure], target: Path, output: OutputOptions) -> None:
     """Write the figure to a file, or as .png to stdout."""
     from seisblock.report.figures.fit_size import fit_figure_size
     from seisblock.report.figures.fonts import MISSING_GLYPHS, NO_FONT, build_localized, drawable_locale, has_missing_glyphs
@@ -122,7 +122,7 @@ def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) ->
         save_png(fig, sys.stdout.buffer)
 
 
-def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: Output) -> None:
+def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: OutputOptions) -> None:
     from seisblock.report.animation.render import AnimationOptions
     from seisblock.report.figures.fonts import NO_FONT, drawable_locale
 
