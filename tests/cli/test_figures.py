@@ -70,4 +70,4 @@ def test_options_are_those_that_act():
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
         told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
         assert ("--animate" in told) == film and ("--slow " in told) == film
-        assert ("Write the time history" in told) == history
+        assert ("Write the time histories" in told) == history
