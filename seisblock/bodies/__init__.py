@@ -1,1 +1,1 @@
-"""What stands there."""
+"""Bodies: rigid blocks, two-layer blocks, piles of stones, scans and sliding bases."""

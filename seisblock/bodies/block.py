@@ -1,4 +1,4 @@
-"""The rigid block that stands on its base: what rocking needs to know of a gravestone, a cabinet or a statue."""
+"""Rigid block on a flat base: geometry, inertia, slenderness, restitution and rocking threshold."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     from seisblock.core.typing import FloatArray
 
 DENSITY = 2650.0
-"""Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
+"""Density of granite, kg/m^3; without effect on the motion of a rigid block."""
 
 RIGHT, LEFT = range(2)
-"""The lower corners: that towards +x, about which a block turns that leans to +x, and the other one."""
+"""Lower corners: RIGHT towards +x, pivot of a block with positive tilt, and LEFT."""
 
 Length = TypeVar("Length", float, "FloatArray")
-"""A number, or one for each of many blocks."""
+"""Scalar or array of lengths."""
 
 _POSITIVE_FIELDS = {
     "width": (lazy_gettext("width"), "m"),
@@ -38,7 +38,7 @@ _POSITIVE_FIELDS = {
 
 @dataclass(frozen=True)
 class Block:
-    """A rigid block with a flat base, rectangular and homogeneous unless more is said.
+    """Rigid block with a flat base; rectangular and homogeneous by default.
 
     Parameters
     ----------
@@ -47,31 +47,31 @@ class Block:
     height : float, m
         Overall height, 2h.
     depth : float, m
-        Base across the motion; as the width when left out. It matters to the mass alone.
+        Base across the motion, default the width; affects only the mass.
     mass : float, kg
-        From the volume and the density when left out.
+        Default: volume times density.
     density : float, kg/m^3
     centroid_height : float, m
-        Height of the centre of gravity; half the height when left out.
+        Height of the centre of gravity, default half the height.
     centroid_offset : float, m
-        How far the centre of gravity lies to +x of the middle of the base.
+        Offset of the centre of gravity to +x from the middle of the base.
     centroid_inertia : float, kg m^2
-        Moment of inertia about the centre of gravity; of the homogeneous rectangle when left out.
+        Moment of inertia about the centre of gravity, default that of the homogeneous rectangle.
     inset : float, m
-        How far in from each side of its base the worn block turns, see :meth:`with_wear`; its mass, centre and inertia stay as they are.
+        Distance of the worn pivot edges from each side of the base, see :meth:`with_wear`; mass, centre and inertia are unchanged.
     name : str
-    ranges : Ranges or None
-        Within which limits bodies of its kind lie: its plausible versions do, instead of differing by shares.
+    ranges : ParameterRanges or None
+        Ranges of the block's kind; samples are drawn from them instead of varying by shares.
 
     Raises
     ------
     BodyError
-        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
+        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above the base within its worn edges.
 
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------
@@ -102,7 +102,9 @@ class Block:
             or self.height > MAX_UNITLESS_LENGTH
             or (self.depth is not None and self.depth > MAX_UNITLESS_LENGTH)
         ):
-            warn_large_lengths(self.name, width=self.width, height=self.height, depth=self.depth)  # blocks are built in inner loops
+            warn_large_lengths(
+                self.name, width=self.width, height=self.height, depth=self.depth
+            )  # cheap test first: blocks are built in inner loops
         if self.ranges is not None:
             checks.instance(self.ranges, ParameterRanges)
         half = self.width / 2
@@ -114,12 +116,12 @@ class Block:
             text = "{name}: the centre of gravity must lie above the base, within {half:g} m of its middle; found an offset of {offset} m"
             raise BodyError(text, name=self.name, half=half, offset=self.centroid_offset)
         if self.centroid_height is not None and self.centroid_height > self.height:
-            text = "{name}: the centre of gravity, at {centre} m, lies above the height of {height} m"
+            text = "{name}: the height of the centre of gravity, {centre} m, exceeds the height of the block, {height} m"
             raise BodyError(text, name=self.name, centre=self.centroid_height, height=self.height)
 
     @property
     def total_mass(self) -> float:
-        """Mass, given or from the volume, kg."""
+        """Mass, given or from volume and density, kg."""
         if self.mass is not None:
             return self.mass
         return self.density * self.width * self.height * (self.width if self.depth is None else self.depth)
@@ -138,7 +140,7 @@ class Block:
 
     @property
     def arms(self) -> tuple[float, float]:
-        """Horizontal distances from the right and the left lower corner, worn as they are, to the centre of gravity, m."""
+        """Horizontal distances from the right and the left lower corner (with edge wear) to the centre of gravity, m."""
         half = self.width / 2 - self.inset
         return half - self.centroid_offset, half + self.centroid_offset
 
@@ -156,12 +158,12 @@ class Block:
 
     @property
     def slenderness(self) -> float:
-        """The smaller of the two alphas, rad: that of the side to which the block falls more easily."""
+        """Smaller of the two angles alpha, rad."""
         return min(self.slendernesses)
 
     @property
     def radius(self) -> float:
-        """R of that side, m."""
+        """Smaller of the two radii R, m."""
         return min(self.radii)
 
     @property
@@ -172,31 +174,31 @@ class Block:
 
     @property
     def restitutions(self) -> tuple[float, float]:
-        """Angular velocity after an impact over that before, onto the right and onto the left corner.
+        """Ratios of angular velocities after and before an impact on the right and the left corner.
 
-        As of :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
+        See :func:`corner_restitution`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
         """
         onto_right, onto_left = (corner_restitution(radius, self.gyration_squared, self.centre, self.arms) for radius in self.radii)
         return onto_right, onto_left
 
     @property
     def restitution(self) -> float:
-        """The larger of the two restitutions."""
+        """Larger of the two coefficients of restitution."""
         return max(self.restitutions)
 
     @property
     def lever_ratios(self) -> tuple[float, float]:
-        """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
+        """Lever ratio m R/I_O at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
         right, left = (lever_ratio(radius, self.gyration_squared) for radius in self.radii)
         return right, left
 
     def frequency_parameter(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return p = sqrt(m g R/I_O) of the side of the smaller alpha, rad/s ([Furukawa2009]_ eq. (3))."""
+        """Return p = sqrt(m g R/I_O) of the side with the smaller alpha, rad/s ([Furukawa2009]_ eq. (3))."""
         side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
         return math.sqrt(gravity * self.lever_ratios[side])
 
     def with_wear(self, inset: EdgeWear | float) -> Block:
-        """Return the block with worn edges: a share of its width per side, or an :class:`~seisblock.bodies.edge_wear.EdgeWear`.
+        """Return the block with worn edges: a share of the width per side, or an ``EdgeWear``.
 
         Examples
         --------
@@ -207,33 +209,33 @@ class Block:
         return replace(self.without_ranges("inset_m"), inset=depth)
 
     def without_ranges(self, *names: str) -> Block:
-        """Return the block as one of which some sizes are known: without the ranges of these."""
+        """Return the block without the ranges of the given parameters, whose values are known."""
         return self if self.ranges is None else replace(self, ranges=self.ranges.without(*names))
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
+        """Return the ground acceleration at which rocking starts, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
         return gravity * min(self.arms) / self.centre
 
 
 def lever_ratio(radius: Length, gyration_squared: Length) -> Length:
-    """Return mass times R over I_O of a corner, 1/m ([Furukawa2009]_ eq. (3)), from R, m, and the squared radius of gyration, m^2."""
+    """Return m R/I_O of a corner, 1/m ([Furukawa2009]_ eq. (3)), from R, m, and gyration radius squared, m^2."""
     return radius / (gyration_squared + radius * radius)
 
 
 def corner_restitution(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
-    """Return angular velocity after an impact onto a corner over that before.
+    """Return the ratio of angular velocities after and before an impact on a corner.
 
-    Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here). Zero where the block is so wide that it would
-    not turn on.
+    Angular momentum about the struck corner is conserved ([Housner1963]_; derived here). Zero where the block is so wide that rocking
+    stops.
 
     Parameters
     ----------
     radius : float or array, m
-        R of the corner that is struck.
+        R of the struck corner.
     gyration_squared, centre : float or array, m^2 and m
-        About the centre of gravity, and its height.
+        Squared radius of gyration about the centre of gravity, and its height.
     arms : two floats or arrays, m
-        Horizontal distances from both corners to it.
+        Horizontal distances from the right and the left corner to the centre of gravity.
     """
     right, left = arms
     momentum = gyration_squared + centre * centre - right * left
@@ -241,11 +243,11 @@ def corner_restitution(radius: Length, gyration_squared: Length, centre: Length,
 
 
 Restitution = float | tuple[float, float] | None
-"""One ratio for both corners, one onto the right and one onto the left corner, or None for those of the angular momentum."""
+"""One ratio for both corners, (right, left) ratios, or None for conserved angular momentum."""
 
 
 def resolve_restitutions(block: Block, restitution: Restitution) -> tuple[float, float]:
-    """Return the restitutions of impacts onto the right and onto the left corner."""
+    """Return the coefficients of restitution of the right and the left corner."""
     if restitution is None:
         return block.restitutions
     return restitution if isinstance(restitution, tuple) else (restitution, restitution)
@@ -276,9 +278,10 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 
 
 def scale_block(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
-    """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness`.
+    """Return a block with all lengths times `size`, and those along the motion also times `slenderness`.
 
-    A mass that was given stays, else it follows from the volume; a given inertia keeps its radius of gyration, times `size`.
+    A given mass is unchanged, otherwise it follows from the volume; a given inertia keeps its radius of gyration
+    times `size`.
     """
 
     def times(value: float | None, factor: float) -> float | None:

@@ -1,4 +1,4 @@
-"""Many blocks at once, as arrays: what studies vary, without an object for each."""
+"""Arrays of rigid blocks for parameter studies."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.bodies.uncertainty import Range
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray
 
-MOST_WORN = 0.8
-"""Of the smaller arm of a block whose two sides differ, that its edges may be worn by."""
+MAX_WEAR_SHARE = 0.8
+"""Largest edge wear of an asymmetric block, a share of its smaller arm."""
 
 
 @dataclass(frozen=True, eq=False)
 class BlockArray:
-    """What the motion of each of many rigid blocks depends on; bit by bit what :class:`~seisblock.bodies.block.Block` says of one.
+    """Parameters of the motion of m rigid blocks; bitwise equal to those of ``Block``.
 
     Parameters
     ----------
     right, left : (m,) arrays, m
-        Horizontal distances from the lower corners, worn as they are, to the centre of gravity.
+        Horizontal distances from the lower corners (with edge wear) to the centre of gravity.
     centre : (m,) array, m
-        Its height.
+        Height of the centre of gravity.
     gyration_squared : (m,) array, m^2
-        Squared radius of gyration about it.
+        Squared radius of gyration about the centre of gravity.
     """
 
     right: FloatArray
@@ -41,11 +41,11 @@ class BlockArray:
 
     @property
     def columns(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """The four arrays, in their order."""
+        """The four arrays in their order."""
         return self.right, self.left, self.centre, self.gyration_squared
 
     def __getitem__(self, index: slice | IntArray) -> BlockArray:
-        """Return some of them."""
+        """Return the selected blocks."""
         return BlockArray(*(column[index] for column in self.columns))
 
     @property
@@ -60,23 +60,23 @@ class BlockArray:
 
     @property
     def lever_ratios(self) -> FloatArray:
-        """Mass times R over I_O, at the right and the left corner, (m, 2), 1/m."""
+        """Lever ratio m R/I_O at the right and the left corner, (m, 2), 1/m."""
         return lever_ratio(self.radii, self.gyration_squared[:, None])
 
     @property
     def restitutions(self) -> FloatArray:
-        """Angular velocity after an impact over that before, onto the right and onto the left corner, (m, 2)."""
+        """Ratios of angular velocities after and before an impact on the right and the left corner, (m, 2)."""
         arms = self.right[:, None], self.left[:, None]
         return corner_restitution(self.radii, self.gyration_squared[:, None], self.centre[:, None], arms)
 
 
 def elementwise(function: Callable[..., float], *columns: FloatArray) -> FloatArray:
-    """Return a function of :mod:`math` of every element: numpy's own differ from it in the last digit, from machine to machine."""
+    """Return an elementwise :mod:`math` function: numpy's differ in the last digit between machines."""
     return np.fromiter(map(function, *(column.ravel().tolist() for column in columns)), np.float64, columns[0].size)
 
 
 def rectangular_blocks(widths: ArrayLike, heights: ArrayLike, inset: EdgeWear = SHARP_EDGES) -> BlockArray:
-    """Return homogeneous rectangular blocks of some widths and heights, (m,) each, m, with edges worn alike.
+    """Return homogeneous rectangular blocks of given widths and heights, (m,), m, with the same edge wear.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def rectangular_blocks(widths: ArrayLike, heights: ArrayLike, inset: EdgeWear = 
 
 
 def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_share: ArrayLike | None = None) -> BlockArray:
-    """Return a block with its lengths multiplied, as :func:`~seisblock.bodies.block.scale_block` does, by each of some factors.
+    """Return a block scaled by arrays of factors, see :func:`~seisblock.bodies.block.scale_block`.
 
     Parameters
     ----------
@@ -105,12 +105,12 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
     size, slenderness : (m,) arrays
         Factors on all lengths, and on those along the motion.
     inset_share : (m,) array or None
-        How far the edges are worn, a share of the width per side; as the block's own when left out.
+        Edge wear, a share of the width per side; default the block's own.
 
     Raises
     ------
     BodyError
-        If nothing is left of a base below the centre of gravity.
+        If no base is left below the centre of gravity.
 
     Examples
     --------
@@ -137,43 +137,44 @@ def block_variants(block: Block, *, size: ArrayLike, slenderness: ArrayLike, ins
     return BlockArray(right, left, centre, gyration)
 
 
-def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
-    """Return samples of a range whose median is a body's own value, for uniform draws in [-1, 1].
+def within(limits: Range, nominal: float, draws: FloatArray) -> FloatArray:
+    """Map uniform draws in [-1, 1] to samples of a range whose median is the body's own value.
 
-    The lower half of the draws lies evenly between the least and the own value, the upper half between that and the largest.
+    The lower half of the draws maps uniformly to the interval from the smallest to the own value, the upper half to that up to the
+    largest.
 
     Examples
     --------
     >>> within((0.2, 0.7), 0.4, np.array([-1.0, -0.5, 0.0, 0.5, 1.0])).round(2).tolist()
     [0.2, 0.3, 0.4, 0.55, 0.7]
     """
-    low, high = min(known[0], own), max(known[1], own)
-    return own + np.where(draws < 0.0, own - low, high - own) * draws
+    low, high = min(limits[0], nominal), max(limits[1], nominal)
+    return nominal + np.where(draws < 0.0, nominal - low, high - nominal) * draws
 
 
 def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArray, worn: FloatArray) -> BlockArray:
-    """Return samples of a block: its widths and heights multiplied by factors, its edges drawn from their prior or about their own inset.
+    """Return samples of a block: scaled widths and heights, edge wear from its prior or around its own inset.
 
     Parameters
     ----------
     block : Block
-        The median of the samples.
+        Median of the samples.
     tolerance : float
-        Half width of a known inset, a share of itself; see :func:`wear_range`.
+        Half width of a known inset, a share of the inset; see :func:`wear_range`.
     wide, tall : (m,) arrays
         Factors on all lengths along the motion, and on all heights.
     worn : (m,) array
-        In [-1, 1]: the worn edges of each sample within their range.
+        Draws in [-1, 1] for the edge wear of each sample within its range.
     """
     share = within(wear_range(block, tolerance), block.inset / block.width, worn)
     return block_variants(block, size=tall, slenderness=wide / tall, inset_share=share)
 
 
 def wear_within(block: Block, share: float) -> float:
-    """Return the inset of a block whose edges nobody has measured, a share of its width per side.
+    """Return the default edge wear of a block, a share of its width per side.
 
-    Less than the share of its kind where its two sides differ so much that hardly anything would be left under its centre of gravity:
-    what stands is not worn like that.
+    Smaller than the share of the kind for a strongly asymmetric block, whose base would hardly reach below its centre of gravity: a
+    standing block cannot be worn so far.
 
     Examples
     --------
@@ -183,14 +184,14 @@ def wear_within(block: Block, share: float) -> float:
     if block.centroid_offset == 0.0:
         return share
     smaller = 0.5 - abs(block.centroid_offset) / block.width
-    return min(share, max(MOST_WORN * smaller, block.inset / block.width))
+    return min(share, max(MAX_WEAR_SHARE * smaller, block.inset / block.width))
 
 
 def wear_range(block: Block, tolerance: float) -> Range:
-    """Return the least and the largest inset of the samples of a block, shares of its width per side.
+    """Return the smallest and the largest inset of the samples of a block, shares of its width per side.
 
-    A known inset varies by a share of itself, so that sharp edges stay sharp; one that is not known has the range of its kind. Neither
-    leaves less than a fifth of what the block stands on. A tolerance of 0 means that the inset is known exactly.
+    A known inset varies by a share of the inset, so that sharp edges stay sharp; an unknown inset has the range of the kind. At least a
+    fifth of the base remains. A tolerance of 0 means that the inset is known exactly.
 
     Examples
     --------
@@ -200,18 +201,18 @@ def wear_range(block: Block, tolerance: float) -> Range:
     >>> [round(end, 3) for end in wear_range(Block(0.2, 0.6, inset=0.01, ranges=ParameterRanges(inset_m=(0.0, 0.02))), 0.1)]
     [0.0, 0.1]
     """
-    own = block.inset / block.width
-    most = MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own)
-    known = None if block.ranges is None else block.ranges.inset_m
-    if known is None or tolerance == 0.0:
-        half = min(tolerance * own, most)
-        return own - half, own + half
-    low, high = (end / block.width for end in known)
-    return min(low, own), max(own, min(high, own + most))
+    nominal = block.inset / block.width
+    max_change = MAX_WEAR_SHARE * (0.5 - abs(block.centroid_offset) / block.width - nominal)
+    limits = None if block.ranges is None else block.ranges.inset_m
+    if limits is None or tolerance == 0.0:
+        half = min(tolerance * nominal, max_change)
+        return nominal - half, nominal + half
+    low, high = (end / block.width for end in limits)
+    return min(low, nominal), max(nominal, min(high, nominal + max_change))
 
 
 def to_block_array(blocks: Sequence[Block]) -> BlockArray:
-    """Return some blocks as arrays."""
+    """Return the blocks as one array."""
     rows = [(*block.arms, block.centre, block.gyration_squared) for block in blocks]
     right, left, centre, gyration = np.array(rows, dtype=np.float64).reshape(-1, 4).T
     return BlockArray(right, left, centre, gyration)

@@ -1,4 +1,4 @@
-"""What a body is called in a sentence that is told in any language."""
+"""Body names in translated messages."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from seisblock.core.i18n import Message, escape_control, lazy_gettext
 
 
 def body_name(name: str) -> Message:
-    """Return the name of a body as a value of what is said: told where it is one of ours, made harmless where a file gave it.
+    """Return a body name as a message value: translated if bundled, with control characters escaped otherwise.
 
     Parameters
     ----------

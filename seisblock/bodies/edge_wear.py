@@ -1,4 +1,4 @@
-"""How far in from the sides of its base a block turns: real edges are worn, and sharp ones are the unsafe end."""
+"""Edge wear: inset of the pivot edges from the sides of a base."""
 
 from __future__ import annotations
 
@@ -10,32 +10,32 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.units import parse_length, to_halfwidth
 
 MAX_SHARE = 0.5
-"""At this share of the width per side nothing is left to stand on."""
+"""Share of the width per side at which no base is left."""
 
 MIN_SHARE = 1e-9
-"""Below this share of the width per side an edge is sharp: of a gravestone, a third of an atom."""
+"""Share of the width per side below which an edge counts as sharp (smaller than an atom)."""
 
 _SHARE_PATTERN = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(%?)\s*+\Z")
 
 
 @dataclass(frozen=True)
 class EdgeWear:
-    """How far the edges about which a block turns lie inside the drawing, at each side of its base.
+    """Inset of the worn pivot edges from each side of a base.
 
     Parameters
     ----------
     length_m : float, m
     share : float
-        Of the width, added to the length; below 0.5.
+        Share of the width, added to the length; below 0.5.
 
     Raises
     ------
     ParameterError
-        If one of them is negative or not a number.
+        If a value is negative or not a number.
 
     Examples
     --------
-    >>> EdgeWear(share=0.1).of(0.24)
+    >>> EdgeWear(share=0.1).inset(0.24)
     0.024
     """
 
@@ -44,18 +44,18 @@ class EdgeWear:
 
     def __post_init__(self) -> None:
         for value in (self.length_m, self.share):
-            checks.non_negative("an inset, how far in from each side a block turns,", value)
+            checks.non_negative("the inset of the worn edges", value)
 
     def inset(self, width: float) -> float:
-        """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on.
+        """Return the inset per side of a base of the given width (m), m.
 
-        Less than a billionth of the width is none.
+        An inset below a billionth of the width is 0. Raises an error where no base is left.
         """
         depth = self.length_m + self.share * width
         if not depth < MAX_SHARE * width:
             raise ParameterError(
-                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half of it (a "
-                "bare number is a share of the width, 0.1; a length has a unit, 1cm)",
+                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half the width (a bare "
+                "number is a share of the width, 0.1; a length has a unit, 1cm)",
                 depth=depth,
                 width=width,
             )
@@ -63,26 +63,26 @@ class EdgeWear:
 
 
 SHARP_EDGES = EdgeWear()
-"""A block that turns about the edges of its drawing."""
+"""No edge wear."""
 
 DEFAULT_WEAR = EdgeWear(share=0.05)
-"""Gravestones whose edges nobody has measured: the median of their prior, :data:`WORN_RANGE`."""
+"""Edge wear of gravestones without measurement: the median of their prior, :data:`WORN_RANGE`."""
 
 WORN_RANGE = (0.0, 0.1)
 """Prior of the worn edges of gravestones, uniform, shares of the width per side.
 
-Blocks worn like that meet both the surveyed rates of [Furukawa2009]_ table 6 and the surveyors' rule of JMA, under records, where a stone
-falls when it falls under either horizontal. Edges worn by 0.1 throughout meet those rates only under one horizontal.
+With this prior, computed rates under records agree with the surveyed rates of [Furukawa2009]_ table 6 and with JMA's rule, if a stone
+falls when either horizontal component overturns it. A constant wear of 0.1 agrees only with a single horizontal component.
 """
 
 
 def parse_edge_wear(text: str | float) -> EdgeWear:
-    """Return the inset that a text means: a length with its unit (``1cm``), or a share of the width per side (``0.1`` or ``10%``).
+    """Return the edge wear of a text: length with unit (``1cm``), or share of the width (``0.1``, ``10%``).
 
     Raises
     ------
     ParameterError
-        If it is no number, or negative.
+        If the text is not a number, or negative.
     UnitError
         If the unit is unknown.
 
@@ -90,7 +90,7 @@ def parse_edge_wear(text: str | float) -> EdgeWear:
     --------
     >>> parse_edge_wear("5%") == parse_edge_wear(0.05) == DEFAULT_WEAR
     True
-    >>> parse_edge_wear("1cm").of(0.24)
+    >>> parse_edge_wear("1cm").inset(0.24)
     0.01
     """
     match = _SHARE_PATTERN.match(to_halfwidth(text)) if isinstance(text, str) else None

@@ -1,4 +1,4 @@
-"""Which block the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+"""Bodies from TOML files and bundled names."""
 
 from __future__ import annotations
 
@@ -36,20 +36,20 @@ _KEYS = {"kind", "name", "mass", "restitution", "inset", "ranges", *_FRICTION_KE
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
-    """Return the block of a TOML file, or of a bundled body such as ``gravestone``.
+    """Return the block of a TOML file or of a bundled body such as ``gravestone``.
 
     Parameters
     ----------
     name : str or Path
-        ``kind = "block"`` with ``width`` and ``height`` (a number in m, or a text with a unit) and whatever else
-        :class:`~seisblock.bodies.block.Block` takes; or ``kind = "two-layer"`` or ``"pile"``, taken as one rigid block.
+        ``kind = "block"`` with ``width`` and ``height`` (a number in m, or a string with a unit) and the other parameters of
+        :class:`~seisblock.bodies.block.Block`; or ``kind = "two-layer"`` or ``"pile"``, taken as one rigid block.
     side : "short" or "long"
-        Which side lies along the motion, where a two-layer body gives both.
+        Side along the motion, for a two-layer body with both.
 
     Raises
     ------
     BodyError
-        If there is no such body, something is missing or unknown, or it is of another kind.
+        If there is no such body, an entry is missing or unknown, or the kind is another.
 
     Examples
     --------
@@ -61,7 +61,7 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
 
 
 def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
-    """Return the block that a TOML table describes; see :func:`load_block`."""
+    """Return the block described by a TOML table, see :func:`load_block`."""
     source = source_name(table)
     kind = table.get("kind")
     if kind == "two-layer":
@@ -69,11 +69,9 @@ def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if kind == "pile":
         return load_pile(source).as_block()
     if kind == "scan":
-        raise BodyError("{where} is a scan, which is another block in each direction: say towards which azimuth", where=source)
+        raise BodyError("{where} is a scan, whose dimensions depend on the azimuth: give the azimuth", where=source)
     if kind != "block":
-        raise BodyError(
-            '{where}: expected kind = "block", "two-layer", "pile" or "scan", found {kind}', where=source, kind=quote_value(kind)
-        )
+        raise BodyError('{where}: kind must be "block", "two-layer", "pile" or "scan", found {kind}', where=source, kind=quote_value(kind))
     check_keys(table, _KEYS)
     sizes: dict[str, Any] = {"width": get_length(table, "width"), "height": get_length(table, "height")}
     sizes |= {key: get_length(table, key) for key in _LENGTH_KEYS[2:] if key in table}
@@ -89,7 +87,7 @@ def block_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block:
 
 
 def body_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block | ScannedBody:
-    """Return the body that a TOML table describes: one block, or a scan, which is another one in each direction.
+    """Return the body described by a TOML table: a block or a scan.
 
     Examples
     --------
@@ -100,7 +98,7 @@ def body_from_table(table: Mapping[str, Any], *, side: str = "short") -> Block |
 
 
 def block_for_motion(body: AnyBody, motion: Motion) -> AnyBody | Block:
-    """Return a body as it follows a motion: a scan as the block that it is towards its azimuth, any other as it is.
+    """Return the block for a motion: of a scan, the block of the motion's azimuth.
 
     Examples
     --------
@@ -112,12 +110,12 @@ def block_for_motion(body: AnyBody, motion: Motion) -> AnyBody | Block:
 
 
 def table_restitution(table: Mapping[str, Any], name: str) -> float | None:
-    """Return the restitution that a body's file brings along, or None."""
+    """Return the coefficient of restitution in a body's file, or None."""
     return get_number({**table, "source": name}, "restitution")
 
 
 def table_friction(table: Mapping[str, Any], name: str) -> tuple[float | None, float | None]:
-    """Return the static and the kinetic friction that a body's file brings along, None where it is silent."""
+    """Return static and kinetic friction in a body's file, None where missing."""
     entries: Mapping[str, Any] = contact_from_table(table) if table.get("kind") == "two-layer" else table
     mu, kinetic = (get_number({**entries, "source": name}, key) for key in _FRICTION_KEYS)
     return mu, kinetic

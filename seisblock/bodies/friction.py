@@ -1,4 +1,4 @@
-"""How rough two surfaces are: a few pairs with their source, for want of a measurement at the object itself."""
+"""Friction coefficients of pairs of surfaces, with sources."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from seisblock.core.i18n import N_
 
 @dataclass(frozen=True)
 class Surface:
-    """Friction of one pair of surfaces.
+    """Friction of a pair of surfaces.
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ class Surface:
     source : str
         Citation with its locator.
     note : str
-        What was measured, and what is assumed.
+        Measured quantity and assumptions.
     """
 
     mu: float
@@ -29,17 +29,15 @@ class Surface:
 
 
 SURFACES = {
-    "granite/granite": Surface(
-        0.438, 0.438, "[Furukawa2009]_ table 2", N_("kinetic value of gravestones; the static one is taken as equal")
-    ),
-    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", N_("ABS resin on steel, which the paper takes for posts on stone")),
+    "granite/granite": Surface(0.438, 0.438, "[Furukawa2009]_ table 2", N_("kinetic value of gravestones; static value taken as equal")),
+    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", N_("ABS resin on steel, used in the paper for posts on stone")),
     "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", N_("dry")),
     "wood/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
     "metal/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
     "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", N_("dry")),
     "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
 }
-"""Pairs in either order; real values scatter by a third, so that a probability varies them."""
+"""Friction by pair, in either order; measured values scatter by a third, which probabilities include."""
 
 
 def surface(pair: str) -> Surface:
@@ -48,7 +46,7 @@ def surface(pair: str) -> Surface:
     Raises
     ------
     ParameterError
-        If the pair is not in the table; the message lists those that are.
+        If the pair is not in the table; the message lists the known pairs.
 
     Examples
     --------
@@ -60,5 +58,5 @@ def surface(pair: str) -> Surface:
         if name in SURFACES:
             return SURFACES[name]
     raise ParameterError(
-        "no friction is known of {pair!r}; there are {known}: or give the coefficient itself", pair=pair, known=list(SURFACES)
+        "no friction coefficient for the pair {pair!r}; available: {known}; or give the coefficient", pair=pair, known=list(SURFACES)
     )

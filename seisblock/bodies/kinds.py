@@ -1,4 +1,4 @@
-"""Kinds of bodies, and what is assumed of the edges of one whose edges nobody has measured."""
+"""Kinds of bodies and the default edge wear of each."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ GRAVESTONE = "gravestone"
 KINDS = (GRAVESTONE, "furniture", "statue", "block")
 """Kinds of a body given by its sizes.
 
-The edges of gravestones have a prior that meets surveys of fallen ones (:data:`~seisblock.bodies.edge_wear.WORN_RANGE`). All others are
-sharp:
-JMA's table of furniture is met by sharp furniture, no survey tells of worn bases of statues, and a bare block is what its sizes say.
+The edge wear of gravestones has a prior that agrees with surveys (:data:`~seisblock.bodies.edge_wear.WORN_RANGE`). All other kinds are
+sharp: JMA's table of furniture agrees with sharp furniture, no survey reports worn bases of statues, and a bare block has its given
+sizes.
 """
 
 
 def of_kind(block: Block, kind: str) -> Block:
-    """Return a block with the edges of its kind: the median of their prior, and their range for samples.
+    """Return a block with the edge wear of its kind: median and range of the prior.
 
     Parameters
     ----------
     block : Block
-        Given by its sizes, with sharp edges.
+        Block given by its sizes, with sharp edges.
     kind : str
         One of :data:`KINDS`.
 
     Raises
     ------
     BodyError
-        If there is no such kind.
+        If the kind is unknown.
 
     Examples
     --------
@@ -41,10 +41,10 @@ def of_kind(block: Block, kind: str) -> Block:
     >>> stone.inset, stone.ranges.inset_m
     (0.012, (0.0, 0.024))
     """
-    from seisblock.bodies.block_array import wear_within  # numpy, which the help of a command does without
+    from seisblock.bodies.block_array import wear_within  # imports numpy, which --help does not need
 
     if kind not in KINDS:
-        raise BodyError("there is no kind of body {kind!r}; known are {known}", kind=str(kind)[:100], known=list(KINDS))
+        raise BodyError("unknown kind of body {kind!r}; known: {known}", kind=str(kind)[:100], known=list(KINDS))
     if kind != GRAVESTONE:
         return block
     median = wear_within(block, DEFAULT_WEAR.share)

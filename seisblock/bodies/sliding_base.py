@@ -1,4 +1,4 @@
-"""What an object slides on: two friction coefficients and a slope."""
+"""Sliding base: static and kinetic friction, slope."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from seisblock.core.errors import ParameterError
 
 @dataclass(frozen=True)
 class SlidingBase:
-    """A rigid base with Coulomb friction, level or sloping.
+    """Rigid base with Coulomb friction, level or sloping.
 
     Parameters
     ----------
     mu : float
         Static friction coefficient, positive.
     mu_kinetic : float or None
-        Kinetic friction coefficient, 0 to `mu`; as `mu` when left out.
+        Kinetic friction coefficient, 0 to `mu`; default `mu`.
     slope_deg : float, degrees
         Angle by which the base falls towards the component's positive direction, -90 to 90 exclusive; negative falls the other way.
     slope_length : float or None, m
@@ -29,7 +29,7 @@ class SlidingBase:
     Raises
     ------
     ParameterError
-        If a number lies outside its range, or the object would slide down without any shaking.
+        If a number lies outside its range, or the object slides without ground motion.
     """
 
     mu: float
@@ -39,7 +39,7 @@ class SlidingBase:
     one_way: bool = False
 
     def __post_init__(self) -> None:
-        checks.positive("mu, the static friction coefficient,", self.mu)
+        checks.positive("the static friction coefficient `mu`", self.mu)
         checks.finite("the kinetic friction coefficient", self.kinetic)
         checks.in_interval("the slope", self.slope_deg, "(-90, 90)", "degrees")
         if not 0.0 <= self.kinetic <= self.mu:
@@ -50,18 +50,18 @@ class SlidingBase:
             )
         if not holds_at_rest(self.mu, self.slope_deg):
             raise ParameterError(
-                "a slope of {slope:g} degrees is steeper than mu = {mu:g} holds at rest ({steepest:.2f} degrees): "
-                "the object slides under gravity alone, without any shaking",
+                "a slope of {slope:g} degrees exceeds the friction angle of mu = {mu:g}, {steepest:.2f} degrees: the object slides "
+                "without any ground motion",
                 slope=self.slope_deg,
                 mu=self.mu,
                 steepest=math.degrees(math.atan(self.mu)),
             )
         if self.slope_length is not None:
-            checks.positive("the slope's length", self.slope_length, "m")
+            checks.positive("the length of the slope", self.slope_length, "m")
             if self.slope_deg == 0.0:
-                raise ParameterError("a slope's length needs a slope: give its angle, which is 0 degrees here")
+                raise ParameterError("a length of the slope requires a slope above 0 degrees: give its angle")
         if self.one_way and self.slope_deg < 0.0:
-            raise ParameterError("one-way sliding goes downhill, the component's positive direction: give a slope that is not negative")
+            raise ParameterError("one-way sliding is downhill, the component's positive direction: the slope must not be negative")
 
     @property
     def kinetic(self) -> float:
@@ -80,12 +80,12 @@ class SlidingBase:
 
     @property
     def never_stops(self) -> bool:
-        """Whether an object that slides downhill on still ground is never stopped by the slope itself ([Fujino1978]_ eq. (14))."""
+        """True if kinetic friction never stops downhill sliding on the slope ([Fujino1978]_ eq. (14))."""
         return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
 
 def holds_at_rest(mu: float, slope_deg: float) -> bool:
-    """Whether static friction holds an object on a slope while nothing shakes ([Fujino1978]_ eq. (10)); equality holds."""
+    """Return whether static friction holds an object on a slope at rest ([Fujino1978]_ eq. (10)); equality holds."""
     return mu >= abs(math.tan(math.radians(slope_deg))) * (1.0 - 1e-15)
 
 
@@ -98,7 +98,7 @@ def sliding_base(
     slope_length: float | None = None,
     one_way: bool = False,
 ) -> SlidingBase:
-    """Return a base whose kinetic friction is given, or is `kappa` times the static one, or equals it.
+    """Return a base whose kinetic friction is given, `kappa` times the static one, or equal to it.
 
     Raises
     ------
@@ -106,7 +106,9 @@ def sliding_base(
         If both `mu_kinetic` and `kappa` are given, `kappa` is not in (0, 1], or a number lies outside its range.
     """
     if mu_kinetic is not None and kappa is not None:
-        raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
+        raise ParameterError(
+            "the kinetic friction coefficient and its ratio `kappa` to the static one exclude each other: give only one of them"
+        )
     if kappa is not None:
-        mu_kinetic = checks.in_interval("kappa, kinetic over static friction,", kappa, "(0, 1]") * mu
+        mu_kinetic = checks.in_interval("`kappa`, the ratio of kinetic to static friction,", kappa, "(0, 1]") * mu
     return SlidingBase(mu, mu_kinetic, slope_deg, slope_length, one_way)

@@ -1,4 +1,4 @@
-"""A rigid block whose base stands on springs at its four corners."""
+"""Rigid block on springs at its four corners."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CORNER_SIGNS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 """Signs of x and y of corners 1 to 4 of the base; corner 4 is the paper's ([Okumura1987]_ eq. (23))."""
 
 REFERENCE_MASS = 1000.0
-"""Mass, kg, of a block described by its frequencies alone: motions do not depend on it, forces are proportional to it."""
+"""Mass, kg, of a block given by its frequencies: without effect on motions, proportional to forces."""
 
 COORDINATES = ("x", "y", "z", "theta_x", "theta_y", "theta_z")
 """Order of the generalised coordinates; rotations are right-handed and multiplied by the depth b ([Okumura1987]_ eq. (3))."""
@@ -34,14 +34,14 @@ class SpringBlock:
     depth : float, m
         Side b of the base, along y.
     height : float, m
-        Height H; the centre of gravity is at half of it.
+        Height H; centre of gravity at half of it.
     mass : float, kg
-        Total mass m, spread evenly.
+        Total mass m, homogeneous.
     stiffness : (kx, ky, kz), N/m
-        Stiffness of the springs at EACH corner.
+        Stiffness of the springs at each corner.
     damping : float
-        Damping ratio, in [0, 1). Under harmonic shaking it is the paper's modal h, the same in each mode; under a record it is
-        the zeta of each corner dashpot, c = 2 zeta k / omega of its direction (derived here).
+        Damping ratio, in [0, 1). Harmonic motion: the paper's modal h, equal in all modes; records: zeta of each corner dashpot,
+        c = 2 zeta k / omega of its direction (derived here).
 
     Raises
     ------
@@ -51,7 +51,7 @@ class SpringBlock:
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------
@@ -74,7 +74,7 @@ class SpringBlock:
         checks.positive("mass of the block", self.mass, "kg", error=BodyError)
         warn_large_lengths(lazy_gettext("block"), width=self.width, depth=self.depth, height=self.height)
         if len(self.stiffness) != 3:
-            raise BodyError("stiffness takes three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
+            raise BodyError("stiffness requires three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
         for axis, value in zip("xyz", self.stiffness, strict=True):
             checks.positive("stiffness k{axis} of a corner", value, "N/m", error=BodyError, axis=axis)
         object.__setattr__(self, "stiffness", tuple(float(k) for k in self.stiffness))
@@ -150,16 +150,16 @@ class SpringBlock:
         return (1.0 + a2) / 12.0, (a2 + g2) / 12.0, (1.0 + g2) / 12.0
 
     def static_settlement(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return how far the block sinks under its weight, m g / 4 kz, m ([Okumura1987]_ section 2)."""
+        """Return the static settlement m g / 4 kz, m ([Okumura1987]_ section 2)."""
         return self.mass * gravity / (4.0 * self.stiffness[2])
 
     def static_corner_force(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return the weight that each corner carries at rest, N."""
+        """Return the static force at each corner, N."""
         return self.mass * gravity / 4.0
 
 
 def corner_jacobian(body: SpringBlock) -> FloatArray:
-    """Return what the corners move by, per unit of each generalised coordinate.
+    """Return the displacements of the corners per unit of each generalised coordinate.
 
     Returns
     -------
@@ -196,7 +196,7 @@ def dashpot_matrix(body: SpringBlock) -> FloatArray:
 
 
 def _sum_over_corners(body: SpringBlock, coefficients: list[float]) -> FloatArray:
-    """Return the matrix of equal elements at the corners whose sums in x, y and z are given."""
+    """Return the matrix of equal corner elements with given sums in x, y and z."""
     rows = corner_jacobian(body)
     total: FloatArray = np.einsum("ndi,d,ndj->ij", rows, np.array(coefficients) / 4.0, rows)
     return total

@@ -1,4 +1,4 @@
-"""A block on corner springs from what a user says of it, complete and without contradiction."""
+"""Block on corner springs from user parameters, with completeness checks."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ def spring_block(
     beta: float | None = None,
     damping: float | None = None,
 ) -> SpringBlock:
-    """Return the block that sizes, and either stiffnesses or frequencies, describe.
+    """Return the block of given sizes and either stiffnesses or frequencies.
 
     Parameters
     ----------
     width, depth, height : float, m
-        Depth left out is the width.
+        The depth defaults to the width.
     mass : float, kg
-        Required with `stiffness`; else 1000 kg when left out, and only forces depend on it.
+        Required with `stiffness`; otherwise default 1000 kg, which affects only forces.
     stiffness : (kx, ky, kz), N/m per corner
         Instead of `frequency_vertical` and `beta`.
     frequency_vertical : float, Hz
     beta : float
-        Horizontal over vertical frequency, 0.707 when left out.
+        Ratio of horizontal to vertical frequency, default 0.707.
     damping : float
-        0.05 when left out.
+        Damping ratio, default 0.05.
 
     Raises
     ------
     BodyError
-        If something is missing, contradicts another, or is not possible.
+        If a value is missing, contradictory or out of range.
 
     Examples
     --------
@@ -53,19 +53,19 @@ def spring_block(
     """
     if width is None or height is None:
         missing_name = "`width`" if width is None else "`height`"
-        raise BodyError("{missing} is missing: give `width` and `height`, for example 1.2 and 3 m", missing=missing_name)
+        raise BodyError("{missing} required: give `width` and `height`, for example 1.2 and 3 m", missing=missing_name)
     zeta = PAPER_DAMPING if damping is None else damping
     if stiffness is not None:
         if frequency_vertical is not None or beta is not None:
-            raise BodyError("`stiffness` says all of the springs: leave `frequency_vertical` and `beta` out")
+            raise BodyError("`stiffness` excludes `frequency_vertical` and `beta`: omit them")
         if mass is None:
-            raise BodyError("`stiffness` needs `mass`, kg, to say how fast the block moves on its springs")
+            raise BodyError("`stiffness` requires `mass`, kg, for the natural frequencies")
         if len(stiffness) != 3:
-            raise BodyError("`stiffness` takes three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
+            raise BodyError("`stiffness` requires three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
         kx, ky, kz = stiffness
         return SpringBlock(width, width if depth is None else depth, height, mass, (kx, ky, kz), zeta)
     if frequency_vertical is None:
-        raise BodyError("the springs have no stiffness: give `frequency_vertical` in Hz, or `mass` and `stiffness` kx,ky,kz in N/m")
+        raise BodyError("spring stiffness required: give `frequency_vertical` in Hz, or `mass` and `stiffness` kx,ky,kz in N/m")
     return SpringBlock.from_frequency(
         width,
         width if depth is None else depth,

@@ -1,4 +1,4 @@
-"""A list of bodies: a table with a row for each, or files that describe one each; what a museum or a cemetery keeps of its objects."""
+"""Tables of bodies (CSV), and body files, as specifications for solvers."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ NUMBER_COLUMNS = (
 TEXT_COLUMNS = ("name", "body", "surface", "side", "kind")
 POSITIVE_COLUMNS = ("width", "height", "depth", "centroid_height", "slope_length", "mass", "density", "frequency_vertical")
 SIGNED_COLUMNS = ("centroid_offset", "slope_deg")
-"""What may be negative: an offset has a side, a slope a direction. All other numbers are zero or more."""
+"""Columns that may be negative; all others are zero or more."""
 
 _JAPANESE_NAMES = {
     "width": ("幅",),
@@ -71,24 +71,24 @@ _UNITS = {
     "frequency_vertical": ("hz",),
     "slope_deg": ("deg", "degrees", "°"),
 }
-"""Units that may stand in the headings of numbers that have no other."""
+"""Units accepted in the headings of columns without other units."""
 
 MAX_LENGTH = 100.0
-"""A size beyond this, m, is taken for a number whose unit was forgotten."""
+"""Largest plausible size, m; larger numbers probably lack their unit."""
 
 
 @dataclass(frozen=True)
 class BodySpec:
-    """One body of a list: what was said of it, from which a solver takes what it needs.
+    """Specification of one body: parameters from which each solver takes those it needs.
 
     Parameters
     ----------
     name : str
-        As the answer calls it.
-    parameters : mapping of str to float, str or Inset
-        By the names of columns; lengths in m, masses in kg, the rest as the options of the same names.
+        Name in the results.
+    parameters : mapping of str to float, str or EdgeWear
+        Values by column name; lengths in m, masses in kg, others as the options of the same name.
     description : mapping or None
-        The TOML table of a body's own file.
+        TOML table of the body's file.
     source : str
         File, and line of a table, for messages.
     """
@@ -100,14 +100,14 @@ class BodySpec:
 
 
 def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...]:
-    """Return the bodies of some lists and files.
+    """Return the bodies of tables, body files and bundled names.
 
     A table (.csv) has a header that names its columns: ``name``; ``width``, ``height``, ``depth``, ``centroid_height``,
     ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in the cell, ``24cm``);
     ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``, ``surface``,
     ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
     ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block) beside sizes; and ``body``, a file or a bundled body whose
-    description a row takes, with ``side`` short or long. An empty cell says nothing. Any other name is a file that describes one body, or a
+    description the row uses, with ``side`` short or long. Empty cells are ignored. Any other name is a file that describes one body, or a
     bundled body.
 
     Parameters
@@ -116,13 +116,13 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
 
     Returns
     -------
-    tuple of ListedBody
-        In the order of the files and of their rows.
+    tuple of BodySpec
+        In the order of files and rows.
 
     Raises
     ------
     BodyError
-        If a file cannot be read, a column means nothing, or a row is wrong (rows are named by their line).
+        If a file cannot be read, a column is unknown, or a row is invalid (the message gives the line).
 
     Examples
     --------
@@ -132,30 +132,29 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     paths = [names] if isinstance(names, (str, Path)) else list(names)
     bodies = [body for name in paths for body in (_read_body_table(str(name)) if _is_table(name) else [_read_body_file(str(name))])]
     if not bodies:
-        raise BodyError("no body was named: give a table of bodies, a file that describes one, or a bundled body")
+        raise BodyError("body required: give a table of bodies, a file that describes one body, or a bundled body")
     check_limit(N_("bodies"), len(bodies), "SEISBLOCK_BODIES", error=BodyError)
     return tuple(bodies)
 
 
 def _is_table(name: str | Path) -> bool:
-    """Return whether a file is a table by its suffix."""
+    """Return whether a file is a table, by its suffix."""
     return Path(name).suffix.lower() in (".csv", ".tsv", ".txt")
 
 
 def _read_body_file(name: str) -> BodySpec:
-    """Return the body that a file describes, or a bundled one."""
+    """Return the body of a file or a bundled one."""
     table = read_body_toml(name)
     return BodySpec(Path(name).stem if Path(name).suffix else name, description=table, source=name)
 
 
 def _read_body_table(name: str) -> list[BodySpec]:
-    """Return the bodies of a table."""
     path = Path(name)
     if path.is_dir():
-        raise BodyError("{name} is a directory: give a CSV file with one body on each line", name=name)
+        raise BodyError("{name} is a folder: give a CSV file with one body on each line", name=name)
     lines = data_lines(read_text(path, name))
     if len(lines) < 2:
-        raise BodyError("{name}: there is no body in it: expected a header, and one body on each line below it", name=name)
+        raise BodyError("{name} contains no bodies: a header and one line per body are required", name=name)
     (header_line, header), rows = lines[0], lines[1:]
     separator = find_separator(header)
     columns, units = _parse_header(split_cells(header, separator), name, header_line)
@@ -176,13 +175,13 @@ def _read_body_table(name: str) -> list[BodySpec]:
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the meaning of each column, and the units in their names; a column that means nothing is a slip of the pen."""
+    """Return the meaning of each column and the units in the headings; unknown columns raise an error."""
     columns, units = [], {}
     for cell in cells:
         name, unit = parse_heading(cell, _COLUMNS)
         if not name:
             raise BodyError(
-                "{source}, line {line}: unknown column {cell!r}; known are {known}",
+                "{source}, line {line}: unknown column {cell!r}; known: {known}",
                 source=source,
                 line=line,
                 cell=cell[:100],
@@ -192,7 +191,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
             raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         if unit and name not in (*LENGTH_COLUMNS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
             raise BodyError(
-                "{source}, line {line}: column {cell!r} has the unit {unit!r}; expected {expected}",
+                "{source}, line {line}: unit {unit!r} of column {cell!r} is not known; known: {expected}",
                 source=source,
                 line=line,
                 cell=cell[:100],
@@ -202,15 +201,14 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
         units[name] = unit
         columns.append(name)
     if "name" not in columns:
-        raise BodyError("{source}, line {line}: expected a column name; found {found}", source=source, line=line, found=list(cells))
+        raise BodyError("{source}, line {line}: column name required; found {found}", source=source, line=line, found=list(cells))
     return columns, units
 
 
 def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) -> BodySpec:
-    """Return the body of one row."""
     name = row["name"]
     if not name:
-        raise BodyError("a body without a name: fill the cell")
+        raise BodyError("the name of a body is empty: fill the cell")
     values: dict[str, Any] = {}
     for key, cell in row.items():
         if key != "name" and cell:
@@ -220,7 +218,7 @@ def _parse_row(row: Mapping[str, str], units: Mapping[str, str], source: str) ->
 
 
 def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
-    """Return what a cell says, SI."""
+    """Return the value of a cell, SI."""
     if key in TEXT_COLUMNS:
         return cell
     if key == "inset":
@@ -230,12 +228,12 @@ def _parse_value(key: str, cell: str, unit: str) -> float | str | EdgeWear:
     if key in LENGTH_COLUMNS:
         value = parse_length_cell(cell, key, unit)
         if abs(value) > MAX_LENGTH:
-            raise BodyError("{key} of {value:g} m is no object's (without a unit it means metres)", key=key, value=value)
+            raise BodyError("{key} of {value:g} m is not plausible for an object (read as metres without a unit)", key=key, value=value)
         return _check_range(key, value, "m")
     return _check_range(key, parse_number_cell(cell, key))
 
 
 def _check_range(key: str, value: float, unit: str = "") -> float:
-    """Return a number that is not below what its column may hold, whichever solver reads it."""
+    """Return a number after the range check of its column."""
     check = checks.finite if key in SIGNED_COLUMNS else checks.positive if key in POSITIVE_COLUMNS else checks.non_negative
     return check("{key}", value, unit, key=key, error=BodyError)

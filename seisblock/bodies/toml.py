@@ -1,4 +1,4 @@
-"""Body descriptions as TOML: found by path, or by name among the bundled ones."""
+"""TOML body descriptions: files and bundled bodies, typed access to their entries."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from seisblock.core.units import parse_length, parse_mass
 from seisblock.samples import sample_directory
 
 MAX_QUOTED_LENGTH = 200
-"""How much of what stands in a file a message shows at most."""
+"""Largest number of quoted characters of a file in a message."""
 
 
 def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, Any]:
@@ -25,14 +25,14 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
     Parameters
     ----------
     name : str or Path
-        A file, or for example ``chozusha``.
+        File, or name of a bundled body such as ``chozusha``.
     kind : str or None
-        What kind is wanted: where there is no such file, no bundled body of another kind is offered.
+        Required kind: without such a file, only bundled bodies of this kind are suggested.
 
     Raises
     ------
     BodyError
-        If there is no such file or bundled body, or it is not TOML.
+        If there is no such file or bundled body, or the file is not TOML.
     """
     path = Path(checks.path(name))
     if not _exists(path):
@@ -40,67 +40,66 @@ def read_body_toml(name: str | Path, *, kind: str | None = None) -> dict[str, An
         if path.parent != Path() or not _exists(bundled):
             bundled_names = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST" and kind in (None, _kind(p)))
             raise BodyError(
-                "no body file {name}, and no bundled body of that name; bundled are {known}",
+                "no body file {name}, and no bundled body of that name; bundled: {known}",
                 name=str(name)[:MAX_QUOTED_LENGTH],
                 known=bundled_names,
             )
         path = bundled
     if path.is_dir():
-        raise BodyError("{name} is a directory: give a TOML file that describes a body", name=name)
+        raise BodyError("{name} is a folder: give a TOML file that describes a body", name=name)
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty: give a TOML file that describes a body", name=name)
     try:
         table = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise BodyError("{name} is no text in UTF-8: give a TOML file that describes a body, saved as UTF-8", name=name) from error
-    except (ValueError, RecursionError) as error:  # no TOML, a date that is none, lists in lists in lists
-        raise BodyError("{name} is not a TOML description of a body: {reason}", name=str(name), reason=str(error)) from error
+        raise BodyError("{name} is not UTF-8 text: give a TOML file that describes a body, saved as UTF-8", name=name) from error
+    except (ValueError, RecursionError) as error:  # invalid TOML or date, or nesting too deep
+        raise BodyError("{name} is not valid TOML: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
 
 
 def _kind(path: Path) -> str:
-    """Return the kind of a bundled body."""
     return str(tomllib.loads(path.read_text(encoding="utf-8"))["kind"])
 
 
 def _exists(path: Path) -> bool:
-    """Return whether there is a file of that name, whatever stands in the name."""
+    """Return whether a file exists; False for names that the system rejects."""
     try:
         return path.exists()
-    except OSError:  # too long for a name
+    except OSError:  # name too long for the system
         return False
 
 
 def source_name(table: Mapping[str, Any]) -> str:
-    """Return what messages call a table."""
+    """Return the name of a table in messages."""
     source = table.get("source") or lazy_gettext("body")
     return source if isinstance(source, str) else str(source)
 
 
 def get_number(table: Mapping[str, Any], key: str) -> float | None:
-    """Return an optional finite number, None where the table is silent."""
+    """Return an optional finite number, None if missing."""
     value = table.get(key)
     return None if value is None else checks.finite("{source}: {key}", value, error=BodyError, source=source_name(table), key=key)
 
 
 def get_text(table: Mapping[str, Any], key: str, default: str) -> str:
-    """Return an optional text."""
+    """Return an optional string."""
     return _check_text(table.get(key, default), table, key)
 
 
 def get_texts(table: Mapping[str, Any], key: str) -> tuple[str, ...]:
-    """Return an optional list of texts, empty where the table is silent."""
+    """Return an optional list of strings, empty if missing."""
     return tuple(_check_text(value, table, key) for value in _check_list(table.get(key, []), table, key))
 
 
 def get_text_groups(table: Mapping[str, Any], key: str) -> tuple[tuple[str, ...], ...]:
-    """Return an optional list of lists of texts, empty where the table is silent."""
+    """Return an optional list of lists of strings, empty if missing."""
     return tuple(get_texts({**table, key: group}, key) for group in _check_list(table.get(key, []), table, key))
 
 
 def get_subtable(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    """Return an optional table within a table, which goes by the name of both in messages."""
+    """Return an optional subtable, named by both in messages."""
     value = table.get(key, {})
     if not isinstance(value, Mapping):
         raise BodyError("{source}: {key} must be a table, found {found}", source=source_name(table), key=key, found=quote_value(value))
@@ -108,11 +107,11 @@ def get_subtable(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
 
 
 def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
-    """Refuse a key that means nothing, which is a slip of the pen."""
+    """Raise an error for unknown keys."""
     unknown_keys = sorted(set(table) - {*allowed, "source"})
     if unknown_keys:
         raise BodyError(
-            "{source}: unknown entries {unknown}; known are {known}",
+            "{source}: unknown entries {unknown}; known: {known}",
             source=source_name(table),
             unknown=[key[:MAX_QUOTED_LENGTH] for key in unknown_keys],
             known=sorted(allowed),
@@ -120,58 +119,55 @@ def check_keys(table: Mapping[str, Any], allowed: Collection[str]) -> None:
 
 
 def quote_value(value: Any) -> str:
-    """Return a value as a message shows it."""
+    """Return a value as shown in a message."""
     return repr(value)[:MAX_QUOTED_LENGTH]
 
 
 def check_kind(table: Mapping[str, Any], kind: str) -> None:
-    """Refuse a table that describes another kind of body."""
+    """Raise an error for a table of another kind of body."""
     actual = table.get("kind")
     if actual != kind:
-        raise BodyError(
-            '{source}: expected kind = "{kind}", found {found}', source=source_name(table), kind=kind, found=quote_value(actual)
-        )
+        raise BodyError('{source}: kind must be "{kind}", found {found}', source=source_name(table), kind=kind, found=quote_value(actual))
 
 
 def get_length(table: Mapping[str, Any], key: str) -> float:
-    """Return a required length in metres; a text may carry a unit."""
+    """Return a required length, m; a string may carry a unit."""
     return parse_length(_require(table, key), quantity=lazy_gettext("{source}: {key}", source=source_name(table), key=key))
 
 
 def get_lengths(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
-    """Return a required list of lengths in metres."""
+    """Return a required list of lengths, m."""
     label = lazy_gettext("{source}: {key}", source=source_name(table), key=key)
     return tuple(parse_length(entry, quantity=label) for entry in entries(table, key, count))
 
 
 def get_edge_wear(table: Mapping[str, Any]) -> EdgeWear:
-    """Return the inset of a table: a text with a length or a share, or a share of the width per side; sharp where there is none.
+    """Return the edge wear of a table: string with length or share, or number as share; sharp if missing.
 
     Examples
     --------
     >>> get_edge_wear({"inset": "1cm"}), get_edge_wear({"inset": 0.1}).share, get_edge_wear({}).share
-    (Inset(length_m=0.01, share=0.0), 0.1, 0.0)
+    (EdgeWear(length_m=0.01, share=0.0), 0.1, 0.0)
     """
     value = table.get("inset")
     return parse_edge_wear(value) if isinstance(value, str) else EdgeWear(share=get_number(table, "inset") or 0.0)
 
 
 def get_mass(table: Mapping[str, Any], key: str) -> float:
-    """Return a required mass in kilograms; a text may carry a unit."""
+    """Return a required mass, kg; a string may carry a unit."""
     return parse_mass(_require(table, key), quantity=lazy_gettext("{source}: {key}", source=source_name(table), key=key))
 
 
 def get_masses(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
-    """Return a required list of masses in kilograms."""
+    """Return a required list of masses, kg."""
     label = lazy_gettext("{source}: {key}", source=source_name(table), key=key)
     return tuple(parse_mass(entry, quantity=label) for entry in entries(table, key, count))
 
 
 def _require(table: Mapping[str, Any], key: str) -> Any:
-    """Return an entry that must be there."""
     if key not in table:
         raise BodyError(
-            "{source}: {key} is missing; it has {known}", source=source_name(table), key=key, known=[k for k in table if k != "source"]
+            "{source}: {key} is missing; entries: {known}", source=source_name(table), key=key, known=[k for k in table if k != "source"]
         )
     return table[key]
 
@@ -191,14 +187,12 @@ def entries(table: Mapping[str, Any], key: str, count: int) -> Sequence[Any]:
 
 
 def _check_list(value: Any, table: Mapping[str, Any], key: str) -> Sequence[Any]:
-    """Return what must be a list."""
     if not isinstance(value, list):
         raise BodyError("{source}: {key} must be a list, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value
 
 
 def _check_text(value: Any, table: Mapping[str, Any], key: str) -> str:
-    """Return what must be a text."""
     if not isinstance(value, str):
-        raise BodyError("{source}: {key} must be a text, found {found}", source=source_name(table), key=key, found=quote_value(value))
+        raise BodyError("{source}: {key} must be a string, found {found}", source=source_name(table), key=key, found=quote_value(value))
     return value

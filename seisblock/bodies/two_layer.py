@@ -1,4 +1,4 @@
-"""The two-layer rigid block: a light lower layer that carries a heavy upper one."""
+"""Two-layer rigid block: a light lower layer below a heavy upper layer."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class TwoLayerBlock:
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
     """
 
     width: float
@@ -127,7 +127,7 @@ class TwoLayerBlock:
         return self.upper_mass * upper + self.lower_mass * lower
 
     def as_block(self) -> Block:
-        """Return it as one rigid block: same base, mass, centre and inertia."""
+        """Return the block as one homogeneous rigid block with the same base, mass, centre and inertia."""
         return Block(
             self.width,
             self.height,
@@ -139,23 +139,23 @@ class TwoLayerBlock:
         )
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Horizontal ground acceleration above which it rocks, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""
+        """Return the ground acceleration at which rocking starts, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""
         return gravity * (self.width / 2) / self.centroid_height
 
 
 @dataclass(frozen=True)
 class Contact:
-    """Friction and restitution between a block and what it stands on.
+    """Friction and restitution between a block and the ground.
 
     Parameters
     ----------
     mu : float
         Coefficient of static friction, zero or more.
     mu_kinetic : float or None
-        Coefficient of kinetic friction, 0 to `mu`; as `mu` when left out.
+        Coefficient of kinetic friction, 0 to `mu`; default `mu`.
     restitution_x, restitution_y : float
-        Ratios of velocities at the impact, horizontal and vertical, 0 to 1 ([Sugimoto2017]_ eq. (6)); when left out those that
-        [Sugimoto2017]_ section 4 takes from impacts of a plastic on steel.
+        Ratios of velocities at the impact, horizontal and vertical, 0 to 1 ([Sugimoto2017]_ eq. (6)); defaults from [Sugimoto2017]_
+        section 4, impacts of a plastic on steel.
 
     Raises
     ------
@@ -174,7 +174,7 @@ class Contact:
     restitution_y: float = 0.85
 
     def __post_init__(self) -> None:
-        checks.non_negative("mu, the static friction coefficient,", self.mu)
+        checks.non_negative("the static friction coefficient `mu`", self.mu)
         checks.non_negative("the kinetic friction coefficient", self.kinetic)
         checks.fraction("restitution x", self.restitution_x)
         checks.fraction("restitution y", self.restitution_y)
@@ -185,12 +185,12 @@ class Contact:
 
     @property
     def kinetic(self) -> float:
-        """Coefficient of kinetic friction, given or the static one."""
+        """Kinetic friction coefficient, given or the static one."""
         return self.mu if self.mu_kinetic is None else self.mu_kinetic
 
 
 def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:
-    """Return the block that a TOML table describes, moving along one of its sides.
+    """Return the block described by a TOML table, moving along one of its sides.
 
     Parameters
     ----------
@@ -198,12 +198,12 @@ def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLa
         ``kind = "two-layer"``, ``heights`` = [h1, h2], ``masses`` = [m1, m2], and either ``width`` and ``depth`` or
         ``short`` and ``long``, the two sides in plan.
     side : "short" or "long"
-        Which side lies along the motion, where the table gives both.
+        Side along the motion, for a table with both.
 
     Raises
     ------
     BodyError
-        If something is missing or of the wrong kind.
+        If an entry is missing or of the wrong type.
     """
     check_kind(table, "two-layer")
     upper_height, lower_height = get_lengths(table, "heights", 2)
@@ -225,26 +225,26 @@ def two_layer_from_table(table: Mapping[str, Any], side: str = "short") -> TwoLa
 
 
 def contact_from_table(table: Mapping[str, Any]) -> Mapping[str, float]:
-    """Return the friction and restitution that a preset brings along, empty when it brings none."""
+    """Return friction and restitution of a preset, empty if it has none."""
     values = get_subtable(table, "contact")
     check_keys(values, _CONTACT_KEYS)
     return {key: value for key in _CONTACT_KEYS if (value := get_number(values, key)) is not None}
 
 
 def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
-    """Return the two-layer block of a TOML file, or a bundled one such as ``chozusha``.
+    """Return the two-layer block of a TOML file or a bundled one such as ``chozusha``.
 
     Parameters
     ----------
     name : str or Path
         ``kind = "two-layer"``, see :func:`two_layer_from_table`.
     side : "short" or "long"
-        Which side lies along the motion, where the file gives both.
+        Side along the motion, for a file with both.
 
     Raises
     ------
     BodyError
-        If there is no such body, something is missing, or it is of another kind.
+        If there is no such body, an entry is missing, or the kind is another.
 
     Examples
     --------
@@ -255,17 +255,17 @@ def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
 
 
 def load_contact(name: str | Path) -> Contact:
-    """Return the friction and restitution of a two-layer block that a TOML file, or a bundled body, brings along.
+    """Return friction and restitution of a two-layer block in a TOML file or a bundled body.
 
     Parameters
     ----------
     name : str or Path
-        With a table ``contact`` of ``mu`` and whatever else :class:`Contact` takes.
+        TOML file or bundled name, with a table ``contact`` of ``mu`` and the other parameters of :class:`Contact`.
 
     Raises
     ------
     BodyError
-        If there is no such body, or it says nothing of friction.
+        If there is no such body, or it has no friction.
 
     Examples
     --------
@@ -275,5 +275,5 @@ def load_contact(name: str | Path) -> Contact:
     table = read_body_toml(name)
     values = contact_from_table(table)
     if "mu" not in values:
-        raise BodyError("{name} brings no friction of its own: make a Contact(mu=...)", name=table.get("name", name))
+        raise BodyError("friction required: {name} defines none; use Contact(mu=...)", name=table.get("name", name))
     return Contact(**values)

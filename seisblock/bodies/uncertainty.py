@@ -1,4 +1,4 @@
-"""Ranges of a kind of body: priors of worn edges and friction, and the sizes that are usual."""
+"""Parameter ranges of a kind of body: priors of edge wear and friction, usual sizes."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.units import parse_length
 
 Range = tuple[float, float]
-"""Least and largest."""
+"""Smallest and largest value."""
 
 
 @dataclass(frozen=True)
 class ParameterRanges:
-    """Limits of the bodies of a kind; None where they are not known.
+    """Parameter ranges of a kind of body; None where unknown.
 
-    Samples of a body are drawn from the ranges of its edges and its friction, values that nobody has measured on this one. Its width and
-    height are known, and vary by their own tolerance, whatever the sizes of its kind are.
+    Samples of a body are drawn from the ranges of edge wear and friction, which are unknown for the individual body. Its width and height
+    are known and vary by their own tolerance, independent of the sizes of the kind.
 
     Parameters
     ----------
     width_m, height_m : (float, float) or None, m
-        Usual sizes of the kind, along the motion and overall; not drawn from.
+        Usual sizes of the kind, along the motion and overall; not used for samples.
     inset_m : (float, float) or None, m
         Distance of the worn edges from each side.
     mu : (float, float) or None, 1
@@ -36,7 +36,7 @@ class ParameterRanges:
     Raises
     ------
     BodyError
-        If a range runs backwards, a number lies outside its own range, or an inset leaves nothing of the narrowest base.
+        If a range is reversed, a number lies outside its valid range, or an inset leaves no base at the smallest width.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class ParameterRanges:
                 continue
             low, high = (check("the range of {name}", value, error=BodyError, name=name) for value in limits)
             if low > high:
-                text = "the range of {name} runs from {low:g} to {high:g}: tell the lesser number first"
+                text = "the range of {name} runs from {low:g} to {high:g}: give the smaller number first"
                 raise BodyError(text, name=name, low=low, high=high)
             object.__setattr__(self, key, (low, high))
         if self.inset_m is not None and self.width_m is not None and self.inset_m[1] >= self.width_m[0] / 2:
@@ -65,39 +65,38 @@ class ParameterRanges:
 
     @property
     def description(self) -> Message:
-        """The ranges in words."""
+        """The ranges as text."""
         width = _format_range(self.width_m, N_("width {low:.4g} to {high:.4g} m"))
         height = _format_range(self.height_m, N_("height {low:.4g} to {high:.4g} m"))
         return lazy_gettext("{parts}", parts=[part for part in (width, height, self.edges_text, self.friction_text) if part is not None])
 
     @property
     def priors(self) -> ParameterRanges | None:
-        """The ranges that samples are drawn from, edges and friction; None where there is neither."""
+        """The ranges from which samples are drawn (edges and friction); None without them."""
         return self.without("width_m", "height_m")
 
     @property
     def edges_text(self) -> Message | None:
-        """The range of the worn edges, in words."""
-        return _format_range(self.inset_m, N_("edges {low:.4g} to {high:.4g} m in"))
+        """The range of the edge wear as text."""
+        return _format_range(self.inset_m, N_("edges worn by {low:.4g} to {high:.4g} m"))
 
     @property
     def friction_text(self) -> Message | None:
-        """The range of the friction, in words."""
+        """The range of the friction as text."""
         return _format_range(self.mu, N_("mu {low:g} to {high:g}"))
 
     def without(self, *names: str) -> ParameterRanges | None:
-        """Return the ranges but for some, which are known; None where none is left."""
+        """Return the ranges without those of known parameters; None if none is left."""
         remaining_ranges = replace(self, **dict.fromkeys(names))
         return remaining_ranges if remaining_ranges != ParameterRanges() else None
 
 
 def _format_range(limits: Range | None, text: str) -> Message | None:
-    """Return a range in words, None where there is none."""
     return None if limits is None else lazy_gettext(text, low=limits[0], high=limits[1])
 
 
 def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | None]) -> ParameterRanges | None:
-    """Return the ranges of a body's file, None where it tells none.
+    """Return the ranges in a body's table, None without ``[ranges]``.
 
     Parameters
     ----------
@@ -105,12 +104,12 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         Of the body; ``[ranges]`` in it holds two numbers for each of ``width``, ``height`` and ``inset`` (m, or with a unit; an inset also
         in per cent of the width) and ``mu``.
     body_values : mapping
-        What the body itself has of these, which must lie in them.
+        Values of the body, which must lie in the ranges.
 
     Raises
     ------
     BodyError
-        If it says something else, or the body lies outside its own ranges.
+        If the table is invalid, or the body lies outside its ranges.
     """
     if "ranges" not in table:
         return None
@@ -130,7 +129,7 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         name = key.removesuffix("_m")
         body_value = body_values.get(name)
         if body_value is not None and not low * (1 - 1e-9) <= body_value <= high * (1 + 1e-9):
-            text = "{source}: {key} is {own:g} in the body, outside its range of {low:g} to {high:g}"
+            text = "{source}: {key} of the body is {own:g}, outside its range of {low:g} to {high:g}"
             raise BodyError(text, source=source_name(range_table), key=name, own=body_value, low=low, high=high)
     try:
         return ParameterRanges(**limits)  # type: ignore[arg-type]
@@ -138,15 +137,14 @@ def parse_ranges(table: Mapping[str, Any], body_values: Mapping[str, float | Non
         raise BodyError("{source}: {why}", source=source_name(range_table), why=error.message) from error
 
 
-def _inset(told: Mapping[str, Any], end: Any, width: float | None) -> float:
-    """Return one end of the range of the edges, m: per cent are of the body's width."""
+def _inset(table: Mapping[str, Any], end: Any, width: float | None) -> float:
+    """Return one end of the inset range, m; percentages refer to the body's width."""
     if width is not None and isinstance(end, str) and "%" in end:
         return parse_edge_wear(end).inset(width)
-    return parse_length(end, quantity=lazy_gettext("{source}: {key}", source=source_name(told), key="inset"))
+    return parse_length(end, quantity=lazy_gettext("{source}: {key}", source=source_name(table), key="inset"))
 
 
 def _parse_pair(range_table: Mapping[str, Any]) -> list[Any]:
-    """Return the two numbers of the friction."""
     value = range_table["mu"]
     if not isinstance(value, list) or len(value) != 2:
         raise BodyError("{source}: mu must be a list of 2 numbers, found {found}", source=source_name(range_table), found=repr(value)[:40])

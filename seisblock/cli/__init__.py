@@ -1,7 +1,7 @@
-"""The command line: a thin shell whose one job is to be polite.
+"""Command-line entry point: a click group with lazily imported commands.
 
-``main`` is a click group that imports a command's module only when that command is asked for, so that
-``seisblock --help`` loads nothing heavy. It is also the only place that catches :class:`SeisblockError`.
+``main`` is a click group that imports the module of a command on use, so that ``seisblock --help`` starts fast. Only the group catches
+:class:`SeisblockError`.
 """
 
 from __future__ import annotations
@@ -30,62 +30,61 @@ from seisblock.core.i18n import N_, escape_control, gettext, lazy_gettext, trunc
 from seisblock.core.io.overwrite import track_files
 
 COMMANDS: dict[str, tuple[str, str]] = {
-    "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
+    "measure": ("seisblock.cli.measure:measure", "Intensity measures of a record: peaks, frequencies, durations, JMA intensity."),
     "respond": (
         "seisblock.cli.respond:respond",
-        "What a free-standing object does: rests, slides, rocks, flies, falls, whichever comes.",
+        "Full response: rest, sliding, rocking, flight, overturning.",
     ),
     "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
-    "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
+    "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with margins."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
-    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
-    "stack": ("seisblock.cli.stack:stack", "A pile of stones in three dimensions: gravestones, lanterns, columns."),
-    "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
-    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
-    "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
-    "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
-    "body": ("seisblock.cli.body:body", "The body of a scan: mass, inertia, base, and how easily it turns in each direction."),
-    "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
-    "map": ("seisblock.cli.map:map", "An earthquake's stations, and what it did to a body or a cemetery at each."),
-    "fragility": ("seisblock.cli.fragility:fragility", "How likely an object falls, slides or rocks, against the shaking's intensity."),
-    "risk": ("seisblock.cli.risk:risk", "How often it happens at a site: a fragility and the hazard there."),
-    "fit": ("seisblock.cli.fit:fit", "The block that explains which shakings made it fall, and how well it foretells others."),
-    "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
-    "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
-    "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
-    "schema": ("seisblock.cli.schema:schema", "The keys of a command's JSON document, with meaning and unit, as JSON Schema."),
-    "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
-    "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
+    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic motion."),
+    "stack": ("seisblock.cli.stack:stack", "Pile of stones in three dimensions: gravestones, lanterns, columns."),
+    "criteria": ("seisblock.cli.criteria:criteria", "Closed-form overturning criteria beside the simulated outcome."),
+    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning spectra over size and slenderness."),
+    "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Overturning rate of the gravestones of a cemetery."),
+    "infer": ("seisblock.cli.infer:infer", "Ground motion estimated from fallen gravestones or displaced objects."),
+    "body": ("seisblock.cli.body:body", "Rigid-body properties of a 3-D scan: mass, inertia, base, slenderness."),
+    "batch": ("seisblock.cli.batch:batch", "Table of many records and many bodies, on all cores or a cluster."),
+    "map": ("seisblock.cli.map:map", "Map of an earthquake's stations with the response of a body or a cemetery."),
+    "fragility": ("seisblock.cli.fragility:fragility", "Fragility curves: overturning, sliding or rocking against intensity."),
+    "risk": ("seisblock.cli.risk:risk", "Annual frequency at a site: fragility and seismic hazard."),
+    "fit": ("seisblock.cli.fit:fit", "Block parameters from observed overturning, with cross-validation."),
+    "report": ("seisblock.cli.report:report", "HTML report of a record and the response of bodies."),
+    "validate": ("seisblock.cli.validate:validate", "Numbers printed in the papers beside the computed ones."),
+    "cite": ("seisblock.cli.cite:cite", "References of a command, as text or BibTeX."),
+    "schema": ("seisblock.cli.schema:schema", "JSON Schema of a command's JSON document."),
+    "samples": ("seisblock.cli.samples:samples", "Bundled records and bodies: list or copy."),
+    "completion": ("seisblock.cli.completion:completion", "Shell completion for bash, zsh and fish."),
 }
-"""Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
+"""Command name: (module:attribute, one-line help). Kept here so that ``--help`` imports no command."""
 
 EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
-"""Two lines to begin with, at the end of the help."""
+"""Example lines at the end of the help."""
 
 PARAMETER = re.compile(r"`(\w+)`")
-"""A parameter's name in a sentence of the library."""
+"""Parameter name in a message of the library."""
 
 COMPLETION_VARIABLE = "_SEISBLOCK_COMPLETE"
-"""What a shell sets that asks for completions."""
+"""Environment variable that a shell sets to request completions."""
 
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 
 
 def with_option_names(text: str, ctx: click.Context) -> str:
-    """Return a sentence in which the library names its parameters, `` `dt` ``, with the names of the command's options, ``--dt``."""
+    """Return a message with parameter names (`` `dt` ``) replaced by the command's option names (``--dt``)."""
     command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
     names = {parameter.name: parameter.opts[0] for parameter in command.params if isinstance(parameter, click.Option)} if command else {}
     return PARAMETER.sub(lambda match: names.get(match[1], match[1]), text)
 
 
 def _report_interrupt() -> None:
-    """Say on stderr that the run was interrupted."""
-    click.echo(f"\nseisblock: {gettext('interrupted; no half-written file is left')}", err=True)
+    click.echo(f"\nseisblock: {gettext('interrupted; no partially written file remains')}", err=True)
 
 
 class SeisblockGroup(click.Group):
-    """A group that loads commands lazily and turns errors into one sentence and an exit code."""
+    """Click group that imports commands lazily and maps errors to a message and an exit code."""
 
     context_class = Context
 
@@ -100,11 +99,11 @@ class SeisblockGroup(click.Group):
         self.format_commands(ctx, formatter)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names in the order in which a user meets them."""
+        """Return the command names in the order of the help."""
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import the module of one command."""
+        """Import the module of a command and return the command."""
         if cmd_name not in COMMANDS:
             return None
         module, attribute = COMMANDS[cmd_name][0].split(":")
@@ -112,19 +111,19 @@ class SeisblockGroup(click.Group):
         return command
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the line apart."""
+        """Parse the arguments; unknown options get a suggestion."""
         with suggest_options(self, ctx):
             return super().parse_args(ctx, args)
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command that is named; of one that is not there, ask for the nearest."""
+        """Return the command of a line; an unknown name gets a suggestion."""
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
             raise click.UsageError(did_you_mean(error.message, closest_name(args[0], COMMANDS)), ctx) from None
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Complete the names of commands without importing them."""
+        """Complete command names without importing the commands."""
         names = [CompletionItem(name, help=gettext(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
         return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
@@ -137,8 +136,8 @@ class SeisblockGroup(click.Group):
                 formatter.write(f"  {line}\n")
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
-        """Run the command; errors of the user become a message on stderr and an exit code."""
-        # the largest matrix here is of twelve rows: threads of the linear algebra would only wait for one another
+        """Run the command; user errors become a message on stderr and an exit code."""
+        # the largest matrix has twelve rows: BLAS threads would only add synchronization cost
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
@@ -154,7 +153,7 @@ class SeisblockGroup(click.Group):
                 raise
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Take the line apart; Ctrl-C meanwhile ends as it does later, where click would say that it aborted."""
+        """Parse the arguments; an interrupt during parsing exits as one during the run (click would print "Aborted!")."""
         try:
             return super().make_context(*args, **extra)
         except KeyboardInterrupt:
@@ -162,8 +161,8 @@ class SeisblockGroup(click.Group):
             raise click.exceptions.Exit(INTERRUPTED) from None
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Invoke the command and report what the user can mend."""
-        translate = bind_locale()  # kernels are compiled in other threads, too
+        """Invoke the command and report user errors."""
+        translate = bind_locale()  # kernels compile in other threads, which have no locale context
         _jit.on_message, _jit.on_compile = lambda message: info(translate(message)), lambda task: progress(translate(task))
         reset_warnings()
         try:
@@ -179,19 +178,19 @@ class SeisblockGroup(click.Group):
             _report_interrupt()
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
-            # the reader went away (| head): nothing to say, and nothing may be flushed at exit
+            # the reader closed the pipe (| head): no message, and no flush at exit
             discard_stdout()
             ctx.exit(BROKEN_PIPE)
         except Terminated:
             ctx.exit(TERMINATED)
         except MemoryError:
-            text = gettext("this takes more memory than there is: cut a window out of the record, or ask for less at a time")
+            text = gettext("not enough memory: shorten the record with --window, or reduce the number of samples, levels or bodies")
             click.secho(f"seisblock: {text}", fg="red", err=True)
             ctx.exit(SeisblockError.exit_code)
         except OSError as error:
             discard_stdout()
             write_error = gettext(
-                "cannot write {file}: {error}", file=error.filename or lazy_gettext("the answer"), error=os_error_text(error)
+                "cannot write {file}: {error}", file=error.filename or lazy_gettext("the results"), error=os_error_text(error)
             )
             click.secho(f"seisblock: {write_error}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
@@ -202,10 +201,10 @@ class SeisblockGroup(click.Group):
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(__version__, prog_name="seisblock", help=N_("Show the version and exit."))
 def main() -> None:
-    """Tell what ground motion does to objects that nobody bolted down.
+    """Seismic response of unanchored objects: sliding, rocking, overturning.
 
-    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded bundle), PEER AT2,
-    CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
+    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded archive), PEER AT2, CSMIP,
+    COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or any format that ObsPy reads. Default: a bundled sample record.
     """
 
 

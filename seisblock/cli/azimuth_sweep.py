@@ -1,4 +1,4 @@
-"""``--component all-azimuths``: every direction of a record, and the worst of them."""
+"""Azimuth sweep (``--component all-azimuths``): all azimuths of a record and the worst of them."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 
 def is_azimuth_sweep(source: Source) -> bool:
-    """Return whether every direction is asked for."""
+    """Return whether ``--component all-azimuths`` was given."""
     return [name.lower() for name in source.component] == [ALL_AZIMUTHS]
 
 
 def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> Iterator[tuple[Motion, Sequence[Any]]]:
-    """Yield each motion asked for; the worst direction, with all of them, where they are all asked for.
+    """Yield each selected motion; in a sweep, the motion of the worst azimuth with the results of all azimuths.
 
     Parameters
     ----------
     source : Source
     solve : callable
-        Returns what became of the body in each direction of a record, the worst first.
+        Returns the results of all azimuths of a record, the worst first.
     """
     from seisblock.records import motion_of
 
@@ -39,18 +39,18 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
         return
     for record in load_records(replace(source, component=())):
         results = solve(record)
-        info("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
+        info("worst of {count} azimuths: {azimuth:g} degrees", count=len(results), azimuth=results[0].azimuth_deg)
         yield motion_of(record, f"{results[0].azimuth_deg:g}"), results
 
 
 def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
-    """Return what draws the directions, None where they were not looked in."""
-    if not any("directions" in extra for extra in extras):
+    """Return a function that draws the azimuth sweep, None without a sweep."""
+    if not any("azimuths" in extra for extra in extras):
         return None
 
     def draw() -> Figure:
         from seisblock.report.figures.azimuths import figure
 
-        return figure(responses, [extra["directions"] for extra in extras], gal=gal)
+        return figure(responses, [extra["azimuths"] for extra in extras], gal=gal)
 
     return draw

@@ -1,4 +1,4 @@
-"""``seisblock batch``: many records, many bodies, one table."""
+"""``seisblock batch``: one table of many records and many bodies."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_bodies(),
     section="Body",
-    help="A table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; may be repeated.",
+    help="Table of bodies (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; may be repeated.",
 )
-@option("--solver", type=SuggestingChoice(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
-@option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
-@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
+@option("--solver", type=SuggestingChoice(SOLVERS), default="respond", show_default=True, help="Model that computes the response.")
+@option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies without a friction of their own.")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(
     "--runs",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
     default=0,
     show_default=True,
-    help="Perturbed runs behind a probability; 0 for none.",
+    help="Perturbed samples for the overturning probability; 0 for none.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of those runs.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
 @gravity_option
 @option(
     "--out",
@@ -53,18 +53,18 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     required=True,
     section="Output",
     metavar="FILE",
-    help="Write the table: a row for each record, component and body; .csv or .parquet.",
+    help="Write the table (.csv or .parquet): one row for each record, component and body.",
 )
-@option("--resume", is_flag=True, section="Output", help="Go on with a table whose writing was interrupted; what is finished is kept.")
-@option("--force", is_flag=True, section="Output", help="Begin anew, whatever is there.")
-@option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Threads on this machine. [default: as many as there are cores]")
+@option("--resume", is_flag=True, section="Output", help="Continue an interrupted table; finished records are kept.")
+@option("--force", is_flag=True, section="Output", help="Start again and replace an existing table.")
+@option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Number of threads. [default: number of cores]")
 @option(
     "--cluster",
     metavar="ADDRESS|local:N",
-    help="Work on a Dask scheduler that is there, tcp://host:8786, or on N processes of this machine.",
+    help="Dask scheduler tcp://host:8786, or number N of local Dask processes.",
 )
-@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout: what the table comes to.")
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@option("--json", "as_json", is_flag=True, section="Output", help="Print a summary of the table as one JSON document on stdout.")
+@option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
 def batch(
     source: Source,
     bodies: tuple[str, ...],
@@ -80,12 +80,12 @@ def batch(
     seed: int,
     **options: Any,
 ) -> None:
-    """Follow many bodies through many records: one table, a row for each record, component and body.
+    """Table of the responses of many bodies to many records: one row for each record, component and body.
 
-    RECORD may be a folder, a pattern, a list (@records.txt) or a bundle, each station of which is a record. What cannot be read or
-    followed is a row with its reason. --component all-azimuths looks in every direction, in steps of 5 degrees, and has one row for each
-    record and body: that of the direction which is worst for it. Finished records are kept in FILE.journal until the table is whole:
-    --resume goes on.
+    RECORD may be a folder, a pattern, a list (@records.txt) or an archive, each station of which is one record. A record that cannot
+    be read or a body that cannot be solved gives a row with the reason. --component all-azimuths sweeps all azimuths in steps of 5
+    degrees and writes one row for each record and body: that of its worst azimuth. Finished records are kept in FILE.journal until
+    the table is complete; --resume continues from there.
     """
     from seisblock.cli.run_batch import BatchRequest, run_batch
 

@@ -1,4 +1,4 @@
-"""``seisblock body``: the body of a scan, and how easily it turns in each direction."""
+"""``seisblock body``: rigid-body properties of a 3-D scan."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.console import info
 from seisblock.cli.options import check_callback, gravity_option, output_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import INSET, LENGTH
 from seisblock.cli.write_results import write_results
@@ -37,7 +37,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     metavar="SCAN",
     section="Body",
     shell_complete=shell_completion.complete_scans,
-    help="A closed surface of triangles: an .stl, .ply or .obj file, or the bundled boulder.ply.",
+    help="Closed triangle mesh: .stl, .ply or .obj file, or the bundled boulder.ply.",
 )
 @option(
     "--density",
@@ -47,30 +47,36 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     callback=_positive,
     section="Body",
     metavar="KG/M3",
-    help="Density, kg/m^3; the motion does not depend on it.",
+    help="Density, kg/m^3; without effect on the motion.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
     section="Body",
-    help="How far in from each side of the base its worn edges lie: a share of the base's least width (0.1, 10%), or m with a unit (1cm). "
-    "[default: 0]",
+    help="Inset of worn edges from each side of the base: share of the smallest width (0.1, 10%), or m with a unit (1cm). [default: 0]",
 )
 @option(
     "--tolerance",
     type=LENGTH,
     section="Body",
-    help="How far above the ground a point may lie that carries, m or with a unit. [default: 0.002 of the largest extent]",
+    help="Height above the ground up to which points carry load, m or with a unit. [default: 0.002 of the largest extent]",
 )
-@option("--unit", type=click.Choice(list(LENGTH_UNITS)), default="m", show_default=True, section="Body", help="Unit of the file's numbers.")
+@option(
+    "--unit",
+    type=click.Choice(list(LENGTH_UNITS)),
+    default="m",
+    show_default=True,
+    section="Body",
+    help="Unit of the coordinates in the file.",
+)
 @option(
     "--up",
     type=click.Choice(UPWARD),
     default="z",
     show_default=True,
     section="Body",
-    help="The file's axis that points upwards; its x stays x, or y stays y where that is x.",
+    help="Axis of the file that points upwards; x stays x (y stays y where x points upwards).",
 )
 @option(
     "--facing",
@@ -80,17 +86,21 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     callback=_finite,
     metavar="DEG",
     section="Body",
-    help="Azimuth of the body's +x, degrees clockwise from north; by default x is east, y north.",
+    help="Azimuth of the body's +x, degrees clockwise from north. [default: x east, y north]",
 )
-@option("--name", section="Body", metavar="TEXT", help="What the body is called. [default: as the file]")
-@option("--step", type=float, default=10.0, show_default=True, callback=_positive, help="Between azimuths, degrees.")
+@option("--name", section="Body", metavar="TEXT", help="Name of the body. [default: file name]")
+@option("--step", type=float, default=10.0, show_default=True, callback=_positive, help="Azimuth step, degrees.")
 @gravity_option
 @option(
-    "--out", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the body: .toml, for --block of other commands."
+    "--out",
+    type=click.Path(path_type=Path),
+    section="Output",
+    metavar="FILE",
+    help="Write the body (.toml) for the --block of other commands.",
 )
 @output_options(histories=False, film=False)
 def body(
-    output: Output,
+    output: OutputOptions,
     scan: str,
     density: float,
     inset: EdgeWear | None,
@@ -103,22 +113,22 @@ def body(
     gravity: float,
     out: Path | None,
 ) -> None:
-    """The body of a scan: mass, centre of gravity, inertia, the base that carries it, and alpha and p towards every azimuth.
+    """Rigid-body properties of a 3-D scan: mass, centre of gravity, inertia, support polygon, and alpha and p for every azimuth.
 
-    The surface must be closed. The body is laid on level ground as it rests nearest to the position of the scan; what carries is the
-    convex hull of the points within --tolerance of the ground, and --inset moves each of its sides inwards. The file of --out is a body
-    for rock, respond, criteria, batch and fit, which take its arms for the azimuth that they solve.
+    The surface must be closed. The body is placed on level ground in the stable pose nearest to the position of the scan. Its support
+    polygon is the convex hull of the points within --tolerance of the ground; --inset moves each side of the polygon inwards. The
+    file of --out serves rock, respond, criteria, batch and fit as a body, with the arms of the azimuth under analysis.
     """
     from seisblock.bodies.scan.azimuths import scan_azimuths
     from seisblock.bodies.scan.scan import scan_body
     from seisblock.bodies.scan.toml import scan_to_toml
     from seisblock.report.io.atomic import check_target, write_text
     from seisblock.report.json.body import document
-    from seisblock.report.text import body as shown
+    from seisblock.report.text import body as text_output
 
     if out is not None:
         if out.suffix.lower() != ".toml":
-            raise OutputError("{path}: a body is written as .toml", path=out)
+            raise OutputError("{path}: a body file must end in .toml", path=out)
         check_target(out)
     with progress("reading {names}", names=[Path(scan).name]):
         edge_wear = SHARP_EDGES if inset is None else inset
@@ -132,14 +142,13 @@ def body(
     write_results(
         document(scan_result, directions, step_deg=step, gravity=gravity),
         output,
-        tables=lambda: shown.tables(scan_result, directions, gal=output.gal),
-        csv=lambda path: shown.write_csv(path, directions),
+        tables=lambda: text_output.tables(scan_result, directions, gal=output.gal),
+        csv=lambda path: text_output.write_csv(path, directions),
         figure=lambda: _draw(scan_result),
     )
 
 
 def _draw(scan_result: Any) -> Any:
-    """Return the figure of a scanned body; matplotlib is loaded only for it."""
     from seisblock.report.figures.body import figure
 
     return figure(scan_result)

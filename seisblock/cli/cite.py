@@ -1,4 +1,4 @@
-"""``seisblock cite``: the papers an answer relies on."""
+"""``seisblock cite``: references of a command."""
 
 from __future__ import annotations
 
@@ -11,15 +11,13 @@ from seisblock.references import COMMAND_PAPERS
 
 
 @click.command(cls=Command, examples=("seisblock cite jump", "seisblock cite --bibtex > seisblock.bib"))
-@argument(
-    "command", required=False, metavar="[COMMAND]", type=SuggestingChoice(COMMAND_PAPERS), help="Whose papers. [default: of all commands]"
-)
-@option("--bibtex", is_flag=True, section="Output", help="BibTeX entries instead of lines of text.")
-@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout.")
+@argument("command", required=False, metavar="[COMMAND]", type=SuggestingChoice(COMMAND_PAPERS), help="Command. [default: all commands]")
+@option("--bibtex", is_flag=True, section="Output", help="Print BibTeX entries instead of text.")
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout.")
 def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
-    """Print the papers that a command's answers rely on; without COMMAND, all there are.
+    """List of the papers behind the answers of a command; without COMMAND, of all commands.
 
-    What one answer relied on also stands in its --json document under citations.
+    The papers behind one answer also stand in its --json document under citations.
     """
     from seisblock.references import REFERENCES, SOFTWARE
 

@@ -1,4 +1,4 @@
-"""How a command presents its options: in groups, with two lines to paste at the end."""
+"""Click classes of commands, options and arguments with help sections and examples."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ SECTIONS = (
     N_("Output options"),
     N_("Other options"),
 )
-"""Headings of ``--help``, in this order; an option names the one it belongs to."""
+"""Headings of ``--help`` in their order; each option names its section."""
 
 
 class Finite(click.types.FloatParamType):
-    """A number that is one, also where nothing reads it."""
+    """Float parameter that accepts only finite numbers."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number that a text says."""
+        """Return the finite number of a text."""
         number: float = super().convert(value, param, ctx)
         if math.isfinite(number):
             return number
         try:
-            return checks.finite(N_("it"), number)
+            return checks.finite(N_("the value"), number)
         except ParameterError as error:
             self.fail(gettext(error.message), param, ctx)
 
 
 class Option(click.Option):
-    """A click option that knows its section of the help."""
+    """Click option with a help section."""
 
     def __init__(self, *args: Any, section: str = "Solver", **kwargs: Any) -> None:
         self.section = section
@@ -51,7 +51,7 @@ class Option(click.Option):
 
 
 class Argument(click.Argument):
-    """A click argument that the help describes in a section, as it does options."""
+    """Click argument with a help section and a help text."""
 
     def __init__(self, *args: Any, section: str = "Other", **kwargs: Any) -> None:
         help_text = kwargs.pop("help")
@@ -59,17 +59,17 @@ class Argument(click.Argument):
         self.section, self.help = section, help_text
 
     def get_help_record(self, ctx: click.Context) -> tuple[str, str]:
-        """Return the row of the help."""
+        """Return the row of the argument in the help."""
         return self.make_metavar(ctx), self.help or ""
 
 
 class Command(click.Command):
-    """A command whose help groups its options and ends with examples.
+    """Command with options grouped into sections and examples at the end of the help.
 
     Parameters
     ----------
     examples : sequence of str
-        Lines a user can paste.
+        Example command lines.
     """
 
     context_class = Context
@@ -80,14 +80,14 @@ class Command(click.Command):
         self.params.append(lang_option())
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the line apart."""
+        """Parse the arguments; check repeated options and suggest names for unknown ones."""
         with suggest_options(self, ctx):
             if not ctx.resilient_parsing:
                 self._check_repeated(ctx, args)
             return super().parse_args(ctx, args)
 
     def _check_repeated(self, ctx: click.Context, args: list[str]) -> None:
-        """Refuse an option that takes one value and stands twice: the last would go before the others, without a word."""
+        """Raise an error for a single-value option given twice; click would use only the last value."""
         _, _, order = self.make_parser(ctx).parse_args(list(args))
         counts = Counter(order)
         if self.get_help_option(ctx) in counts:
@@ -98,17 +98,15 @@ class Command(click.Command):
                 and isinstance(option_given, click.Option)
                 and not (option_given.multiple or option_given.is_flag or option_given.count)
             ):
-                text = gettext(
-                    "{option} takes one value, found {count}: leave one of them", option=max(option_given.opts, key=len), count=count
-                )
+                text = gettext("{option} may be given only once, found {count} times", option=max(option_given.opts, key=len), count=count)
                 raise click.UsageError(text, ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
-        """Return ``--help``, described in English until it is told: click keeps the option for the next call."""
+        """Return ``--help`` with its untranslated description: click caches the option across locales."""
         return english_help_option(super().get_help_option(ctx))
 
     def format_arguments(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write nothing: arguments stand in the section that they belong to."""
+        """Write nothing: arguments appear in their sections."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
@@ -129,23 +127,23 @@ class Command(click.Command):
 
 
 def lang_option() -> click.Option:
-    """Return the option that every command has; what it asks for is known before the line is parsed, see ``cli.language``."""
-    text = "Language of all that is said, printed and drawn. [default: of the locale, else en]"
+    """Return ``--lang``; ``cli.locale`` evaluates it before the line is parsed."""
+    text = "Language of messages, tables and figures. [default: of the locale, else en]"
     return Option(["--lang"], type=SuggestingChoice(LANGUAGES), expose_value=False, section="Output", help=text)
 
 
 def english_help_option(option: click.Option | None) -> click.Option | None:
-    """Return ``--help`` with its English description."""
+    """Return ``--help`` with its untranslated description."""
     if option is not None:
         option.help = N_("Show this message and exit.")
     return option
 
 
 def option(*declarations: str, section: str = "Solver", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Declare an option in a section of the help; otherwise :func:`click.option`."""
+    """Declare an option in a section of the help, see :func:`click.option`."""
     return click.option(*declarations, cls=Option, section=section, **attributes)
 
 
 def argument(*declarations: str, section: str = "Other", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Declare an argument with its line of help; otherwise :func:`click.argument`."""
+    """Declare an argument with a help text, see :func:`click.argument`."""
     return click.argument(*declarations, cls=Argument, section=section, **attributes)

@@ -1,4 +1,4 @@
-"""``seisblock completion``: the script that lets a shell complete commands, options and files."""
+"""``seisblock completion``: completion scripts for bash, zsh and fish."""
 
 from __future__ import annotations
 
@@ -36,16 +36,16 @@ SCRIPT = """\
 }
 complete -o nosort -F %(complete_func)s %(prog_name)s
 """
-"""What bash runs: click's own script forgets the names there are where files may be given, too."""
+"""Bash completion script; click's own omits the offered names where files are allowed."""
 
 
 class Bash(BashComplete):
-    """Bash, to which ``--component=N`` is three words: the sign between them is none of ours."""
+    """Bash completion that joins ``--component=N``, which bash splits at the equals sign."""
 
     source_template = SCRIPT
 
     def get_completion_args(self) -> tuple[list[str], str]:
-        """Return the words before the one that is typed, and that one."""
+        """Return the words before the incomplete one, and the incomplete word."""
         words, last = super().get_completion_args()
         return [word for word in words if word != "="], "" if last == "=" else last
 
@@ -54,10 +54,10 @@ add_completion_class(Bash)
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
-@argument("shell", type=SuggestingChoice(INSTALL_HINTS), help="The shell that is to complete.")
+@argument("shell", type=SuggestingChoice(INSTALL_HINTS), help="Name of the shell.")
 @click.pass_context
 def completion(ctx: click.Context, shell: str) -> None:
-    """Print the completion script of a shell; where it belongs is said on stderr."""
+    """Completion script of a shell; stderr shows the line for the shell's start-up file."""
     from click.shell_completion import get_completion_class
 
     from seisblock.cli.console import info

@@ -1,4 +1,4 @@
-"""What the program says: its answer on stdout, and beside it one line at a time on stderr."""
+"""Console output: results on stdout, messages on stderr."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from seisblock.cli.verbosity import is_quiet
 from seisblock.core.i18n import escape_control, get_locale, gettext, lazy_gettext, use_locale
 
 _emitted_warnings: set[str] = set()
-"""What was warned of in this run: nothing is warned of twice."""
+"""Warnings already printed in this run; each is printed once."""
 
 
 def info(text: str, /, **values: Any) -> None:
-    """Say one line on stderr: a template with its values, or a text that was said below."""
+    """Print an information message on stderr unless ``--quiet``: a template with values, or a message."""
     if not is_quiet():
         _write_line(gettext(text, **values), dim=True)
 
 
 def bind_locale() -> Callable[[str], str]:
-    """Return what tells a text in the language that is spoken now, whichever thread asks."""
+    """Return a function that translates into the current locale from any thread."""
     locale = get_locale()
 
     def translate(text: str) -> str:
@@ -33,7 +33,7 @@ def bind_locale() -> Callable[[str], str]:
 
 
 def warning(text: str, /, **values: Any) -> None:
-    """Say one line that should not be overlooked, once."""
+    """Print a warning on stderr, once per run."""
     message = lazy_gettext(text, **values) if values else text
     if not is_quiet() and message not in _emitted_warnings:
         _emitted_warnings.add(message)
@@ -41,29 +41,29 @@ def warning(text: str, /, **values: Any) -> None:
 
 
 def always(text: str, /, **values: Any) -> None:
-    """Say one line although the program was asked to keep silent."""
+    """Print a message on stderr even with ``--quiet``."""
     _write_line(gettext("warning: {message}", message=lazy_gettext(text, **values) if values else text), fg="yellow")
 
 
 def reset_warnings() -> None:
-    """Forget what was warned of: another run begins."""
+    """Clear the set of printed warnings at the start of a run."""
     _emitted_warnings.clear()
 
 
 def _write_line(text: str, **style: Any) -> None:
-    """Write one line, where the line of progress does not stand."""
+    """Write one line on stderr while the progress line is hidden."""
     with paused():
         click.secho(escape_control(text), err=True, **style)
 
 
 def print_result(text: str) -> None:
-    """Write the answer on stdout, as a text."""
+    """Print the result on stdout as text."""
     close_line()
     click.echo(text)
 
 
 def print_tables(tables: Iterable[Any]) -> None:
-    """Write the answer on stdout, as what rich prints."""
+    """Print rich tables on stdout."""
     from seisblock.report.text.tables import console
 
     screen, parts = console(), list(tables)

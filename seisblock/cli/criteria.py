@@ -1,4 +1,4 @@
-"""``seisblock criteria``: every closed-form criterion of overturning beside the simulated truth."""
+"""``seisblock criteria``: closed-form overturning criteria beside the simulated outcome."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.types import MU
 
@@ -27,14 +27,14 @@ from seisblock.cli.types import MU
     "--mu",
     type=MU,
     section="Body",
-    help="Static friction under the block, 1, for what it does with all of its motions. [default: the body's own, else feet that hold]",
+    help="Static friction coefficient under the block for the simulated outcome. [default: the body's own, else no sliding]",
 )
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
 @gravity_option
 @output_options(histories=False, film=False)
 def criteria(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     restitution: float | None,
     linear: bool,
@@ -44,11 +44,11 @@ def criteria(
     mu_kinetic: float | None,
     **body: Any,
 ) -> None:
-    """Every closed-form criterion of overturning beside the simulated outcome, for each component.
+    """All closed-form overturning criteria beside the simulated outcome, for each component.
 
-    A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
-    frequency are given the record's equivalent frequency in each of its three definitions. Beside them stands what the block does when
-    it may slide and fly, too, under all components, as respond tells it.
+    A criterion predicts overturning when the demand (PGA or PGV of the record) exceeds its threshold. Criteria that need a frequency
+    take the equivalent frequency of the record in each of its three definitions. The simulated outcome is that of respond: sliding,
+    rocking and flight under all components.
     """
     from seisblock.bodies.factory import table_friction
     from seisblock.bodies.toml import read_body_toml
@@ -57,7 +57,7 @@ def criteria(
     from seisblock.cli.write_results import write_results
     from seisblock.records import motion_of
     from seisblock.report.json.criteria import document
-    from seisblock.report.text import criteria as shown
+    from seisblock.report.text import criteria as text_output
     from seisblock.studies.criteria_comparison import compare_criteria
 
     choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
@@ -80,14 +80,13 @@ def criteria(
     write_results(
         document(cards, options, gravity=gravity),
         output,
-        tables=lambda: shown.tables(cards, gal=output.gal),
-        csv=lambda path: shown.write_csv(path, cards),
+        tables=lambda: text_output.tables(cards, gal=output.gal),
+        csv=lambda path: text_output.write_csv(path, cards),
         figure=lambda: _draw(cards, gal=output.gal),
     )
 
 
 def _draw(cards: Any, *, gal: bool) -> Any:
-    """Return the figure of the cards; matplotlib is loaded only for it."""
     from seisblock.report.figures.criteria import figure
 
     return figure(cards, gal=gal)

@@ -1,4 +1,4 @@
-"""``seisblock fit``: the block that explains what fell under which shaking."""
+"""``seisblock fit``: block parameters from observed overturning."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.options import Source, gravity_option, output_options, preparation_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
@@ -23,15 +23,15 @@ SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset
 
 
 def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...] | None:
-    """Accept the option repeated, and lists with commas; None where it is not there."""
+    """Split repeated and comma-separated names; None without the option."""
     names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
     if value and not names:
-        raise click.BadParameter(gettext("it is empty: name what is looked for, or none"), ctx, param)
+        raise click.BadParameter(gettext("the list is empty: name the parameters to estimate, or none"), ctx, param)
     return () if names == ("none",) else names or None
 
 
 def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, tuple[float, float]]:
-    """Accept ``NAME=LOW:HIGH``, repeated."""
+    """Parse repeated ``NAME=LOW:HIGH``."""
     bounds = {}
     for text in value:
         name, _, ends = text.partition("=")
@@ -57,21 +57,22 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     metavar="OUTCOMES",
     section="Record",
     shell_complete=shell_completion.complete_outcomes,
-    help="Table (.csv): record, a file beside it; fell or moved, 0 or 1; where needed weight, component, scale. Bundled: shaken_block.csv.",
+    help="Table (.csv): record, a file in the same folder; fell or moved, 0 or 1; optional weight, component, scale. Bundled: "
+    "shaken_block.csv.",
 )
 @preparation_options
 @option(
     "--outcome",
     type=click.Choice(["fell", "moved"]),
-    help="Which column counts, where there are both. [default: fell]",
+    help="Column of outcomes, where the table has both. [default: fell]",
 )
 @option(
     "--free",
     multiple=True,
     callback=_names,
     metavar="NAME[,NAME...]",
-    help="What is looked for: alpha, p, restitution, inset; or none. [default: what is not given: alpha and p, or a body's inset; and "
-    "the restitution]",
+    help="Parameters to estimate: alpha, p, restitution, inset; or none. [default: those not given: alpha and p, or the inset of a "
+    "body; and the restitution]",
 )
 @block_options
 @option(
@@ -79,63 +80,64 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     type=float,
     metavar="DEG",
     section="Body",
-    help="Of a scanned --block: azimuth along which it was shaken, degrees clockwise from north.",
+    help="Azimuth of the shaking for a scanned --block, degrees clockwise from north.",
 )
 @option(
     "--restitution",
     type=float,
     metavar="E",
     section="Body",
-    help="Angular velocity after an impact over that before, a ratio, 0 to 1, where it is not looked for. [default: 1 - 1.5 sin^2(alpha)]",
+    help="Fixed coefficient of restitution: ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
+    "sin^2(alpha)]",
 )
 @option(
     "--bounds",
     multiple=True,
     callback=_bounds,
     metavar="NAME=LOW:HIGH",
-    help="Bounds of alpha, rad, p, rad/s, restitution, inset or scatter, shares, of 1; may be repeated. "
-    "[default: alpha=0.03:1, p=1:25, restitution=0.3:0.99, inset=0:0.45, scatter=0.01:0.2]",
+    help="Bounds of alpha, rad, p, rad/s, and the ratios restitution, inset and scatter; may be repeated. [default: alpha=0.03:1, "
+    "p=1:25, restitution=0.3:0.99, inset=0:0.45, scatter=0.01:0.2]",
 )
 @option(
     "--scatter",
     type=float,
     metavar="SHARE",
-    help="Half width of the changes from run to run, a share of size, slenderness, restitution and amplitude. [default: looked for]",
+    help="Half width of the variation between runs, a share of size, slenderness, restitution and amplitude. [default: estimated]",
 )
-@option("--lapse", type=float, metavar="SHARE", help="Share of the outcomes that follow no model. [default: looked for]")
-@option("--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]")
+@option("--lapse", type=float, metavar="SHARE", help="Lapse rate: share of outcomes independent of the model. [default: estimated]")
+@option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]")
 @option(
     "--folds",
     type=Count(N_("folds"), "SEISBLOCK_VALUES", minimum=2),
     metavar="K",
-    help="Parts into which the records are dealt, each foretold by the others. [default: 5]",
+    help="Folds of the cross-validation. [default: 5]",
 )
-@option("--confidence", type=float, default=0.9, show_default=True, help="Level of the intervals, 0 to 1.")
+@option("--confidence", type=float, default=0.9, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--runs",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
     default=16,
     show_default=True,
-    help="Versions of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
+    help="Samples of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of what is drawn.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the random numbers.")
 @gravity_option
 @output_options(histories=False, film=False)
-def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
-    """Find the block that explains under which records it fell and under which it stood.
+def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> None:
+    """Parameters of a rigid block that explain under which records an object overturned or remained standing.
 
-    Its slenderness alpha, frequency parameter p, restitution and worn edges, whichever are asked for, with their intervals; and how well
-    records are foretold by blocks that were found without them.
+    Estimates slenderness alpha, frequency parameter p, restitution and edge wear (see --free) with their credible intervals.
+    Cross-validation shows how well the fitted block predicts records that were left out.
     """
     from seisblock.cli.progress import progress
     from seisblock.report.json.fit import document
-    from seisblock.report.text import fit as shown
+    from seisblock.report.text import fit as text_output
     from seisblock.studies.fit.fit import fit_block
 
     observed = _read_outcomes(outcomes, source, params.pop("outcome"))
     block, inset, restitution = _choose_body(params)
     options = {key: params[key] for key in ("free", "bounds", "scatter", "lapse", "vertical", "folds", "runs", "seed", "gravity")}
-    with progress("records followed") as advance:
+    with progress("solving records") as advance:
         result = fit_block(
             observed,
             kind=observed.kind,
@@ -156,13 +158,12 @@ def fit(outcomes: str, source: Source, output: Output, **params: Any) -> None:
     def csv(path: Path) -> None:
         from seisblock.report.io.atomic import write_table
 
-        write_table(path, *shown.csv_columns(result, observed))
+        write_table(path, *text_output.csv_columns(result, observed))
 
-    write_results(answer, output, tables=lambda: shown.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
+    write_results(answer, output, tables=lambda: text_output.tables(result, observed, Path(outcomes).name), figure=figure, csv=csv)
 
 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
-    """Return the outcomes of the table with their records."""
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
     from seisblock.readers.dispatch import ReadOptions
@@ -170,7 +171,9 @@ def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
 
     check_single_window(source)
     if len(source.component) > 1:
-        raise ParameterError("one component is shaken, found {names}: name others in a column `component`", names=list(source.component))
+        raise ParameterError(
+            "the shaking is one component, found {names}: name the others in a column `component`", names=list(source.component)
+        )
     with progress("reading {names}", names=[Path(outcomes).name]) as advance:
         return read_outcomes(
             outcomes,
@@ -184,7 +187,7 @@ def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
 
 
 def _choose_body(params: dict[str, Any]) -> tuple[Any, Any, float | None]:
-    """Return the block that is described, if any, the inset where it is given, and the restitution that is given or that a file brings."""
+    """Return block, inset and restitution of the options or the body's file; None where not given."""
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.console import info
 
@@ -193,6 +196,6 @@ def _choose_body(params: dict[str, Any]) -> tuple[Any, Any, float | None]:
     free = params["free"] or ()
     choice = choose_block(params)
     info("body: {says}", says=choice.description)
-    # what a body's file brings along does not stand in the way of what is looked for
+    # a restitution from the body's file is only a default here: it may still be estimated
     block = choice.block if params["azimuth"] is None else choice.towards(params["azimuth"])
     return block, params["inset"], params["restitution"] if "restitution" in free else choice.restitution

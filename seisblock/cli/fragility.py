@@ -1,4 +1,4 @@
-"""``seisblock fragility``: how likely an object falls, slides or rocks, against the intensity of the shaking."""
+"""``seisblock fragility``: fragility curves of overturning, sliding or rocking."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import FLOATS, MU, Count
 from seisblock.core.i18n import N_
 
@@ -32,14 +32,14 @@ METHODS = ("stripes", "ida", "cloud")
     "--suite",
     metavar="synthetic:M7:R20:40",
     section="Record",
-    help="Instead of RECORD: synthetic records, here 40 of magnitude 7 at 20 km, on rock. [default: these, where no RECORD is given]",
+    help="Suite of synthetic records instead of RECORD, here 40 records of magnitude 7 at 20 km on rock. [default: these, without RECORD]",
 )
 @option(
     "--suite-out",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
     section="Output",
-    help="Write the synthetic records to this folder, as --suite-format says.",
+    help="Write the synthetic records to this folder, in the format of --suite-format.",
 )
 @option(
     "--suite-format",
@@ -47,7 +47,7 @@ METHODS = ("stripes", "ida", "cloud")
     default="csv",
     show_default=True,
     section="Output",
-    help="CSV in m/s^2 with all their digits, or three files each in the layout of K-NET ASCII (counts of 1e-4 gal).",
+    help="Format: csv, m/s^2 with all digits, or knet, three files per record in K-NET ASCII (counts of 1e-4 gal).",
 )
 @block_options
 @option(
@@ -56,7 +56,7 @@ METHODS = ("stripes", "ida", "cloud")
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_bodies(),
     section="Body",
-    help="Instead of one body: a table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; "
+    help="Bodies instead of one body: table (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; "
     "may be repeated.",
 )
 @option(
@@ -64,65 +64,72 @@ METHODS = ("stripes", "ida", "cloud")
     type=MU,
     section="Body",
     metavar="MU",
-    help="Static friction coefficient of the body, or of those of --bodies that tell none, 1.",
+    help="Static friction coefficient of the body, or of those of --bodies without a friction of their own.",
 )
-@option("--restitution", type=float, section="Body", metavar="E", help="Restitution, a ratio of velocities, 1. [default: the solver's own]")
-@option("--solver", type=click.Choice(SOLVERS), default="respond", show_default=True, help="Which model follows the bodies.")
+@option(
+    "--restitution",
+    type=float,
+    section="Body",
+    metavar="E",
+    help="Coefficient of restitution, a ratio of velocities. [default: of the solver]",
+)
+@option("--solver", type=click.Choice(SOLVERS), default="respond", show_default=True, help="Model that computes the response.")
 @option(
     "--limit",
     multiple=True,
     metavar="overturn|rock|slip=5cm|lean=0.5",
-    help="What counts: it overturns, leaves its rest, is moved so far (m or with a unit) or falls, leans by a share of its slenderness "
-    "(1); may be repeated: then the states share one beta. [default: overturn; slide: slip=1cm]",
+    help="Limit state: overturn; rock, leaves rest; slip=D, displacement of D (m or with a unit) or overturning; lean=R, tilt of R "
+    "times the slenderness, a ratio. Repeated limits share one beta. [default: overturn; slide: slip=1cm]",
 )
 @option(
     "--im",
     multiple=True,
     metavar="pga|pgv|pgd|sa=T|arias|p*pgv",
-    help="Measure of intensity, of the component solved (T in s; p*pgv: p PGV/g); further ones, repeated or after commas, are compared "
-    "with the first. [default: pga]",
+    help="Intensity measure of the component under analysis (T in s; p*pgv: p PGV/g, a ratio); further measures, repeated or "
+    "separated by commas, are compared with the first. [default: pga]",
 )
-@option("--method", type=click.Choice(METHODS), default="stripes", show_default=True, help="How the curve is found.")
+@option("--method", type=click.Choice(METHODS), default="stripes", show_default=True, help="Method of analysis.")
 @option(
     "--levels",
     type=FLOATS,
     metavar="X[,X...]|X0:X1:STEP",
-    help="Intensities to scale to: gal (pga, sa), kine (pgv), cm (pgd), m/s (arias), 1 (p*pgv). [default: chosen by looking]",
+    help="Intensity levels: gal (pga, sa), kine (pgv), cm (pgd), m/s (arias), 1 (p*pgv). [default: from a search]",
 )
 @option(
     "--steps",
     type=Count(N_("levels"), "SEISBLOCK_VALUES", minimum=2),
     default=60,
     show_default=True,
-    help="How many levels are chosen, evenly in their logarithm.",
+    help="Number of levels, evenly spaced in the logarithm.",
 )
 @option(
     "--perturb",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=2),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=2),
     metavar="N",
-    help="N versions of each body (size, edges, restitution, friction): how much of the scatter is its own. [default: as it is alone]",
+    help="N samples of each body (size, edges, restitution, friction), which separate its share of the dispersion. [default: nominal "
+    "body only]",
 )
-@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
-@option("--confidence", type=float, default=0.95, show_default=True, help="Level of the intervals, 0 to 1.")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
+@option("--confidence", type=float, default=0.95, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--bootstrap",
-    type=Count(N_("samples of the records"), "SEISBLOCK_RUNS", minimum=2),
+    type=Count(N_("bootstrap samples"), "SEISBLOCK_RUNS", minimum=2),
     default=1000,
     show_default=True,
-    help="Samples of the records behind the intervals.",
+    help="Bootstrap samples of the records for the intervals.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of versions, samples and synthetic records.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of body samples, bootstrap and synthetic records.")
 @option(
     "--compare",
     metavar="MEDIAN,BETA",
-    help="A curve to compare with: its median, in the unit of --levels, and beta, 1.",
+    help="Curve for comparison: median in the unit of --levels, and beta, 1.",
 )
 @option(
     "--pelicun",
     type=click.Path(path_type=Path),
     section="Output",
     metavar="FILE.csv",
-    help="Write rows for pelicun (fragility.csv of its DLML), and FILE.json beside them that says what they are.",
+    help="Write rows for pelicun (fragility.csv of its DLML), and FILE.json with their metadata.",
 )
 @option(
     "--nrml",
@@ -137,13 +144,13 @@ METHODS = ("stripes", "ida", "cloud")
     default="logncdf",
     show_default=True,
     section="Output",
-    help="--nrml: the lognormal curve, or the shares at the levels, made to rise.",
+    help="Content of --nrml: lognormal curve, or shares at the levels, made monotone.",
 )
 @gravity_option
 @output_options(histories=False, film=False)
 def fragility(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     bodies: tuple[str, ...],
     solver: str,
     limit: tuple[str, ...],
@@ -152,11 +159,12 @@ def fragility(
     compare: str | None,
     **params: Any,
 ) -> None:
-    """Tell how likely an object falls, slides or rocks, against the intensity of the shaking: a lognormal curve with its intervals.
+    """Fragility curve: probability of overturning, sliding or rocking against intensity, lognormal, with confidence intervals.
 
-    RECORD may be a folder, a pattern, a list (@records.txt) or a bundle: a suite of ten and more. Each component of each record is scaled
-    to every level (stripes, ida), or taken as it is (cloud); vertical motion is scaled along. With --component all-azimuths each record
-    counts once, in the direction that is worst for the object, and its intensity is the largest of all directions.
+    RECORD may be a folder, a pattern, a list (@records.txt) or an archive; ten or more records are advisable. stripes and ida scale
+    each component of each record to every level; cloud takes the records as recorded; vertical motion is scaled by the same factor.
+    With --component all-azimuths each record counts once, in its worst azimuth for the object; its intensity is the maximum over all
+    azimuths.
     """
     from seisblock.cli.run_fragility import run_study
 

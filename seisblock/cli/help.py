@@ -1,4 +1,4 @@
-"""How help is laid out: told in the language spoken, and wrapped by what letters are wide on a terminal."""
+"""Help formatter: translated texts, wrapped by display width."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.core.i18n import gettext
 from seisblock.report.text.wrap import is_wide, wrap_text
 
 CLICK_SUFFIX = re.compile(r"  \[([^\[\]]*)\]\Z")
-"""A default as click puts it behind a meaning; among wide letters brackets are wide, as in what is written by hand."""
+"""Default appended by click to a help text; full-width brackets replace it in Japanese."""
 
 
 def paragraphs(text: str) -> list[str]:
@@ -20,14 +20,14 @@ def paragraphs(text: str) -> list[str]:
 
 
 class Formatter(click.HelpFormatter):
-    """Writes help; a text with wide letters is wrapped by columns, any other as click does."""
+    """Help formatter that wraps texts with wide characters by display columns, others as click does."""
 
     def write_usage(self, prog: str, args: str = "", prefix: str | None = None) -> None:
-        """Write the line that says how a command is called."""
+        """Write the usage line."""
         super().write_usage(prog, args, f"{gettext('Usage:')} ")
 
     def write_text(self, text: str) -> None:
-        """Write paragraphs, told."""
+        """Write translated paragraphs."""
         indent = " " * self.current_indent
         for index, part in enumerate(map(gettext, paragraphs(text))):
             if index:
@@ -38,7 +38,7 @@ class Formatter(click.HelpFormatter):
                 super().write_text(part)
 
     def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
-        """Write terms and what they mean."""
+        """Write a definition list."""
         entries = list(rows)
         if not any(is_wide(meaning) for _, meaning in entries):
             super().write_dl(entries, col_max, col_spacing)
@@ -52,13 +52,13 @@ class Formatter(click.HelpFormatter):
 
 
 class Context(click.Context):
-    """A context whose help is laid out here."""
+    """Click context with the formatter of this module."""
 
     formatter_class = Formatter
 
 
 def help_rows(parameters: Iterable[click.Parameter], ctx: click.Context) -> Iterator[tuple[click.Parameter, tuple[str, str]]]:
-    """Yield each parameter with its line of help, told."""
+    """Yield each parameter with its translated row of the help."""
     for parameter in parameters:
         row = parameter.get_help_record(ctx)
         if row is not None:

@@ -1,4 +1,4 @@
-"""Where `respond` answers for the same body under the same record: the command line to type, said where a model's assumption ends."""
+"""Suggested ``respond`` command lines after the results of other solvers."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from seisblock.core.i18n import gettext
 from seisblock.report.text.tables import styled_line
 
 DEPTH_PLACEHOLDER = "DEPTH"
-"""What stands for a depth that only the user knows."""
+"""Placeholder for a depth that the user has to enter."""
 
 
 def respond_command(source: Source, *words: str) -> str:
-    """Return the command line of `respond` for what was asked of the record, with some more words."""
+    """Return the ``respond`` command line for the record options and further words."""
     values = {
         "--scale": source.scale,
         "--target-pga": source.target_pga,
@@ -39,7 +39,7 @@ def respond_command(source: Source, *words: str) -> str:
 
 
 def _size_options(block: Block) -> list[str]:
-    """Return the options that give a block's sizes; what follows from others is left out."""
+    """Return the size options of a block; sizes that follow from others are omitted."""
     words = ["--width", f"{block.width:.6g}", "--height", f"{block.height:.6g}"]
     if block.centroid_height is not None:
         words += ["--centroid-height", f"{block.centroid_height:.6g}"]
@@ -55,7 +55,7 @@ def _size_options(block: Block) -> list[str]:
 def jump_hint(
     source: Source, params: Mapping[str, Any], default: str, block: TwoLayerBlock, contact: Contact, tenon: float | None
 ) -> Iterator[Any]:
-    """Yield where the jump's body is followed with friction, tenons and all motions together."""
+    """Yield the ``respond`` command line for the two-layer block, with friction and tenons."""
     by_name = params.get("width") is None
     body = (
         ["--block", params.get("block") or default, "--side", params.get("side") or "short"] if by_name else _size_options(block.as_block())
@@ -63,30 +63,28 @@ def jump_hint(
     words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
     command = respond_command(source, *words, "--tenon", DEPTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
     if tenon is None:
-        text = gettext(
-            "respond follows the same body through all of its motions, once the depth of its tenons is known: {typed}", typed=command
-        )
+        text = gettext("Full response with friction and tenons (depth required): {typed}", typed=command)
     else:
-        text = gettext("respond follows the same body through all of its motions, with its tenons: {typed}", typed=command)
+        text = gettext("Full response with friction and tenons: {typed}", typed=command)
     yield styled_line(text)
 
 
 def rock_hint(source: Source, params: Mapping[str, Any], block: Block, mu: float | None, *, suffices: bool) -> Iterator[Any]:
-    """Yield where a block that friction does not hold is followed as it slides and rocks."""
+    """Yield the ``respond`` command line where friction does not suffice for rocking without sliding."""
     if mu is not None and not suffices:
         side = ["--side", params["side"]] if params.get("side") else []
         body = ["--block", params["block"], *side] if params.get("block") else _size_options(block)
-        yield styled_line(gettext("respond lets it slide and rock: {typed}", typed=respond_command(source, *body, "--mu", f"{mu:g}")))
+        yield styled_line(gettext("Response with sliding and rocking: {typed}", typed=respond_command(source, *body, "--mu", f"{mu:g}")))
 
 
 def slide_hint(source: Source, mu: float, mu_kinetic: float | None, *, slips: bool) -> Iterator[Any]:
-    """Yield which bodies would rock instead of sliding, and where they are followed."""
+    """Yield the slenderness limit of pure sliding and the ``respond`` command line for other bodies."""
     if slips:
         kinetic = [] if mu_kinetic is None else ["--mu-kinetic", f"{mu_kinetic:g}"]
-        typed = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
+        command = respond_command(source, "--width", "B", "--height", "H", "--mu", f"{mu:g}", *kinetic)
         text = gettext(
-            "This holds for what does not rock: b/h, half the base over the height of the centre, above {mu:g}. Others: {typed}",
+            "Valid for objects that do not rock: b/h (half base over height of the centre of gravity) above {mu:g}. Other objects: {typed}",
             mu=mu,
-            typed=typed,
+            typed=command,
         )
         yield styled_line(text)

@@ -1,4 +1,4 @@
-"""``seisblock infer``: what fallen stones or a displaced object say of the shaking."""
+"""``seisblock infer``: ground motion estimated from fallen gravestones or displaced objects."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
 from seisblock.cli.write_results import write_results
@@ -31,7 +31,7 @@ JUMPED_OPTIONS = (
     *("block", "side", "mu", "mu_kinetic", "restitution_x", "restitution_y", "drop", "flight_only", "first", "repeat", "landing", "spin"),
     *("limit", "steps", "gravity"),
 )
-"""Options that each form reads."""
+"""Options of each form of the command."""
 
 
 @click.command(
@@ -48,17 +48,22 @@ JUMPED_OPTIONS = (
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存); several: all of one shaking.",
+    help="CSV of gravestones; column fallen: 1, yes, 転倒 (fell) or 0, no, 残存 (stands). Several surveys of one earthquake: repeat the "
+    "option.",
 )
-@option("--rate", metavar="K/N", section="Body", help="K of N stones fell, in a place whose stones are proportioned as in --cemetery.")
-@option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
-@option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
+@option("--rate", metavar="K/N", section="Body", help="Count: K of N stones fell; proportions of the stones as in --cemetery.")
+@option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
+@option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
 @two_layer_option(f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@side_option("jumped: which side of the block in plan lies along the motion.")
-@option("--mu", type=MU, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
-@option("--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's]")
-@option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's]")
+@side_option("jumped: side of the block in plan along the motion.")
+@option(
+    "--mu", type=MU, section="Body", help="Static friction coefficient (jumped: of the foot that landed). [default: jumped: the body's own]"
+)
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: slid: as --mu; jumped: the body's own]")
+@option(
+    "--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's own]"
+)
+@option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's own]")
 @option(
     "--drop", type=LENGTH, default=0.0, section="Body", help="jumped: height of the floor above the ground, m or with a unit. [default: 0]"
 )
@@ -66,89 +71,93 @@ JUMPED_OPTIONS = (
     "--frequency",
     type=FLOATS,
     metavar="HZ",
-    help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]",
+    help="Stones: equivalent frequency, Hz; number, list or range. [default: mean over 0.5-3 Hz, and 0.5, 1 ... 3]",
 )
 @option(
     "--criterion",
     type=SuggestingChoice(["furukawa", "rigid"]),
     default="furukawa",
     show_default=True,
-    help="Stones: fit to whole stones (9), (10), or one rigid block under a half sine.",
+    help="Stones: fitted criteria (9), (10) for whole gravestones, or one rigid block under a half sine.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
-    help="Stones, rigid: how far in from each side worn edges lie, a share of the width (0.1, 10%), or m with a unit (1cm). "
-    "[default: 0.05]",
+    help="Stones, rigid: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
 )
-@option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
+@option("--confidence", type=float, default=0.9, show_default=True, help="Stones: confidence level of the intervals, 0 to 1.")
 @option(
     "--common-error",
     type=float,
-    help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record). [default: 0.3; 0.29 with --inset]",
+    help="Stones: standard deviation of ln PGA common to all stones (criterion, ground, record). [default: 0.3; 0.29 with --inset]",
 )
-@option("--stone-error", type=float, default=0.2, show_default=True, help="Stones: standard deviation of ln PGA of each stone by itself.")
+@option("--stone-error", type=float, default=0.2, show_default=True, help="Stones: standard deviation of ln PGA of a single stone.")
 @option(
     "--bias",
     type=float,
-    help="Stones: how much more PGA records need than the criterion says, in ln PGA. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
+    help="Stones: bias of the criterion, ln PGA of records over ln PGA of the criterion. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
 )
-@option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of a given frequency, 1.")
-@option("--largest", is_flag=True, help="slid: the largest slip was observed, not the one left at the end.")
-@option("--vertical", is_flag=True, help="slid: let the vertical component act too.")
-@option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, not the rocking-sliding after it.")
-@option("--first", is_flag=True, help="jumped: the first chain of motion in the record counts. [default: all, added up]")
-@option("--repeat", is_flag=True, hidden=True, help="jumped: all chains; since 0.2.0 the default.")
-@landing_option("jumped: how a foot that lands is stopped, whatever friction that takes, or by what friction can bear.")
-@option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: spin after the impact.")
-@option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
+@option(
+    "--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency, 1."
+)
+@option("--largest", is_flag=True, help="slid: the maximum displacement was observed, not the residual.")
+@option("--vertical", is_flag=True, help="slid: apply the vertical component.")
+@option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, without the slide-rocking after it.")
+@option("--first", is_flag=True, help="jumped: use only the first chain of motion in the record. [default: sum of all]")
+@option("--repeat", is_flag=True, hidden=True, help="jumped: sum of all chains of motion; the default since 0.2.0.")
+@landing_option("jumped: landing impulse of the foot: unlimited friction (paper), or limited by friction (friction).")
+@option(
+    "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: angular velocity after the impact."
+)
+@option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest scale factor on a record.")
 @option(
     "--steps",
     type=Count(N_("factors"), "SEISBLOCK_RUNS"),
     default=300,
     show_default=True,
-    help="slid, jumped: steps of the scan up to it.",
+    help="slid, jumped: number of factors in the scan.",
 )
 @gravity_option
 @output_options(histories=False, film=False)
-def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
-    """Read shaking back from what it did.
+def infer(source: Source, output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, **params: Any) -> None:
+    """Ground motion estimated from its effects: fallen gravestones or a displaced object.
 
-    From gravestones: PGA, PGV and JMA intensity with their intervals, for an equivalent frequency or over 0.5 to 3 Hz
-    (Furukawa et al. 2009 read backwards). From a displacement: every factor on each candidate RECORD that gives it.
+    Gravestones give PGA, PGV and JMA intensity with their intervals, for one equivalent frequency or over 0.5 to 3 Hz (inverse of
+    Furukawa et al. 2009). A displacement gives, for each candidate RECORD, all scale factors that reproduce it.
     """
     forms = {"--cemetery": cemetery or None, "--slid": params["slid"], "--jumped": params["jumped"]}
     given_forms = [name for name, value in forms.items() if value is not None]
     if len(given_forms) != 1:
         raise click.UsageError(
-            gettext("give one of {forms}; found {asks}", forms=lazy_gettext(FORM_NAMES), asks=given_forms or lazy_gettext("none"))
+            gettext(
+                "exactly one of {forms} is required; found {asks}", forms=lazy_gettext(FORM_NAMES), asks=given_forms or lazy_gettext("none")
+            )
         )
     reject_with(given_forms[0], _foreign_options(given_forms[0], rigid=params["criterion"] == "rigid"))
     if not cemetery:
         if rate is not None:
-            raise click.UsageError(gettext("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv"))
+            raise click.UsageError(gettext("--rate requires --cemetery (proportions of the stones), for example aoyama.csv"))
         return _infer_from_displacement(source, output, params)
     if source.record:
         raise click.UsageError(
-            gettext("stones need no RECORD, found {record}; give its equivalent frequency with --frequency", record=source.record[0])
+            gettext("RECORD {record} has no effect with stones: give its equivalent frequency with --frequency", record=source.record[0])
         )
     if len(cemetery) > 1 and rate is not None:
-        raise click.UsageError(gettext("--rate is of one place: several cemeteries need a column fallen each"))
+        raise click.UsageError(gettext("--rate applies to one cemetery: several cemeteries require a column fallen each"))
     if repeated := [name for name, count in Counter(os.path.realpath(name) for name in cemetery).items() if count > 1]:
-        raise click.UsageError(gettext("--cemetery names {name} twice: its stones would count double", name=Path(repeated[0]).name))
+        raise click.UsageError(gettext("--cemetery contains {name} twice: give each cemetery only once", name=Path(repeated[0]).name))
     return _infer_from_stones(output, cemetery, rate, params)
 
 
 def _foreign_options(form: str, *, rigid: bool) -> list[str]:
-    """Return the options that belong to other forms than that which was given; with rigid stones gravity has a say."""
-    own_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
-    of_forms = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
-    return [name for name in of_forms if name not in own_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
+    """Return the options of the other forms; gravity acts on rigid stones."""
+    form_options = {"--cemetery": (*STONE_OPTIONS, *(["gravity"] if rigid else [])), "--slid": SLID_OPTIONS, "--jumped": JUMPED_OPTIONS}
+    all_options = dict.fromkeys(name for names in (STONE_OPTIONS, SLID_OPTIONS, JUMPED_OPTIONS) for name in names)
+    return [name for name in all_options if name not in form_options[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
-def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
-    """Answer from fallen stones."""
+def _infer_from_stones(output: OutputOptions, cemetery: tuple[str, ...], rate: str | None, params: dict[str, Any]) -> None:
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.infer import StonesParameters, stones_document
     from seisblock.studies.survey.consistency import consistency_warning
@@ -213,7 +222,7 @@ def _infer_from_stones(output: Output, cemetery: tuple[str, ...], rate: str | No
 
 
 def _assumptions(params: dict[str, Any]) -> Any:
-    """Return what an estimate rests on: the criterion, and how far it and the stones are to be trusted."""
+    """Return the assumptions of an estimate: criterion, bias and standard deviations."""
     from functools import partial
 
     from seisblock.studies.survey.assumptions import make_assumptions
@@ -227,21 +236,20 @@ def _assumptions(params: dict[str, Any]) -> Any:
     return make_assumptions(None, limits=partial(rigid_limits, inset=params["inset"] or DEFAULT_WEAR, gravity=params["gravity"]), **options)
 
 
-def _infer_from_displacement(source: Source, output: Output, params: dict[str, Any]) -> None:
-    """Answer from a displacement: every factor on each record."""
+def _infer_from_displacement(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.studies.survey.scale_search import scale_factors
 
     if params["slid"] is not None and params["mu"] is None:
-        raise click.UsageError(gettext("--slid needs --mu, the static friction coefficient, for example --mu 0.3"))
+        raise click.UsageError(gettext("friction required: --slid needs --mu (static coefficient), for example --mu 0.3"))
     observed = params["jumped"] if params["slid"] is None else params["slid"]
-    moves, document = _moving_object(source, params)
+    displacement_function, document = _moving_object(source, params)
     curves: list[tuple[Any, Any]] = []
-    # a jump goes on beyond the window in which it may start
+    # a jump continues beyond the window in which rocking may start
     for record in load_records(source, keep_whole=params["jumped"] is not None):
         for motion in selected_motions(record, source):
-            displacement = moves(motion)
+            displacement = displacement_function(motion)
             with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
                 factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
             curves.append((record, factors))
@@ -267,7 +275,7 @@ def _infer_from_displacement(source: Source, output: Output, params: dict[str, A
 
 
 def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
-    """Return what gives the displacement under a motion, and what makes a document of the factors."""
+    """Return the displacement function of a motion and the document builder of the factors."""
     from functools import partial
 
     from seisblock.bodies.sliding_base import SlidingBase
@@ -277,16 +285,24 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     gravity = params["gravity"]
     if params["slid"] is not None:
         base = SlidingBase(params["mu"], params["mu_kinetic"])
-        moves = partial(study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"])
+        displacement_function = partial(
+            study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"]
+        )
         frictions = {"mu": params["mu"], "mu_kinetic": params["mu_kinetic"]}
-        return moves, partial(slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions)
+        return displacement_function, partial(
+            slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions
+        )
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     choice = two_layer_choice(params, default=DEFAULT_BLOCK)
     info("body: {name}; {says}", name=lazy_gettext(choice.block.name), says=choice.description)
     if params["first"]:
-        info("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
+        info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")
     body: dict[str, Any] = {"contact": choice.contact, "flight_only": params["flight_only"]}
     body |= {key: params[key] for key in ("spin", "landing", "first")}
-    moves = partial(study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body)
-    return moves, partial(jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body)
+    displacement_function = partial(
+        study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body
+    )
+    return displacement_function, partial(
+        jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body
+    )

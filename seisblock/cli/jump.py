@@ -1,4 +1,4 @@
-"""``seisblock jump``: does a two-layer block jump, when and how far."""
+"""``seisblock jump``: jump of a two-layer block."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES, MU
 from seisblock.cli.write_results import write_results
@@ -29,63 +29,63 @@ DEFAULT_BLOCK = "chozusha"
 )
 @record_options
 @two_layer_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@side_option("Which side of the block in plan lies along the motion.")
-@option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
+@side_option("Side of the block in plan along the motion.")
+@option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; needs --heights and --masses.")
 @option(
     "--depth",
     type=LENGTH,
     callback=check_callback(checks.positive),
     section="Body",
-    help="Width across the motion, m; changes nothing in the plane. [default: --width]",
+    help="Width across the motion, m; without effect on plane motion. [default: --width]",
 )
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
-@option("--mu", type=MU, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
-@option("--mu-kinetic", type=MU, help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--mu", type=MU, help="Static friction coefficient of the foot that landed. [default: the body's own, else required]")
+@option("--mu-kinetic", type=MU, help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
 @option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]")
 @option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]")
-@option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the ground on which it lands, m or with a unit. [default: 0]")
+@option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the landing ground, m or with a unit. [default: 0]")
 @option(
     "--spin",
     default="momentum",
     show_default=True,
     metavar="momentum|printed|ratio=Q",
-    help="Spin after the impact: angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.",
+    help="Angular velocity after the impact: conserved angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.",
 )
 @option(
     "--direction",
     type=SuggestingChoice(["+", "-", "both"]),
     default="both",
     show_default=True,
-    help="Sign of the ground acceleration that may start a chain.",
+    help="Sign of the ground acceleration that can start a chain of motion.",
 )
-@landing_option("How a foot that lands is stopped: at once, whatever friction that takes, or by what friction can bear; it then slips on.")
-@option("--first", is_flag=True, help="Follow the first chain of motion only, in each --window, as the paper does. [default: all]")
-@option("--repeat", is_flag=True, hidden=True, help="All chains; since 0.2.0 the default.")
+@landing_option("Landing impulse of the foot: unlimited friction (paper), or limited by friction with further sliding (friction).")
+@option("--first", is_flag=True, help="Compute only the first chain of motion in each --window, as in the paper. [default: all]")
+@option("--repeat", is_flag=True, hidden=True, help="All chains of motion; the default since 0.2.0.")
 @option(
     "--tenon",
     type=LENGTH,
     callback=check_callback(checks.positive),
     section="Output",
-    help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.",
+    help="Depth of the tenon hole, m or with a unit: reports whether the foot left the hole.",
 )
 @gravity_option
 @output_options()
-def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **params: Any) -> None:
-    """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
+def jump(source: Source, output: OutputOptions, repeat: bool, tenon: float | None, **params: Any) -> None:
+    """Rocking, impact, jump, landing and slide-rocking of a two-layer block (Sugimoto et al. 2017).
 
-    Each horizontal component is solved by itself, chain of motion after chain; what moves when the record ends comes to rest on still
-    ground. --window limits when rocking may start, not the motion. Tilt is positive when the block leans to the component's positive
-    direction, displacements of the centroid are relative to the ground.
+    Each horizontal component is solved separately, as a sequence of chains of motion; a motion under way at the end of the record
+    continues on still ground. --window limits the start of rocking, not the ground motion. Tilt is positive towards the component's
+    positive direction; displacements of the centroid are relative to the ground.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
     from seisblock.cli.hints import jump_hint
     from seisblock.models.jump.solve import solve_jump
     from seisblock.report.json.jump import document
-    from seisblock.report.text import jump as shown
+    from seisblock.report.text import jump as text_output
 
     if repeat and params["first"]:
-        raise click.UsageError(gettext("give either --first or --repeat, which is the default"))
+        raise click.UsageError(gettext("--first and --repeat (the default) exclude each other: give only one of them"))
     if params["width"] is None:
         reject_without("--width", ["depth"])
     else:
@@ -103,7 +103,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **pa
         output,
         responses=responses,
         tables=lambda: chain(
-            shown.tables(responses, gal=output.gal, tenon=tenon),
+            text_output.tables(responses, gal=output.gal, tenon=tenon),
             jump_hint(source, params, DEFAULT_BLOCK, choice.block, choice.contact, tenon),
         ),
     )

@@ -1,4 +1,4 @@
-"""From the record options to prepared records and motions; physics lives in the library."""
+"""Records and motions from the record options."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.records import Motion, Preparation, Record, motion_of
 
 
 def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: bool = False, use_recording: bool = False) -> list[Record]:
-    """Read the records a command was given and prepare them as its options ask.
+    """Read the records of a command and apply the record options.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
 
 
 def report_qc(records: list[Record], *, strict: bool) -> None:
-    """Say what is doubtful about the records, in one line where silence was asked for, or refuse them."""
+    """Print the quality warnings of the records, in one line with ``--quiet``; with `strict`, raise an error."""
     from seisblock.records.qc_report import qc_summary, require_clean
 
     if strict:
@@ -61,7 +61,6 @@ def report_qc(records: list[Record], *, strict: bool) -> None:
 
 
 def _prepare(record: Record, source: Source, *, vertical_counts: bool, keep_whole: bool) -> Record:
-    """Return a record that went through the steps asked for, and say them."""
     peaks = () if source.target_pga is None else selected_components(record, source, vertical_counts=vertical_counts)
     record = make_preparation(source, peaks, keep_whole=keep_whole).apply(record)
     for line in record.history:
@@ -70,7 +69,7 @@ def _prepare(record: Record, source: Source, *, vertical_counts: bool, keep_whol
 
 
 def make_preparation(source: Source, peaks: tuple[str, ...], *, keep_whole: bool = False) -> Preparation:
-    """Return what the options ask to be done to a record; `peaks` are the components among which the target PGA is looked for."""
+    """Return the preparation of a record; `peaks` are the components of the target PGA."""
     return Preparation(
         demean=source.demean,
         highpass_hz=source.highpass,
@@ -83,23 +82,23 @@ def make_preparation(source: Source, peaks: tuple[str, ...], *, keep_whole: bool
 
 
 def check_single_window(source: Source) -> None:
-    """Refuse several windows where a command takes one."""
+    """Raise an error for several windows."""
     if len(source.window) > 1:
-        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
+        raise ParameterError("this command accepts one --window, found {count}", count=len(source.window))
 
 
 def selected_components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:
-    """Return the components, or azimuths, that a command is asked to look at."""
+    """Return the components or azimuths selected by the options."""
     available = record.codes if vertical_counts else tuple(c.code for c in record.horizontals)
     requested = source.component
     if not requested or any(name.lower() == "all" for name in requested):
         if not available:
-            raise ComponentError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+            raise ComponentError("{source}: no horizontal component; available: {codes}", source=record.source, codes=record.codes)
         return available
     return requested
 
 
 def selected_motions(record: Record, source: Source) -> Iterator[Motion]:
-    """Yield one motion for each horizontal direction asked for."""
+    """Yield one motion for each selected horizontal direction."""
     for name in selected_components(record, source):
         yield motion_of(record, name)

@@ -1,4 +1,4 @@
-"""Which language a command line is answered in: its own ``--lang``, else that of the locale; click's own words too."""
+"""Locale of a command line: ``--lang``, else the environment; applied to click's messages, too."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DOMAIN = "seisblock"
 
 
 def requested_locale(arguments: Sequence[str]) -> str | None:
-    """Return the language that a command line asks for, so that its errors are told in it too."""
+    """Return the locale of ``--lang`` before the line is parsed, so that parse errors are translated."""
     values = [value for name, value in pairwise(arguments) if name == "--lang"]
     values += [name.partition("=")[2] for name in arguments if name.startswith("--lang=")]
     return next((name for name in values if name in LANGUAGES), None)
@@ -22,7 +22,7 @@ def requested_locale(arguments: Sequence[str]) -> str | None:
 
 @contextmanager
 def use_cli_locale(arguments: Sequence[str]) -> Iterator[None]:
-    """Speak the language of a command line inside the block, and have click, which asks gettext, speak it as well."""
+    """Use the locale of a command line inside the context, also for click's gettext messages."""
     with use_locale(requested_locale(arguments)):
         previous_domain, variable = gettext.textdomain(), os.environ.get("LANGUAGE")
         gettext.bindtextdomain(DOMAIN, str(LOCALE_DIR))

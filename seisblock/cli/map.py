@@ -1,4 +1,4 @@
-"""``seisblock map``: an earthquake's stations, and what it did to what stands there."""
+"""``seisblock map``: table and map of an earthquake's stations."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info, warning
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import Count
 from seisblock.core.i18n import N_, gettext, lazy_gettext
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
 
 SOLVERS = ("respond", "rock", "slide", "jump", "uplift")
 SIZES = ("block", "width", "height")
-"""Options of which any names a body."""
+"""Options that select a body."""
 
 BODY_OPTIONS = (
     *("depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side", "mu", "mu_kinetic", "surface"),
     *("restitution", "rocking_restitution", "tenon", "frequency_vertical", "vertical", "runs", "seed"),
 )
-"""Options that say more of a body, or of how it is followed."""
+"""Further options of the body and the solver."""
 
 DEFAULT_RUNS = 50
-"""Plausible versions behind a probability, where nothing else is asked for."""
+"""Default number of samples for an overturning probability."""
 
 
 @click.command(
@@ -51,15 +51,15 @@ DEFAULT_RUNS = 50
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones that stand at every station, instead of a body: which share falls. Bundled: aoyama.csv.",
+    help="CSV of gravestones at every station, instead of a body; gives the share that falls. Bundled: aoyama.csv.",
 )
 @option(
     "--survey",
     type=click.Path(path_type=Path),
     metavar="FILE",
     section="Body",
-    help="CSV of surveyed cemeteries (place, latitude, longitude, stones, fallen): what their stones say beside the stations around "
-    "them. Stones are as those of --cemetery. [default: aoyama.csv]",
+    help="CSV of surveyed cemeteries (place, latitude, longitude, stones, fallen): estimated motion beside that of the stations "
+    "around. Stones as in --cemetery. [default: aoyama.csv]",
 )
 @free_standing_options
 @option(
@@ -69,26 +69,24 @@ DEFAULT_RUNS = 50
     section="Body",
     help="--solver uplift: natural frequency of the vertical motion on the springs, Hz.",
 )
-@option("--solver", type=SuggestingChoice(SOLVERS), help="Which model follows the body. [default: respond]")
-@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
+@option("--solver", type=SuggestingChoice(SOLVERS), help="Model that computes the response. [default: respond]")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(
     "--runs",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
-    help="Plausible versions behind a body's probability at each station; 0 for none. [default: 50; none but of respond and rock]",
+    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
+    help="Samples for the overturning probability of a body at each station; 0 for none. [default: 50; respond and rock only]",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
-@option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Threads on this machine. [default: as many as there are cores]")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
+@option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Number of threads. [default: number of cores]")
 @gravity_option
 @option(
-    "--geojson", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the stations as points for maps (RFC 7946)."
+    "--geojson", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the stations as GeoJSON points (RFC 7946)."
 )
-@option(
-    "--html", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the map as one page that needs no network."
-)
+@option("--html", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the map as one self-contained HTML page.")
 @output_options(histories=False, film=False)
 def map(  # noqa: A001 - the command's name
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     cemetery: str | None,
     survey: Path | None,
@@ -101,12 +99,12 @@ def map(  # noqa: A001 - the command's name
     html: Path | None,
     **params: Any,
 ) -> None:
-    """Map an earthquake: what each station measured, and what that does to a body or a cemetery, the worst first.
+    """Table and map of an earthquake's stations: measured motion and response of a body or a cemetery, largest first.
 
-    RECORD may be a bundle, a folder, a pattern or a list (@records.txt) of one earthquake; of KiK-net stations the surface is taken unless
-    --level says otherwise. A body is followed in every direction (jump and uplift: along each horizontal component), a cemetery judged in
-    every direction; the worst counts. What cannot be read is named, the others are answered; a station without coordinates is listed, and
-    on no map.
+    RECORD may be an archive, a folder, a pattern or a list (@records.txt) of one earthquake; of KiK-net stations the surface sensor
+    is used unless --level is given. A body is solved in all azimuths (jump and uplift: along each horizontal component), a cemetery
+    is assessed in all azimuths; the worst azimuth counts. Files that cannot be read are listed. A station without coordinates appears
+    in the table but not on the map.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.load_records import check_single_window, make_preparation
@@ -118,13 +116,13 @@ def map(  # noqa: A001 - the command's name
     from seisblock.report.io.atomic import check_distinct_outputs
     from seisblock.report.io.suffix import check_text_suffix
     from seisblock.report.json.map import document
-    from seisblock.report.text import map as shown
+    from seisblock.report.text import map as text_output
     from seisblock.studies.map.stations import survey_stations
     from seisblock.studies.map.surveyed_places import compare_surveys, read_surveys
 
     check_single_window(source)
     if source.component and source.target_pga is None:
-        raise click.UsageError(gettext("map looks in every direction: --component only says of what --target-pga is the peak"))
+        raise click.UsageError(gettext("--component has no effect on map except with --target-pga: all azimuths are computed"))
     check_distinct_outputs(*(path for path in (geojson, html) if path is not None))
     for path, form in ((geojson, "GeoJSON"), (html, "HTML")):
         if path is not None:
@@ -133,21 +131,21 @@ def map(  # noqa: A001 - the command's name
     model = _station_model(cemetery, params, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
         info("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
-    reading = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+    read_options = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
     with progress("stations") as advance:
         stations = survey_stations(
             source.record or (REAL_SAMPLE,),
             model,
             preparation=make_preparation(source, source.component),
-            read_options=reading,
+            read_options=read_options,
             strict=source.strict,
             workers=workers,
             progress=advance,
         )
     if all(answer.failure is not None and answer.pga_m_s2 is None for answer in stations.answers):
-        raise RecordError("no station has an answer: {why}", why=stations.answers[0].failure)
+        raise RecordError("no station could be computed: {why}", why=stations.answers[0].failure)
     if output.plot is not None and not stations.mapped:
-        raise RecordError("of no station it is known where it is: there is nothing to map")
+        raise RecordError("no station has coordinates: a map cannot be drawn")
     surveys = () if surveyed_places is None else compare_surveys(surveyed_places, stations, read_cemetery(cemetery or "aoyama.csv"))
     if geojson is not None:
         from seisblock.report.exports.geojson import write_geojson
@@ -170,14 +168,14 @@ def map(  # noqa: A001 - the command's name
         write_table(path, list(rows[0]), (list(row.values()) for row in rows))
 
     def figure() -> Any:
-        from seisblock.report.figures.stations import figure as drawn
+        from seisblock.report.figures.stations import figure as make_figure
 
-        return drawn(stations, model, gal=output.gal, surveys=surveys)
+        return make_figure(stations, model, gal=output.gal, surveys=surveys)
 
     def tables() -> Iterator[Any]:
-        yield from shown.tables(stations, model, gal=output.gal)
+        yield from text_output.tables(stations, model, gal=output.gal)
         if surveys:
-            yield from shown.survey_tables(surveys)
+            yield from text_output.survey_tables(surveys)
 
     result = document(stations, model, surveys, upstairs=source.floor is not None)
     write_results(result, output, tables=tables, csv=table, figure=figure)
@@ -186,13 +184,13 @@ def map(  # noqa: A001 - the command's name
 def _station_model(
     cemetery: str | None, params: dict[str, Any], solver: str | None, *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> StationModel | None:
-    """Return what stands at each station: a cemetery, a body, or nothing."""
+    """Return the model at each station: cemetery, body or None."""
     from seisblock.studies.map.station_response import StationBody, StationCemetery
 
     has_body = solver is not None or any(params.get(name) is not None for name in SIZES)
     if cemetery is not None:
         if has_body:
-            raise click.UsageError(gettext("give either --cemetery or a body, not both"))
+            raise click.UsageError(gettext("--cemetery and a body exclude each other: give only one of them"))
         reject_with("--cemetery", [*BODY_OPTIONS, "gravity"])
         from seisblock.bodies.cemetery.table import read_cemetery
 
@@ -203,7 +201,7 @@ def _station_model(
     if solver not in (None, "respond"):
         return _station_body(solver, params, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if params["frequency_vertical"] is not None:
-        raise click.UsageError(gettext("--frequency-vertical is of --solver uplift: leave it out"))
+        raise click.UsageError(gettext("--frequency-vertical requires --solver uplift: omit it"))
     choice = choose_free_standing(params)
     info("body: {says}", says=choice.description)
     options = {"mu": choice.mu, "mu_kinetic": choice.mu_kinetic, "gravity": gravity}
@@ -214,7 +212,7 @@ def _station_model(
 def _station_body(
     solver: str, params: dict[str, Any], *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> StationModel:
-    """Return a body that another solver than ``respond`` follows; what that solver does not have is refused by name."""
+    """Return a body for a solver other than ``respond``; options that the solver lacks raise an error."""
     from dataclasses import replace
 
     from seisblock.cli.bodies.body_spec import OWN_OPTIONS, make_body_spec
@@ -237,5 +235,11 @@ def _station_body(
     info("body: {says}", says=placement.name)
     default_runs = DEFAULT_RUNS if model.chance is not None else 0
     return StationBody(
-        placement.body, placement.options, vertical, default_runs if runs is None else runs, seed, solver=solver, label=placement.name
+        placement.body,
+        placement.options,
+        vertical,
+        default_runs if runs is None else runs,
+        seed,
+        solver=solver,
+        label=placement.name,
     )

@@ -1,4 +1,4 @@
-"""``seisblock measure``: what a record is, in numbers."""
+"""``seisblock measure``: intensity measures of a record."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH
 from seisblock.core.errors import InputError
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 
 THRESHOLD_SIDES: dict[str, Side] = {"+": "positive", "-": "negative", "both": "both"}
-"""Which side of the threshold each value of ``--direction`` means."""
+"""Side of the threshold for each value of ``--direction``."""
 
 
 def _parse_acceleration(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
-    """Accept an acceleration with its unit."""
+    """Parse an acceleration with its unit."""
     if value is None:
         return None
     try:
@@ -38,9 +38,9 @@ def _parse_acceleration(ctx: click.Context, param: click.Parameter, value: str |
 
 
 def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
-    """Refuse a negative corner; 0 is none."""
+    """Return the corner frequency, None for 0; raise an error for negative values."""
     if not 0.0 <= value < float("inf"):
-        raise click.BadParameter(gettext("must be 0 (none) or a positive number of Hz, found {value}", value=value), ctx, param)
+        raise click.BadParameter(gettext("must be 0 (none) or a positive frequency in Hz, found {value}", value=value), ctx, param)
     return value or None
 
 
@@ -53,12 +53,12 @@ def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> f
     "--threshold",
     callback=_parse_acceleration,
     metavar="A",
-    help="Threshold of the durations, with its unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]",
+    help="Threshold of the durations, with unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]",
 )
-@option("--width", type=LENGTH, section="Body", help="Width of a block (m, or with a unit: 24cm, 8sun): the threshold is its g B/H.")
-@option("--height", type=LENGTH, section="Body", help="Height of that block (m, or with a unit).")
-@two_layer_option("Bundled two-layer block, or TOML file: the threshold is where it rocks.")
-@side_option("Which side of --block in plan lies along the motion.")
+@option("--width", type=LENGTH, section="Body", help="Width B of a block, m or with a unit (24cm, 8sun); threshold g B/H.")
+@option("--height", type=LENGTH, section="Body", help="Height H of the block, m or with a unit.")
+@two_layer_option("Bundled two-layer block, or TOML file; its rocking threshold is used.")
+@side_option("Side of --block in plan along the motion.")
 @option(
     "--direction",
     type=SuggestingChoice(THRESHOLD_SIDES),
@@ -73,27 +73,27 @@ def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> f
     show_default=True,
     callback=_check_corner,
     metavar="HZ",
-    help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.",
+    help="Corner of the zero-phase high-pass for PGV and PGD, Hz; 0 for none.",
 )
 @gravity_option
 @output_options(film=False)
 def measure(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     direction: str,
     velocity_highpass: float | None,
     **threshold: Any,
 ) -> None:
-    """Tell what a record is: peaks, velocities, equivalent frequencies, durations, intensities.
+    """Intensity measures of a record: peak values, spectral intensities, equivalent frequencies, durations, JMA intensity.
 
-    Durations are those during which the acceleration exceeds a threshold: a given one, or that at which a block begins to
-    rock. JMA intensity needs all three components. Times count from the record's first sample.
+    A duration is the time during which the acceleration exceeds a threshold: a given value, or the rocking threshold of a block. JMA
+    intensity requires all three components. Times count from the first sample of the record.
     """
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.write_results import write_results
     from seisblock.measures import Conventions
-    from seisblock.measures import measure as measured
+    from seisblock.measures import measure as compute_measures
     from seisblock.report.json.measure import document
     from seisblock.report.units_display import acceleration_unit
 
@@ -102,7 +102,9 @@ def measure(
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=THRESHOLD_SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
     records = load_records(source, vertical_counts=True, use_recording=True)
-    answers = [measured(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
+    answers = [
+        compute_measures(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records
+    ]
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
     def make_tables() -> Any:
@@ -114,7 +116,7 @@ def measure(
         from seisblock.report.figures.measure import measure_figure
 
         if len(records) > 1:
-            raise InputError("--plot draws one record, found {count}: give one, or run the command for each", count=len(records))
+            raise InputError("--plot requires one record, found {count}: run the command for each record", count=len(records))
         return measure_figure(records[0], answers[0], gal=output.gal)
 
     size, unit = acceleration_unit(gal=output.gal)
@@ -125,10 +127,10 @@ def measure(
 def _threshold(
     *, threshold: float | None, width: float | None, height: float | None, block: str | None, side: str, gravity: float
 ) -> tuple[float, str]:
-    """Return the threshold, m/s^2, and where it comes from, from whichever of its forms was given."""
+    """Return the threshold, m/s^2, and its origin."""
     sizes = width is not None or height is not None
     if (threshold is not None) + sizes + (block is not None) > 1:
-        raise click.UsageError(gettext("give one of --threshold, --width with --height, and --block"))
+        raise click.UsageError(gettext("--threshold, --width with --height, and --block exclude each other: give only one of them"))
     if block is not None:
         from seisblock.bodies.toml import read_body_toml
         from seisblock.bodies.two_layer import two_layer_from_table
@@ -139,7 +141,7 @@ def _threshold(
         from seisblock.measures import block_threshold
 
         if width is None or height is None:
-            raise click.UsageError(gettext("the rocking threshold g B/H of a block needs both --width and --height"))
+            raise click.UsageError(gettext("the rocking threshold g B/H requires both --width and --height"))
         return block_threshold(width, height, gravity=gravity), lazy_gettext(
             "g B/H of a block {width:g} m wide and {height:g} m high", width=width, height=height
         )
@@ -151,7 +153,6 @@ def _threshold(
 
 
 def _write_histories(path: Path, records: list[Any], answers: list[Any]) -> None:
-    """Write the histories behind the numbers."""
     from seisblock.report.io.atomic import write_table
     from seisblock.report.text.measure import history_table
 

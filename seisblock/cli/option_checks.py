@@ -1,4 +1,4 @@
-"""Options that say nothing in a call are refused: whoever gives one believes that it acts."""
+"""Rejection of options that have no effect in the chosen mode."""
 
 from __future__ import annotations
 
@@ -12,39 +12,35 @@ from seisblock.cli.options import Source
 from seisblock.core.i18n import gettext
 
 RECORD_OPTIONS = tuple(field.name for field in fields(Source) if field.name != "record")
-"""What is said of a record beside its name."""
+"""Names of all record options."""
 
 
 def given_flags(names: Iterable[str]) -> list[str]:
-    """Return those of the options of the command under way, by their parameters, that were asked for, as they are written."""
+    """Return the flags of those options, by parameter name, that the user gave."""
     context = click.get_current_context()
     flags = {parameter.name: parameter.opts[0] for parameter in context.command.params}
     return [flags[name] for name in names if name in flags and context.get_parameter_source(name) is not ParameterSource.DEFAULT]
 
 
 def reject_with(condition: str, names: Iterable[str]) -> None:
-    """Refuse options, by their parameters, that have nothing to do beside what was chosen.
+    """Raise an error for options that have no effect with `condition`.
 
     Raises
     ------
     click.UsageError
-        If one of them was asked for, whatever its value.
+        If one of the options was given, even with its default value.
     """
     if flags := given_flags(names):
-        raise click.UsageError(
-            gettext("beside {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
-        )
+        raise click.UsageError(gettext("{flags} has no effect with {what}: omit one of them", what=condition, flags=flags))
 
 
 def reject_without(condition: str, names: Iterable[str]) -> None:
-    """Refuse options, by their parameters, that have nothing to do without what was not chosen.
+    """Raise an error for options that have no effect without `condition`.
 
     Raises
     ------
     click.UsageError
-        If one of them was asked for, whatever its value.
+        If one of the options was given, even with its default value.
     """
     if flags := given_flags(names):
-        raise click.UsageError(
-            gettext("without {what} there is nothing for {flags} to do: leave out what is not meant", what=condition, flags=flags)
-        )
+        raise click.UsageError(gettext("{flags} has no effect without {what}: omit it, or add {what}", what=condition, flags=flags))

@@ -1,4 +1,4 @@
-"""Options that mean the same everywhere: one decorator for the record, one for the output."""
+"""Options shared by all commands: records, output and gravity."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.command import argument, option
-from seisblock.cli.output import DPI, SLOW, Output, check_output
+from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import SIZE, STOREY, WINDOW
 from seisblock.cli.verbosity import quiet_output
@@ -27,7 +27,7 @@ Function = Callable[..., Any]
 
 @dataclass(frozen=True)
 class Source:
-    """Which record, and what is done to it before it is used."""
+    """Record and its preparation, from the record options."""
 
     record: tuple[str, ...]
     component: tuple[str, ...]
@@ -46,11 +46,11 @@ class Source:
 
 
 def check_callback(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
-    """Return a callback that refuses what a check of :mod:`seisblock.core.checks` does."""
+    """Return a click callback for a check of :mod:`seisblock.core.checks`."""
 
     def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
         try:
-            return None if value is None else check(N_("it"), value)
+            return None if value is None else check(N_("the value"), value)
         except ParameterError as error:
             raise click.BadParameter(gettext(error.message), ctx, param) from None
 
@@ -61,15 +61,15 @@ _positive, _nonzero = check_callback(checks.positive), check_callback(checks.non
 
 
 def _split_components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
-    """Accept the option repeated, and lists with commas; a list of nothing is refused."""
+    """Split repeated and comma-separated components; raise an error for an empty list."""
     names = [[part.strip() for part in text.split(",") if part.strip()] for text in value]
     if not all(names):
-        raise click.BadParameter(gettext("it is empty: name a component, or degrees clockwise from north"), ctx, param)
+        raise click.BadParameter(gettext("the list is empty: name a component, or degrees clockwise from north"), ctx, param)
     return tuple(name for group in names for name in group)
 
 
 def _record_argument(help_text: str) -> Callable[[Function], Function]:
-    """Return the argument RECORD, of which the help says what stands for none."""
+    """Return the argument RECORD with its help text."""
     return argument(
         "record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=shell_completion.complete_records, help=help_text
     )
@@ -77,7 +77,7 @@ def _record_argument(help_text: str) -> Callable[[Function], Function]:
 
 _RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
 _REAL_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
-_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: those of --suite]"))
+_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: records of --suite]"))
 _RECORD_OPTIONS = (
     option(
         "--component",
@@ -88,21 +88,21 @@ _RECORD_OPTIONS = (
         section="Record",
         help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",
     ),
-    option("--scale", type=float, callback=_nonzero, section="Record", help="Factor on all components. [default: 1]"),
+    option("--scale", type=float, callback=_nonzero, section="Record", help="Scale factor on all components. [default: 1]"),
     option(
         "--target-pga",
         type=float,
         callback=_positive,
         metavar="GAL",
         section="Record",
-        help="Scale so that the largest PGA of the components solved is this, gal: in the whole record, before --floor and --window.",
+        help="Largest PGA of the components under analysis after scaling, gal; taken over the whole record, before --floor and --window.",
     ),
     option(
         "--window",
         type=WINDOW,
         multiple=True,
         section="Record",
-        help="Use this stretch only, s from the record's first sample; either end may be left out.",
+        help="Time window, s from the first sample of the record; either end may be omitted.",
     ),
     option(
         "--highpass",
@@ -110,47 +110,47 @@ _RECORD_OPTIONS = (
         callback=_positive,
         metavar="HZ",
         section="Record",
-        help="Zero-phase high-pass (4th-order Butterworth), after --demean and before --scale, Hz. [default: none]",
+        help="Corner of a zero-phase high-pass (4th-order Butterworth), Hz; after --demean, before --scale. [default: none]",
     ),
     option(
         "--floor",
         type=STOREY,
         metavar="T=S[,zeta=0.05][,height=0.8]",
         section="Record",
-        help="The object stands in a building over this ground: it feels a linear oscillator of period T (s) and damping zeta (a ratio), "
-        "or the storey at this share of the height, the mode being a straight line. After --scale, before --window; vertical as it is. "
-        "[default: on the ground]",
+        help="Floor motion: response of a linear oscillator of period T, s, and damping ratio zeta, or of the storey at the ratio "
+        "height of the building height (straight mode shape). After --scale, before --window; vertical component unchanged. "
+        "[default: ground motion]",
     ),
     option(
         "--demean/--no-demean",
         default=None,
         section="Record",
-        help="Remove the mean of each component. [default: for K-NET/KiK-net, whose counts carry an offset]",
+        help="Remove the mean of each component. [default: only for K-NET/KiK-net, whose counts carry an offset]",
     ),
-    option("--format", section="Record", help="Format of the file. [default: recognised from its content]"),
-    option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the numbers, where the file does not say."),
-    option(
-        "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
-    ),
+    option("--format", section="Record", help="File format. [default: recognised from the content]"),
+    option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the values, where the file states none."),
+    option("--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file states none, s."),
     option(
         "--station",
         section="Record",
-        help="Station code, in a bundle that holds several, or place in a structure; all takes each for itself.",
+        help="Station code in an archive of several, or location in a structure; all: each station separately.",
     ),
-    option("--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
-    option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
+    option(
+        "--level", type=SuggestingChoice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net station. [default: surface]"
+    ),
+    option("--strict", is_flag=True, section="Record", help="Reject records with quality warnings instead of printing the warnings."),
 )
 
-_JSON = option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
+_JSON = option("--json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
 
 
 def _csv_option(text: str) -> Any:
-    """Return ``--csv``, with what it writes."""
+    """Return ``--csv`` with its help text."""
     return option("--csv", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE", help=text)
 
 
-_CSV_HISTORIES = _csv_option("Write the time history, SI units; - writes it to stdout, and nothing else.")
-_CSV_ROWS = _csv_option("Write what the table holds, SI units; - writes it to stdout, and nothing else.")
+_CSV_HISTORIES = _csv_option("Write the time histories as CSV, SI units; - writes them alone to stdout.")
+_CSV_ROWS = _csv_option("Write the table as CSV, SI units; - writes it alone to stdout.")
 
 _FIGURE_OPTIONS = (
     option(
@@ -158,23 +158,23 @@ _FIGURE_OPTIONS = (
         type=click.Path(path_type=Path, allow_dash=True),
         section="Output",
         metavar="FILE",
-        help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else.",
+        help="Write the figure: .png, .svg or .pdf; - writes a .png alone to stdout.",
     ),
     option(
         "--size",
         type=SIZE,
         metavar="WxH",
         section="Output",
-        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: what it needs]",
+        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: from the content]",
     ),
-    option(
-        "--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Dots per inch of a .png, 1/inch."
-    ),
-    option("--title", section="Output", metavar="TEXT", help="Line above the figure; empty for none. [default: station, time, processing]"),
+    option("--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Resolution of a .png, 1/inch."),
+    option("--title", section="Output", metavar="TEXT", help="Title of the figure; empty for none. [default: station, time, processing]"),
 )
 
 _ANIMATION_OPTIONS = (
-    option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
+    option(
+        "--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the animation: .gif, .mp4 or .html."
+    ),
     option(
         "--slow",
         type=float,
@@ -182,7 +182,7 @@ _ANIMATION_OPTIONS = (
         callback=_positive,
         metavar="FACTOR",
         section="Output",
-        help="Play the animation this many times slower than life. [default: 1]",
+        help="Slow-motion factor of the animation, a ratio to real time. [default: 1]",
     ),
 )
 
@@ -191,34 +191,34 @@ _GAL = option(
     "gal",
     default=True,
     section="Output",
-    help="Units of tables, figures and films: gal, kine and cm, or m/s², m/s and m. [default: gal]",
+    help="Units of tables, figures and animations: gal, kine and cm, or m/s², m/s and m. [default: gal]",
 )
 
-_QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
+_QUIET = option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 
 
 def record_options(function: Function) -> Function:
-    """Give a command RECORD and the options that select and prepare it; it receives one ``source``."""
+    """Add RECORD and the options of its selection and preparation to a command, as one ``source``."""
     return _collect_options(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def real_record_options(function: Function) -> Function:
-    """Give a command the same, where a recording stands for none."""
+    """Add the record options with a recorded motion as default."""
     return _collect_options(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def suite_record_options(function: Function) -> Function:
-    """Give a command the same, where a suite stands for none."""
+    """Add the record options with a synthetic suite as default."""
     return _collect_options(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def preparation_options(function: Function) -> Function:
-    """Give a command the options that prepare records that it is told of otherwise; it receives one ``source``, of no record."""
+    """Add only the preparation options to a command, as one ``source`` without record."""
     return _collect_options(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
 def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
-    """Return what gives a command the options that say where the answer goes; it receives one ``output``.
+    """Return a decorator that adds the output options to a command, as one ``output``.
 
     Parameters
     ----------
@@ -227,18 +227,18 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
     film : bool
         Whether there is an animation.
     accelerations : bool
-        Whether there are any to have a unit.
+        Whether ``--units`` of accelerations applies.
     """
     texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
-    return lambda function: _collect_options(_with_output_check(function), declarations, Output, "output")
+    return lambda function: _collect_options(_with_output_check(function), declarations, OutputOptions, "output")
 
 
 def _with_output_check(function: Function) -> Function:
-    """Let a command look at where its answer goes before it computes it."""
+    """Check the output options before the command runs."""
 
     @functools.wraps(function)
-    def looking(*args: Any, output: Output, **kwargs: Any) -> Any:
+    def looking(*args: Any, output: OutputOptions, **kwargs: Any) -> Any:
         check_output(output)
         return function(*args, output=output, **kwargs)
 
@@ -246,7 +246,7 @@ def _with_output_check(function: Function) -> Function:
 
 
 def gravity_option(function: Function) -> Function:
-    """Give a command ``--gravity``."""
+    """Add ``--gravity`` to a command."""
     return option(
         "--gravity",
         type=float,
@@ -259,7 +259,7 @@ def gravity_option(function: Function) -> Function:
 
 
 def _collect_options(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **constants: Any) -> Function:
-    """Gather a family of options, and what is known beside them, into one argument."""
+    """Collect a family of options and fixed values into one argument."""
     names = [field.name for field in fields(kind)]
 
     @functools.wraps(function)

@@ -1,4 +1,4 @@
-"""Where an answer goes, and whether it can: looked at before anything is computed."""
+"""Output options and their check before the computation."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from seisblock.report.io.atomic import check_animation, check_distinct_outputs, 
 from seisblock.report.io.suffix import check_text_suffix
 
 STDOUT = Path("-")
-"""The name that stands for stdout."""
+"""Path that stands for stdout."""
 
 DPI, SLOW = 200, 1.0
-"""Dots per inch of a figure, and how many times slower than it was a film runs, of which nothing else is said."""
+"""Default resolution of a figure, 1/inch, and default slow-motion factor of an animation."""
 
 
 @dataclass(frozen=True)
-class Output:
-    """Where the answer goes, and in which form."""
+class OutputOptions:
+    """Values of the output options."""
 
     json: bool
     csv: Path | None
@@ -33,18 +33,19 @@ class Output:
     slow: float = SLOW
 
 
-def check_output(output: Output) -> None:
-    """Refuse what cannot be written: before anything is read, and again when it is known what was read.
+def check_output(output: OutputOptions) -> None:
+    """Raise an error for outputs that cannot be written.
 
     Raises
     ------
     OutputError
-        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure or film to change.
+        If a file name has no known suffix, its folder does not exist, two outputs share a name, or an option lacks its figure or
+        animation.
     """
     if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
-        raise OutputError("--size, --dpi and --title are the figure's: give --plot, too")
+        raise OutputError("--size, --dpi and --title require --plot")
     if output.animate is None and output.slow != SLOW:
-        raise OutputError("--slow is the film's: give --animate, too")
+        raise OutputError("--slow requires --animate")
     if output.plot is not None and output.plot != STDOUT:
         check_figure(output.plot)
     if output.animate is not None:
@@ -55,8 +56,8 @@ def check_output(output: Output) -> None:
         check_text_suffix(output.csv, "CSV")
 
 
-def _check_stdout(output: Output) -> None:
-    """Refuse two things that both go to stdout, and a name beside ``-`` that would be left unwritten."""
+def _check_stdout(output: OutputOptions) -> None:
+    """Raise an error for two outputs on stdout."""
     if STDOUT not in (output.csv, output.plot):
         return
     destinations = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}
@@ -64,4 +65,4 @@ def _check_stdout(output: Output) -> None:
     first = "--csv" if output.csv == STDOUT else "--plot"
     conflicting = [name for name in requested if name != first and (first == "--csv" or destinations[name] in (STDOUT, True))]
     if conflicting:
-        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=conflicting)
+        raise OutputError("{first} - writes to stdout, which takes one output: omit {others}", first=first, others=conflicting)

@@ -1,4 +1,4 @@
-"""``seisblock overturn-rate``: which share of a cemetery falls."""
+"""``seisblock overturn-rate``: overturning rate of the gravestones of a cemetery."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
 from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
@@ -27,15 +27,16 @@ if TYPE_CHECKING:
     from seisblock.studies.survey.shaking import FrequencyKind
 
 FREQUENCY_KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
-"""Definitions of the equivalent frequency, as they are spelled here and in the library."""
+"""Definitions of the equivalent frequency: option value and library name."""
 
 FITTED_EDGES = lazy_gettext(
-    "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid, simulate use it"
+    "--inset has no effect on criteria (9), (10), which were fitted to gravestones with worn edges; it acts with --criterion rigid "
+    "and simulate"
 )
 
 
 def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[float, float, float] | None:
-    """Accept P,Q,R in gal, Hz and 1."""
+    """Parse P,Q,R in gal, Hz and 1."""
     if value is None:
         return None
     try:
@@ -65,8 +66,8 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
     "Bundled: aoyama.csv.",
 )
-@option("--reinforced", is_flag=True, section="Body", help="Judge as if every stone were reinforced.")
-@option("--both", is_flag=True, section="Body", help="Compare with every stone reinforced, and say how many that saves.")
+@option("--reinforced", is_flag=True, section="Body", help="Assess all stones as reinforced (dowels).")
+@option("--both", is_flag=True, section="Body", help="Compare with all stones reinforced: number of stones saved.")
 @option(
     "--most-fragile",
     type=Count(N_("gravestones"), "SEISBLOCK_STONES"),
@@ -79,14 +80,14 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     type=LENGTH,
     callback=check_callback(checks.positive),
     section="Body",
-    help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]",
+    help="Width of stones without a width in the file, m or with a unit. [default: 8sun]",
 )
-@option("--pga", type=FLOATS, metavar="GAL", help="Without RECORD: peak ground acceleration, gal; a list or range is answered one by one.")
+@option("--pga", type=FLOATS, metavar="GAL", help="Without RECORD: peak ground acceleration, gal; number, list or range.")
 @option(
     "--frequency",
     type=FLOATS,
     metavar="HZ",
-    help="Without RECORD: frequency, Hz, or a list or range (also of the curves). With RECORD: instead of its equivalent frequency.",
+    help="Frequency, Hz; number, list or range. With RECORD: instead of its equivalent frequency.",
 )
 @option(
     "--equivalent",
@@ -100,23 +101,23 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     type=SuggestingChoice(["furukawa", "rigid", "simulate"]),
     default="furukawa",
     show_default=True,
-    help="Fit to whole stones (9), (10); one rigid block under a half sine; or each stone rocking under RECORD or a 20 s sine.",
+    help="Fitted criteria (9), (10) for whole gravestones; one rigid block under a half sine; or simulated rocking of each stone "
+    "under RECORD or a 20 s sine.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
-    help="rigid, simulate: how far in from each side a stone's worn edges lie, a share of its width (0.1, 10%), or m with a unit "
-    "(1cm). [default: 0.05]",
+    help="rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
 )
 @option(
-    "--fit", callback=_parse_fit, metavar="P,Q,R", help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]"
+    "--fit", callback=_parse_fit, metavar="P,Q,R", help="furukawa: parameters P,Q,R without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]"
 )
 @option(
     "--fit-reinforced",
     callback=_parse_fit,
     metavar="P,Q,R",
-    help="furukawa: own parameters with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]",
+    help="furukawa: parameters P,Q,R with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]",
 )
 @option(
     "--confidence",
@@ -124,18 +125,18 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     default=0.95,
     show_default=True,
     callback=check_callback(partial(checks.in_interval, interval="(0, 1)")),
-    help="Level of the interval of a rate, 0 to 1.",
+    help="Confidence level of the interval of the rate, 0 to 1.",
 )
 @gravity_option
 @output_options(histories=False, film=False)
 def overturn_rate(
-    source: Source, output: Output, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **params: Any
+    source: Source, output: OutputOptions, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **params: Any
 ) -> None:
-    """Tell which share of a cemetery's gravestones falls (Furukawa et al. 2009).
+    """Overturning rate of the gravestones of a cemetery (Furukawa et al. 2009).
 
-    A stone falls when its height over width exceeds a(f)/PGA. Without RECORD the curve of rates against PGA is printed, or the rate
-    at --pga and --frequency; with one the rate for each horizontal component and for the larger of them. --csv holds what is printed,
-    --json the curve, too.
+    A stone falls when its height over width exceeds a(f)/PGA. Without RECORD: curve of the rate against PGA, or the rate at --pga and
+    --frequency. With RECORD: rate for each horizontal component and for the larger of them. --csv holds the printed table, --json
+    also the curve.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.overturn_rate import document, parameters_of
@@ -143,7 +144,7 @@ def overturn_rate(
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
 
     if reinforced + both + (most_fragile is not None) > 1:
-        raise click.UsageError(gettext("give one of --reinforced, --both and --most-fragile"))
+        raise click.UsageError(gettext("--reinforced, --both and --most-fragile exclude each other: give only one of them"))
     _check_options(source, params)
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
@@ -153,7 +154,7 @@ def overturn_rate(
     inset, notes = _resolve_inset(params["inset"], params["criterion"])
     method = _make_method({**params, "inset": inset})
     groups = _shaking_groups(source, params)
-    with progress("rates against PGA") as advance:
+    with progress("overturning rates") as advance:
         rate_groups = [
             (
                 record,
@@ -178,9 +179,9 @@ def overturn_rate(
     answer = document(results, curve, parameters, citations=method.citations, warnings=warnings)
 
     def tables() -> Any:
-        from seisblock.report.text.overturn_rate import tables as shown
+        from seisblock.report.text.overturn_rate import tables as text_output
 
-        return shown(stones, results, curve, gal=output.gal, confidence=method.confidence)
+        return text_output(stones, results, curve, gal=output.gal, confidence=method.confidence)
 
     def figure() -> Any:
         from seisblock.report.figures.cemetery import overturn_rate_figure
@@ -200,7 +201,7 @@ def overturn_rate(
 
 
 def _check_options(source: Source, params: dict[str, Any]) -> None:
-    """Refuse what says nothing of this kind of shaking, or by this criterion."""
+    """Raise an error for options without effect on this motion or criterion."""
     if not source.record:
         reject_without("RECORD", [*RECORD_OPTIONS, "equivalent"])
     elif params["frequency"]:
@@ -212,7 +213,6 @@ def _check_options(source: Source, params: dict[str, Any]) -> None:
 
 
 def _make_method(params: dict[str, Any]) -> Any:
-    """Return how stones are judged."""
     from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
     from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
     from seisblock.studies.survey.assessment import AssessmentMethod
@@ -226,10 +226,12 @@ def _make_method(params: dict[str, Any]) -> Any:
 
 
 def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, list[str]]:
-    """Return the inset that is meant, and what must be said of how it was understood."""
+    """Return the inset and the warnings about its interpretation."""
     if inset is None:
         if criterion != "furukawa":
-            info("stones turn about edges worn by {share:g} of their width per side; --inset 0 for sharp ones", share=DEFAULT_WEAR.share)
+            info(
+                "stones have edges worn by {share:g} of their width per side (default); --inset 0 for sharp edges", share=DEFAULT_WEAR.share
+            )
         return DEFAULT_WEAR, []
     if criterion == "furukawa":
         return inset, [FITTED_EDGES]
@@ -237,7 +239,7 @@ def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, li
         converted = EdgeWear(share=round((1.0 - inset.share) / 2, 12))
         return converted, [
             lazy_gettext(
-                "--inset {given:g} is understood as in 0.1.0, pivots over half width: {share:g} of the width per side",
+                "--inset {given:g} was read as in version 0.1.0 (pivot distance over half width): {share:g} of the width per side",
                 given=inset.share,
                 share=converted.share,
             )
@@ -246,18 +248,18 @@ def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, li
 
 
 def _shaking_groups(source: Source, params: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
-    """Return the shakings to judge, under the record they belong to, or None."""
+    """Return the ground motions, grouped by record; None without record."""
     from seisblock.studies.survey.overturning_rate import FREQUENCIES
     from seisblock.studies.survey.shaking import Shaking, component_shakings
 
     pga, frequency = params["pga"], params["frequency"]
     if not source.record:
-        check_limit(N_("shakings"), len(pga or ()) * len(frequency or FREQUENCIES), "SEISBLOCK_CELLS")
+        check_limit(N_("ground motions"), len(pga or ()) * len(frequency or FREQUENCIES), "SEISBLOCK_CELLS")
         return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
     if pga:
-        raise click.UsageError(gettext("give either RECORD or --pga; --target-pga scales a record"))
+        raise click.UsageError(gettext("RECORD and --pga exclude each other: give only one of them; --target-pga scales a record"))
     if frequency and len(frequency) > 1:
-        raise click.UsageError(gettext("with RECORD --frequency takes one value, found {count}", count=len(frequency)))
+        raise click.UsageError(gettext("--frequency accepts one value with RECORD, found {count}", count=len(frequency)))
     from seisblock.cli.load_records import load_records, selected_components
 
     record_frequency = frequency[0] if frequency else None

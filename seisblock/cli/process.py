@@ -1,4 +1,4 @@
-"""How a run ends when something outside it does: the terminal, the disk, another program."""
+"""Process-level events: signals, broken pipes and exit codes."""
 
 from __future__ import annotations
 
@@ -12,34 +12,34 @@ from typing import Any, NoReturn
 from seisblock.core._signals import temporary_handler
 
 TERMINATED = 143
-"""Exit code after SIGTERM, as shells have it."""
+"""Exit code after SIGTERM (shell convention)."""
 
 
 class Terminated(BaseException):
-    """Somebody asked the program to end: temporary files go, the old ones stay."""
+    """Raised on SIGTERM, so that temporary files are removed."""
 
 
 RETRY_S = 0.3
-"""After so long what asked the program to end asks again: finalizers and callbacks of libraries swallow what is raised in them."""
+"""Interval, s, at which a signal is raised again: finalizers and library callbacks may swallow it."""
 
 EXIT_EXCEPTIONS: dict[signal.Signals, type[BaseException]] = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: Terminated}
-"""What asks a program to end, as the exception that lets everything clean up behind itself."""
+"""Termination signals and the exceptions that run the clean-up."""
 
 
 @contextlib.contextmanager
 def graceful_exit() -> Iterator[None]:
-    """End on SIGTERM as on Ctrl-C inside the block; in the main thread of a program only, and nothing is left behind."""
+    """Handle SIGTERM as Ctrl-C inside the context (main thread only); restore the handlers after it."""
     received: list[signal.Signals] = []
 
     def end(number: int, frame: Any) -> NoReturn:
-        """Raise what ends the program, and see to it that it is raised again should it be lost."""
+        """Raise the exception of the signal, and again should it be lost."""
         received.append(signal.Signals(number))
         if repeats:
             signal.setitimer(signal.ITIMER_REAL, RETRY_S)
         raise EXIT_EXCEPTIONS[received[0]]
 
     def drop(unraisable: Any) -> None:
-        """Say nothing of an end that a finalizer or a callback swallowed: it comes again."""
+        """Drop the report of an exception swallowed by a finalizer or callback: it is raised again."""
         if not issubclass(unraisable.exc_type, tuple(EXIT_EXCEPTIONS.values())):
             default_hook(unraisable)
 
@@ -53,7 +53,7 @@ def graceful_exit() -> Iterator[None]:
         try:
             yield
         except Exception as error:
-            if received:  # a class whose body is executed, in any import, makes a RuntimeError of what is raised in it
+            if received:  # class creation during an import wraps exceptions into a RuntimeError
                 raise EXIT_EXCEPTIONS[received[0]] from error
             raise
         finally:
@@ -62,7 +62,7 @@ def graceful_exit() -> Iterator[None]:
 
 
 def fast_exit(code: int) -> NoReturn:
-    """End the process without taking it apart: freeing the libraries takes longer than somebody who pressed Ctrl-C waits."""
+    """Exit without interpreter shutdown, whose clean-up of libraries takes seconds."""
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError, ValueError):
             stream.flush()
@@ -71,7 +71,7 @@ def fast_exit(code: int) -> NoReturn:
 
 @contextlib.contextmanager
 def safe_streams() -> Iterator[None]:
-    """Give a run that has no stdout (``>&-``) one that takes everything, and one in Latin-1 or ASCII a sign for what it cannot write."""
+    """Replace a closed stdout by a null stream, and characters that the encoding lacks by a placeholder."""
     with contextlib.ExitStack() as stack:
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
@@ -86,11 +86,11 @@ def safe_streams() -> Iterator[None]:
 
 
 def _rejects_unicode(stream: Any) -> bool:
-    """Whether a stream of the C locale, which passes on bytes that it could not read, refuses letters as a strict one does."""
+    """Return whether the surrogateescape stream of the C locale rejects letters as a strict one does."""
     return stream.errors == "surrogateescape" and "utf" not in stream.encoding.lower()
 
 
 def discard_stdout() -> None:
-    """Let nothing more reach stdout: what is still held there could not be written either."""
+    """Redirect stdout to a null stream: buffered data could not be written either."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,7 +1,7 @@
-"""A line on stderr that tells what takes so long: after some silence, where somebody watches, and gone when there is news.
+"""Progress line on stderr, shown on a terminal after a delay.
 
-A run has one line. A thread paints it, so that neither compiled code nor a library that draws need know of it; what is being done, and
-how much of it, is told by :func:`progress`, and of a single motion by the solver between its slices.
+A run has one line, drawn by a thread, so that compiled code and plotting libraries need no hooks. :func:`progress` sets the description
+and the count; the solver reports the progress of a single motion between slices.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
 SHOW_DELAY_S = 0.6
-"""Silence that is borne, so that a second does not pass without a sign: work that is done sooner shows nothing."""
+"""Delay before the progress line appears, s."""
 
 REFRESH_DELAY_S = 0.3
-"""After so long in silence what paints is fetched, so that it is there when patience ends."""
+"""Delay before rich is imported, s, so that it is loaded when the line appears."""
 
 TICK_S = 0.1
-"""From one painting to the next."""
+"""Interval between refreshes, s."""
 
 STALE_S = 1.0
-"""A motion of which nothing was heard for so long is followed no more."""
+"""Age after which the progress of a single motion is no longer shown, s."""
 
 MAX_COUNT = 100_000
-"""What there is more of is told as a share."""
+"""Largest total shown as a count; larger ones are shown as a percentage."""
 
 
 @dataclass(eq=False)
 class Task:
-    """What is being done, and how much of it; a total of None: nobody knows."""
+    """Task with its progress; total None if unknown."""
 
     text: str
     completed: int = 0
@@ -49,28 +49,28 @@ class Task:
     started: float = field(default_factory=time.monotonic)
 
     def advance(self, completed: int, total: int) -> None:
-        """Take note of the number done and the number in all."""
+        """Set the completed and the total number."""
         self.completed, self.total = completed, total
 
-    def told(self) -> str:
-        """Return how much is done."""
+    def count_text(self) -> str:
+        """Return the progress as text."""
         if self.total is None:
             return ""
-        count_text = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
+        count = f"{self.completed}/{self.total}" if self.total <= MAX_COUNT else format_percent(self.completed / self.total)
         elapsed = time.monotonic() - self.started
         return (
-            count_text
+            count
             if elapsed < SHOW_DELAY_S or not self.completed
-            else gettext("{counted}, {rate:.3g} per s", counted=count_text, rate=self.completed / elapsed)
+            else gettext("{counted}, {rate:.3g} per s", counted=count, rate=self.completed / elapsed)
         )
 
 
 class StatusLine:
-    """The line of one run, and the thread that paints it."""
+    """Progress line of one run, drawn by a thread."""
 
     def __init__(self) -> None:
         self.works: list[Task] = []
-        self._motion_task = Task(gettext("following the motion"))
+        self._motion_task = Task(gettext("solving"))
         self._last_message_s, self._last_event_s = time.monotonic(), -math.inf
         self._displayed: tuple[str, bool] | None = None
         self._bar: Bar | None = None
@@ -79,7 +79,7 @@ class StatusLine:
 
     @contextlib.contextmanager
     def painting(self) -> Iterator[None]:
-        """Paint inside the block; nothing is left behind."""
+        """Draw the line inside the context."""
         self._painter.start()
         try:
             yield
@@ -89,25 +89,25 @@ class StatusLine:
 
     @contextlib.contextmanager
     def paused(self) -> Iterator[None]:
-        """Leave the screen to what is said inside the block; patience begins anew after it."""
+        """Hide the line inside the context; the delay starts again after it."""
         with self._lock:
             self._clear()
             yield
             self._last_message_s = time.monotonic()
 
     def end(self) -> None:
-        """Leave the screen for good."""
+        """Remove the line permanently."""
         self._ended.set()
         with self._lock:
             self._clear()
 
     def on_progress(self, completed: int, total: int) -> None:
-        """Take note of how far a single motion was followed; shown where nothing else is."""
+        """Record the progress of a single motion, shown when no other task is active."""
         self._motion_task.advance(completed, total)
         self._last_event_s = time.monotonic()
 
     def _watch(self) -> None:
-        """Paint again and again, until the end."""
+        """Redraw the line until the end."""
         if not self._ended.wait(REFRESH_DELAY_S):
             _make_bar(has_total=False)
         while not self._ended.wait(TICK_S):
@@ -116,37 +116,35 @@ class StatusLine:
                     self._paint(self._present())
 
     def _present(self) -> Task:
-        """Return what is done last, or the motion that is being followed."""
+        """Return the innermost task, or the motion in progress."""
         follows_motion = len(self.works) == 1 and time.monotonic() - self._last_event_s < STALE_S
         return self._motion_task if follows_motion else self.works[-1]
 
     def _paint(self, work: Task) -> None:
-        """Show what is being done."""
         has_total = work.total is not None
         if self._bar is None or self._displayed != (work.text, has_total):
             self._clear()
             self._bar, self._displayed = _make_bar(has_total=has_total), (work.text, has_total)
-            self._bar.add_task(work.text, total=work.total, told=work.told())
+            self._bar.add_task(work.text, total=work.total, count=work.count_text())
             self._bar.start()
-        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.completed, total=work.total, told=work.told())
+        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.completed, total=work.total, count=work.count_text())
         self._bar.refresh()
 
     def _clear(self) -> None:
-        """Take the line off the screen."""
         if self._bar is not None:
             self._bar.stop()
             self._bar = None
 
 
 _line: StatusLine | None = None
-"""The line of the run, while it lasts and somebody watches."""
+"""Progress line of the current run; None without a terminal."""
 
 
 @contextlib.contextmanager
 def progress(text: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
-    """Say what is being done inside the block, a text that is told; give a function to call with the number done and the number in all.
+    """Show a task inside the context; yields a function of the completed and the total number.
 
-    The outermost block of a run has the line; inside it, what is done last is what is shown.
+    The outermost context of a run creates the line; nested contexts replace its description.
     """
     global _line
     with contextlib.ExitStack() as stack:
@@ -167,40 +165,39 @@ def progress(text: str, /, **values: Any) -> Iterator[Callable[[int, int], None]
 
 
 def set_task(text: str, /, **values: Any) -> None:
-    """Say what a run does from now on, wherever it says nothing more particular."""
+    """Set the description of the outermost task."""
     if _line is not None:
         _line.works[0].text = gettext(text, **values)
 
 
 def paused() -> contextlib.AbstractContextManager[None]:
-    """Leave the screen to a text that is said inside the block."""
+    """Hide the progress line inside the context."""
     return contextlib.nullcontext() if _line is None else _line.paused()
 
 
 def close_line() -> None:
-    """Clear the line for the rest of the run: its answer is about to be shown, or silence was asked for."""
+    """Remove the progress line for the rest of the run."""
     if _line is not None:
         _line.end()
 
 
 def _reset() -> None:
-    """Let the next run have a line of its own."""
     global _line
     _line = None
 
 
 def _is_watched() -> bool:
-    """Whether stderr is a terminal that can clear a line, and nobody asked for silence."""
+    """Return whether stderr is a terminal with cursor control and ``--quiet`` is off."""
     return not is_quiet() and sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
 
 
 def _make_bar(*, has_total: bool) -> Bar:
-    """Return what rich paints: a bar that fills and the time that is left, or one that only moves and the time that has passed."""
+    """Return the rich progress bar: with remaining time if the total is known, else with elapsed time."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     from seisblock.report.text.tables import console
 
-    columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[told]}", markup=False)
+    columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[count]}", markup=False)
     clock = TimeRemainingColumn() if has_total else TimeElapsedColumn()
     screen = console(stderr=True)
     return Progress(*columns, clock, console=screen, transient=True, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)

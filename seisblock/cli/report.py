@@ -1,4 +1,4 @@
-"""``seisblock report``: one page about a record and what it does to some bodies."""
+"""``seisblock report``: HTML report of a record and the response of bodies."""
 
 from __future__ import annotations
 
@@ -44,15 +44,18 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     help="Kind of the bodies given by width and height. [default: block, with sharp edges]",
 )
 @option(
-    "--mu", type=MU, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
+    "--mu",
+    type=MU,
+    section="Body",
+    help="Static friction coefficient under the bodies, for sliding. [default: the body's own, else no sliding]",
 )
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: as --mu]")
 @option(
     "--frequency-vertical",
     type=float,
     metavar="HZ",
     section="Body",
-    help="Vertical frequency of the bodies on corner springs, Hz, for uplift. [default: none, no uplift]",
+    help="Vertical natural frequency of the bodies on corner springs, for uplift, Hz. [default: none, no uplift]",
 )
 @option(
     "--drop",
@@ -69,9 +72,9 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     required=True,
     metavar="FILE",
     section="Output",
-    help="The page to write, .html.",
+    help="HTML page to write.",
 )
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
+@option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 def report(
     source: Source,
     body: tuple[str, ...],
@@ -85,9 +88,9 @@ def report(
     output: Path,
     quiet: bool,
 ) -> None:
-    """Write one self-contained page: the record, its measures, and how bodies slide, rock, jump, lift and overturn under it.
+    """Self-contained HTML report: the record, its measures, and sliding, rocking, jump, uplift and overturning of bodies.
 
-    It opens without network, on a phone and on paper. Margins stand beside every verdict.
+    The page works without network, on a phone and in print. Each result shows its margin.
     """
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.progress import progress
@@ -103,7 +106,7 @@ def report(
     with quiet_output(quiet):
         names = body or DEFAULT_BODIES
         if not body:
-            info("no --body given: {bodies}", bodies=DEFAULT_BODIES)
+            info("no --body given: using {bodies}", bodies=DEFAULT_BODIES)
         subjects = [
             body_models(name, side=side, kind=kind or "block", mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical)
             for name in names
@@ -114,10 +117,10 @@ def report(
             reject_without(lazy_gettext("a --body given by width and height"), ("kind",))
         records = load_records(source)
         if len(records) != 1:
-            raise InputError("a report is about one record, found {count}: give one, or run the command for each", count=len(records))
+            raise InputError("a report requires one record, found {count}: run the command for each record", count=len(records))
         if drawable_locale() != get_locale():
             info(NO_FONT)
-        with progress("reporting") as advance:
+        with progress("assessing the bodies") as advance:
             assessment = assess(
                 records[0], subjects, components=selected_components(records[0], source), drop=drop, gravity=gravity, progress=advance
             )

@@ -1,4 +1,4 @@
-"""``seisblock respond``: what a free-standing object does, whichever comes."""
+"""``seisblock respond``: full response of a free-standing object."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli.bodies.free_standing import choose_free_standing, free_standi
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.versions import pop_spreads, ranges_replaced, version_options
 from seisblock.cli.write_results import write_results
 
@@ -35,15 +35,17 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth
 @option(
     "--vertical/--no-vertical",
     default=None,
-    help="Whether the vertical component acts. [default: where the record has one]",
+    help="Apply or omit the vertical component. [default: applied where the record has one]",
 )
 @version_options(*VARIED_PARAMETERS, runs=200)
-@option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
+@option(
+    "--settle", type=float, default=60.0, show_default=True, metavar="S", help="Duration of the analysis after the end of the record, s."
+)
 @gravity_option
 @output_options()
 def respond(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     vertical: bool | None,
     runs: int,
@@ -52,18 +54,18 @@ def respond(
     settle: float,
     **params: Any,
 ) -> None:
-    """Tell what a free-standing object does: rests, slides, rocks, slides while rocking, flies, falls, whichever comes.
+    """Full response of a free-standing object: rest, sliding, rocking, slide-rocking, flight, overturning.
 
-    Plane motion of one rigid body with Coulomb friction, each horizontal component by itself, the vertical acting where the record has
-    it. After the record's end the object is followed until it rests. Beside the verdict stands the share of plausible
-    versions of the object and the shaking that fall: they vary around what is given, and edges and friction that nobody has measured lie in
-    the ranges of the object's kind, unless --vary-inset or --vary-mu is given. --component all-azimuths looks in every direction and
-    answers for the worst. A scanned --block is another block in each direction.
+    Plane motion of one rigid body with Coulomb friction; each horizontal component is solved separately, with the vertical component
+    where the record has one, until the object is at rest. The overturning probability is the share of samples of body and motion that
+    overturn. Samples vary around the given values; edge wear and friction that are not given are drawn from the ranges of the
+    object's kind (see --vary-inset, --vary-mu). --component all-azimuths sweeps all azimuths and reports the worst. A scanned --block
+    has other dimensions in each azimuth.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond
     from seisblock.report.json.respond import document
-    from seisblock.report.text import respond as shown
+    from seisblock.report.text import respond as text_output
     from seisblock.studies.respond.probability import ParameterVariation, respond_probability
 
     widths = pop_spreads(params, *VARIED_PARAMETERS)
@@ -84,24 +86,24 @@ def respond(
         extra: dict[str, Any] = choice.block_key(block)
         if runs:
             study_options = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
-            with progress("versions {name}", name=motion.name) as advance:
+            with progress("samples {name}", name=motion.name) as advance:
                 extra["probability"] = respond_probability(
                     block.without_ranges(*replaced), motion, versions=ParameterVariation(**widths), progress=advance, **study_options
                 )
         if directions:
-            extra["directions"] = directions
+            extra["azimuths"] = directions
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras),
         output,
         responses=responses,
         figure=azimuth_figure(responses, extras, gal=output.gal),
-        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
     )
 
 
 def _azimuth_study(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[RespondAzimuth]]:
-    """Return what looks in every direction of a record."""
+    """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[RespondAzimuth]:
         from seisblock.studies.respond.azimuths import respond_directions

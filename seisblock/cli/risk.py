@@ -1,4 +1,4 @@
-"""``seisblock risk``: how often it happens at a site, from a fragility and the hazard there."""
+"""``seisblock risk``: annual frequency at a site from fragility and hazard."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import check_callback, output_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import gettext
@@ -38,28 +38,28 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
     type=click.Path(path_type=Path),
     shell_complete=shell_completion.complete_hazards,
     section="Site",
-    help="CSV of the hazard: levels with their unit (pgv_m_s, pga_g, sa(0.5)_gal), annual_rate (or annual_poe, poe_50_years), and branch "
-    "and weight where there are several curves. Bundled: synthetic_hazard.csv.",
+    help="CSV of the hazard: levels with unit (pgv_m_s, pga_g, sa(0.5)_gal), annual_rate (or annual_poe, poe_50_years); branch and "
+    "weight for several curves. Bundled: synthetic_hazard.csv.",
 )
 @option(
     "--fragility",
     metavar="FILE",
     type=click.Path(path_type=Path),
     section="Body",
-    help="Curves that seisblock fragility --json printed.",
+    help="Curves from seisblock fragility --json.",
 )
 @option(
     "--median",
     metavar="X",
     section="Body",
-    help="Or its median, with a unit such as 0.4g, 60cm/s; a bare number is in SI, where the levels of the hazard are, too.",
+    help="Median of the fragility, with unit (0.4g, 60cm/s); a bare number is in SI where the hazard levels are in SI.",
 )
-@option("--beta", type=float, metavar="B", section="Body", help="And its dispersion, the standard deviation of the logarithm, 1.")
+@option("--beta", type=float, metavar="B", section="Body", help="Dispersion beta of the fragility, standard deviation of the logarithm, 1.")
 @option(
     "--im",
     metavar="pga|pgv|pgd|sa=T|arias|p*pgv",
     section="Body",
-    help="And its measure of intensity (T in s). [default: that of the hazard]",
+    help="Intensity measure of the fragility (T in s). [default: that of the hazard]",
 )
 @option(
     "--years",
@@ -67,40 +67,40 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
     default=50.0,
     show_default=True,
     callback=_check_years,
-    help="Time for which the probability is told, years.",
+    help="Period for the probability, years.",
 )
 @option(
     "--stood",
     type=float,
     callback=_check_years,
     metavar="YEARS",
-    help="How long it did not happen, years: the likelihood of each branch of the hazard. [default: not asked]",
+    help="Years without an event: likelihood of each branch of the hazard, years. [default: not computed]",
 )
 @output_options(histories=False, film=False)
-def risk(output: Output, hazard: Path, years: float, stood: float | None, **params: Any) -> None:
-    """Tell how often an object falls, slides or rocks at a site, in a year and in many.
+def risk(output: OutputOptions, hazard: Path, years: float, stood: float | None, **params: Any) -> None:
+    """Frequency and probability of overturning, sliding or rocking of an object at a site, per year and over a period.
 
-    The frequency is the integral of the fragility over the hazard, a power law between the levels of its table; beyond them it goes on
-    with its slope, and it is said how much comes from there.
+    The annual frequency is the integral of the fragility over the hazard curve, a power law between the levels of its table. Beyond
+    the table the curve continues with its end slopes; their contribution is reported.
     """
     from seisblock.report.json.risk import document
     from seisblock.studies.hazard.risk import find_risk
 
     forms = [params["fragility"] is not None, params["median"] is not None or params["beta"] is not None]
     if sum(forms) != 1 or (params["median"] is None) != (params["beta"] is None):
-        raise click.UsageError(gettext("give --fragility FILE, or --median and --beta"))
+        raise click.UsageError(gettext("exactly one form is required: --fragility FILE, or --median and --beta"))
     site, curves = _load_inputs(hazard, params)
     risks = [(fragility, find_risk(fragility.curve, site, years=years, stood_years=stood)) for fragility in curves]
 
     def tables() -> Any:
-        from seisblock.report.text.risk import tables as shown
+        from seisblock.report.text.risk import tables as text_output
 
-        return shown(risks, site, gal=output.gal)
+        return text_output(risks, site, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.report.figures.risk import figure as drawn
+        from seisblock.report.figures.risk import figure as make_figure
 
-        return drawn(risks, site, gal=output.gal)
+        return make_figure(risks, site, gal=output.gal)
 
     def csv(path: Path) -> None:
         from seisblock.report.io.atomic import write_table
@@ -112,7 +112,7 @@ def risk(output: Output, hazard: Path, years: float, stood: float | None, **para
 
 
 def _load_inputs(path: Path, params: dict[str, Any]) -> tuple[Hazard, tuple[FragilityCurve, ...]]:
-    """Return the hazard, and the curves that belong to it."""
+    """Return the hazard and the fragility curves of its intensity measure."""
     from seisblock.core.units import is_unitless
     from seisblock.studies.fragility.io import check_measure, fragility_from_median, read_fragility
     from seisblock.studies.hazard.table import read_hazard
@@ -121,7 +121,7 @@ def _load_inputs(path: Path, params: dict[str, Any]) -> tuple[Hazard, tuple[Frag
         site = read_hazard(path, im=params["im"])
         fragility = fragility_from_median(site, params["median"], params["beta"])
         if is_unitless(params["median"]) and fragility.unit != "1":
-            info("the median, {median}, has no unit: it is taken in {unit}", median=params["median"].strip(), unit=fragility.unit)
+            info("median {median} has no unit: read as {unit}", median=params["median"].strip(), unit=fragility.unit)
         return site, (fragility,)
     curves = read_fragility(params["fragility"])
     site = read_hazard(path, im=params["im"] or curves[0].im)

@@ -1,4 +1,4 @@
-"""``seisblock rock``: does a block rock, does it overturn, and how close was it."""
+"""``seisblock rock``: rocking, overturning and margin of one block."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import MU, Count
 from seisblock.cli.write_results import write_results
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from seisblock.records import Motion, Record
 
 DEFAULT_RUNS = 200
-"""Versions of body and shaking that a margin is accompanied by, where no number is asked for."""
+"""Default number of samples of body and motion with ``--margin``."""
 
 
 @click.command(
@@ -39,29 +39,34 @@ DEFAULT_RUNS = 200
 @record_options
 @block_options
 @rocking_options
-@option("--mu", type=MU, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
-@option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
-@option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
+@option(
+    "--mu",
+    type=MU,
+    section="Body",
+    help="Static friction coefficient of the ground: reports whether rocking requires more. [default: not checked]",
+)
+@option("--margin", is_flag=True, help="Compute the scale factor to overturning, and the overturning probability at factor 1.")
+@option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest scale factor of the margin search.")
 @option(
     "--perturb",
-    type=Count(N_("versions"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
     metavar="N",
-    help="Repeat N times with small changes: probability of overturning.",
+    help="Overturning probability from N samples of body and motion.",
 )
 @option(
     "--spread",
     type=float,
     default=0.05,
     show_default=True,
-    help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg, a known inset "
-    "varies by 10 %, and edges that nobody has measured lie in the range of the body's kind.",
+    help="Half width of the samples, a share of size, slenderness, restitution and amplitude; the azimuth varies by 5 deg, a known "
+    "inset by 10 %, an unknown inset within the range of the body's kind.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
 @gravity_option
 @output_options()
 def rock(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     restitution: float | None,
     linear: bool,
@@ -77,20 +82,20 @@ def rock(
 ) -> None:
     """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
 
-    Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
-    direction. After the record's end the fate is decided by energy. --component all-azimuths looks in every direction, in steps of 5
-    degrees, and answers for the worst. A scanned --block is another block in each direction.
+    Each horizontal component is solved separately. Rotation is positive towards the component's positive direction. After the end of
+    the record, the energy decides whether the block overturns. --component all-azimuths sweeps all azimuths in steps of 5 degrees and
+    reports the worst. A scanned --block has other dimensions in each azimuth.
     """
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.hints import rock_hint
     from seisblock.models.rock.outcome import friction_suffices
     from seisblock.models.rock.solve import solve_rock
     from seisblock.report.json.rock import document
-    from seisblock.report.text import rock as shown
+    from seisblock.report.text import rock as text_output
     from seisblock.studies.model_comparison import compare_models
     from seisblock.studies.rocking.margin import find_margin, flag_near_flip
     from seisblock.studies.rocking.perturb import Spread
-    from seisblock.studies.rocking.perturb import perturb as perturbed
+    from seisblock.studies.rocking.perturb import perturb as perturb_block
 
     if not margin:
         reject_without("--margin", ["margin_limit"])
@@ -109,7 +114,7 @@ def rock(
         responses.append(flag_near_flip(solve_rock(block, motion, **options)))
         extra: dict[str, Any] = {"agreement": compare_models(block, motion, **options), **choice.block_key(block)}
         if directions:
-            extra["directions"] = directions
+            extra["azimuths"] = directions
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
@@ -117,8 +122,8 @@ def rock(
                 extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, **options)
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or DEFAULT_RUNS
-            with progress("perturb {name}", name=motion.name) as advance:
-                extra["perturbation"] = perturbed(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
+            with progress("samples {name}", name=motion.name) as advance:
+                extra["perturbation"] = perturb_block(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
@@ -126,34 +131,34 @@ def rock(
         responses=responses,
         figure=azimuth_figure(responses, extras, gal=output.gal),
         tables=lambda: chain(
-            shown.tables(responses, extras, gal=output.gal, mu=mu),
+            text_output.tables(responses, extras, gal=output.gal, mu=mu),
             rock_hint(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
         ),
     )
 
 
 def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
-    """Return what looks in every direction of a record."""
+    """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[Any]:
         from seisblock.studies.rocking.azimuths import rock_directions
 
-        with progress("directions") as advance:
+        with progress("azimuths") as advance:
             return rock_directions(body, record, progress=advance, **options)
 
     return look
 
 
 def require_vertical(motion: Motion, vertical: bool) -> None:
-    """Refuse ``--vertical`` where the record has no vertical component."""
+    """Raise an error for ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
-            "{source}: --vertical needs a vertical component; it has {codes}", source=motion.record.source, codes=motion.record.codes
+            "{source}: --vertical requires a vertical component; available: {codes}", source=motion.record.source, codes=motion.record.codes
         )
 
 
 def with_azimuths(source: Source, azimuth: tuple[str, ...]) -> Source:
-    """Return the record options with azimuths taken for components."""
+    """Return the record options with azimuths added to the components."""
     if not azimuth:
         return source
     names = tuple(part.strip() for text in azimuth for part in text.split(","))

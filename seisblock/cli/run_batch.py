@@ -1,4 +1,4 @@
-"""How ``seisblock batch`` goes about it: what is finished is kept in a journal, and the table is written from that."""
+"""Batch run: checkpoint journal of finished records, then the table."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from seisblock.report.io.atomic import check_target, read_table, write_table
 from seisblock.report.io.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.report.json.batch import document
 from seisblock.report.json.encode import to_json
-from seisblock.report.text import batch as shown
+from seisblock.report.text import batch as text_output
 from seisblock.studies.batch.cluster import connect
 from seisblock.studies.batch.run import iter_record_rows, make_plan
 from seisblock.studies.batch.table import REASON, Row, batch_columns, row_cells
@@ -42,7 +42,7 @@ CSV, PARQUET = ".csv", ".parquet"
 
 @dataclass(frozen=True)
 class BatchRequest:
-    """What a batch is of, as the command line says it."""
+    """Options of a batch."""
 
     bodies: tuple[str, ...]
     solver: str
@@ -62,19 +62,19 @@ def run_batch(
     cluster: str | None,
     as_json: bool,
 ) -> None:
-    """Run a batch, write its table, and say what it comes to."""
+    """Run a batch, write its table and print a summary."""
     _check_target(out, resume=resume, force=force)
     plan, notes = _make_plan(source, request)
     names = source.record or (_default_record(),)
-    with progress("finding the records"):
+    with progress("searching for records"):
         files = expand_names(names, plan.read_options)
         keys = list(dict.fromkeys(recording.key for recording in group_files(files, plan.read_options)))
-    _check_files(out)  # once more: now it is known what was read
+    _check_files(out)  # again, now that the inputs are known
     tally, columns, reasons = Tally(plan.model), _columns(plan), dict[str, str]()
     if resume and out.exists() and not checkpoint_path(out).exists():
         for rows in _finished_rows(out, columns, plan, files, {path for path, _ in keys}):
             tally.add_rows(rows)
-        info("{path} is whole: nothing is left to do; --force makes it anew", path=out)
+        info("{path} is complete: nothing to compute; --force computes it again", path=out)
     else:
         with ExitStack() as stack:
             client = None if cluster is None else stack.enter_context(connect(cluster))
@@ -87,24 +87,24 @@ def run_batch(
                 with progress("writing {file}", file=str(out)):
                     write(out, columns, (row_cells(columns, row) for row in rows_of_all))
             else:
-                deque(rows_of_all, maxlen=0)  # counted alone: a table of failures would stand in the way of the line put right
+                deque(rows_of_all, maxlen=0)  # count only: a table without results must not block the corrected call
             journal.remove()
         if has_answers:
             info("wrote {path}", path=out)
     if as_json:
         print_result(to_json(document(tally, plan, str(out), notes)))
     else:
-        print_tables(shown.tables(tally, reasons))
+        print_tables(text_output.tables(tally, reasons))
     if not tally.answers:
         if out.exists():
-            raise RecordError("no row has an answer: {path} is left as it was", path=out)
-        raise RecordError("no row has an answer: {path} is not written", path=out)
+            raise RecordError("no row has a result: {path} is unchanged", path=out)
+        raise RecordError("no row has a result: {path} is not written", path=out)
 
 
 def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
-    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies, solver and options.
+    """Yield the rows of a complete table, record by record, if it matches records, bodies, solver and options.
 
-    What was done to the records a table does not say: the record under which most happened is followed anew.
+    A table does not contain the preparation of the records, so the record with the most information is computed again and compared.
     """
     rows = list((read_parquet if out.suffix.lower() == PARQUET else read_table)(out, columns))
     tables: dict[str, list[Row]] = {path: list(group) for path, group in groupby(rows, key=lambda row: row["path"])}
@@ -115,26 +115,25 @@ def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Se
         recomputed = [row_cells(columns, row) for row in record_rows(recording, plan)]
         matches = _cell_texts(recomputed) == _cell_texts([row_cells(columns, row) for row in tables[sample_path]])
     if not matches:
-        raise OutputError("{path} is whole, and of other records, bodies, options or another solver: --force makes it anew", path=out)
+        raise OutputError("{path} is complete, but for other records, bodies, options or another solver: --force replaces it", path=out)
     yield from tables.values()
 
 
 def _row_information(row: Row, plan: Plan) -> int:
-    """Return how much a row tells: nothing without an answer, more where what is asked about happened."""
+    """Return a score of the information in a row: 0 without result, 2 where the limit state occurred."""
     return 0 if row.get(REASON) else 1 + bool(row[plan.model.happens])
 
 
 def _cell_texts(rows: Iterable[Sequence[Any]]) -> list[list[str]]:
-    """Return rows as their cells are written."""
     return [["" if cell is None else str(cell) for cell in row] for row in rows]
 
 
 def _solve(
     files: Sequence[str], plan: Plan, journal: Checkpoint, keys: Sequence[Key], *, workers: int | None, client: Client | None
 ) -> dict[str, str]:
-    """Follow the bodies through the records that are missing, and write each record's rows down as soon as they are there.
+    """Solve the missing records and append each record's rows to the journal.
 
-    The journal keeps reasons in English; what is returned can be told in any language.
+    The journal holds reasons in English; the returned messages are translatable.
     """
     missing = {key for key in keys if key not in journal.places}
     if len(missing) < len(keys):
@@ -150,13 +149,13 @@ def _solve(
                 journal.append(recording.key, rows)
                 reasons |= {str(row[REASON]): row[REASON] for row in rows if row.get(REASON)}
         except (KeyboardInterrupt, SeisblockError):
-            info("{done} of {count} records are finished and kept: --resume goes on", done=len(journal.places), count=len(keys))
+            info("{done} of {count} records are finished and kept: --resume continues", done=len(journal.places), count=len(keys))
             raise
     return reasons
 
 
 def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, ...]]:
-    """Return what is done with each record, and say what is to be known of it."""
+    """Return the plan of a batch and its notes, which are also printed."""
     check_single_window(source)
     components = tuple(name for name in source.component if name.lower() != "all")
     plan, notes = make_plan(
@@ -176,54 +175,52 @@ def _make_plan(source: Source, request: BatchRequest) -> tuple[Plan, tuple[str, 
 
 
 def _columns(plan: Plan) -> dict[str, type]:
-    """Return the columns of the table."""
     return batch_columns(plan.model, runs=plan.runs, all_azimuths=is_all_azimuths(plan.components))
 
 
 def _default_record() -> str:
-    """Return the bundled record that stands for none, and say so."""
+    """Return the default record and print its name."""
     info("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
     return DEFAULT_SAMPLE
 
 
 def _check_target(out: Path, *, resume: bool, force: bool) -> None:
-    """Refuse, before anything is read, a table that may not be written there."""
+    """Raise an error, before any record is read, for a table that must not be written."""
     if resume and force:
-        raise ParameterError("give either --resume or --force, not both")
+        raise ParameterError("--resume and --force exclude each other: give only one of them")
     if out.suffix.lower() not in (CSV, PARQUET):
-        raise OutputError("{path}: a batch writes .csv or .parquet", path=out)
+        raise OutputError("{path}: the table of a batch must end in .csv or .parquet", path=out)
     if out.suffix.lower() == PARQUET:
         check_parquet()
     journal = checkpoint_path(out)
     _check_files(out)
     if resume and any(path.exists() and not path.is_file() for path in (out, journal)):
-        raise OutputError("{path} is no table that was begun: leave --resume out", path=out)
+        raise OutputError("{path} is not an interrupted table: omit --resume", path=out)
     if not (resume or force) and out.exists():
-        raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
+        raise OutputError("{path} exists: give --force to replace it, or another name", path=out)
     if not (resume or force) and journal.exists():
-        raise OutputError("{path} was interrupted: --resume goes on, --force begins anew", path=out)
+        raise OutputError("{path} was interrupted: --resume continues, --force starts again", path=out)
 
 
 def _check_files(out: Path) -> None:
-    """Refuse a table, or a journal beside it, that may not be written there."""
+    """Raise an error for a table or journal that cannot be written."""
     check_target(out)
     check_target(checkpoint_path(out))
 
 
 @contextmanager
 def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkpoint]:
-    """Give the journal of a batch, which no other run writes meanwhile: the one that was interrupted, or a new one."""
+    """Open the journal of a batch under a file lock: a resumed or a new one."""
     identity = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
-    reading = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
-    purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + reading).encode(errors="surrogatepass")).hexdigest()}
+    read_identity = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
+    purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + read_identity).encode(errors="surrogatepass")).hexdigest()}
     is_resumed = resume and path.exists()
     with lock_checkpoint(path):
         journal = Checkpoint.resume(path, purpose) if is_resumed else Checkpoint.begin(path, purpose)
         if journal.damaged:
-            warning("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
+            warning("{path}: {count} line(s) are damaged; their records are computed again", path=path, count=journal.damaged)
         yield journal
 
 
 def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows as CSV."""
     write_table(path, list(columns), rows)

@@ -1,4 +1,4 @@
-"""How ``seisblock fragility`` goes about it: records, bodies, the study, and where its answer goes."""
+"""Fragility run: records, bodies, study and outputs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import check_single_window, make_preparation, report_qc
 from seisblock.cli.option_checks import reject_with, reject_without
 from seisblock.cli.options import Source
-from seisblock.cli.output import STDOUT, Output
+from seisblock.cli.output import STDOUT, OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import OutputError, ParameterError
@@ -27,7 +27,7 @@ from seisblock.report.exports.openquake import nrml
 from seisblock.report.exports.pelicun import pelicun_metadata, pelicun_rows
 from seisblock.report.io.atomic import check_distinct_outputs, write_records, write_table, write_text
 from seisblock.report.json.fragility import document
-from seisblock.report.text import fragility as shown
+from seisblock.report.text import fragility as text_output
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -38,7 +38,7 @@ from seisblock.studies.fragility.suite import read_suite
 
 def run_study(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     *,
     bodies: tuple[str, ...],
     solver: str,
@@ -48,7 +48,7 @@ def run_study(
     compare: str | None,
     params: Mapping[str, Any],
 ) -> None:
-    """Run the study, and say what it comes to."""
+    """Run the study and write its results."""
     check_single_window(source)
     _check_options(source, params, bodies=bodies)
     _check_exports(output, params)
@@ -58,7 +58,7 @@ def run_study(
     options = {key: params[key] for key in ("mu", "restitution", "vertical", "gravity") if params[key] is not None}
     specs = list(read_bodies(bodies)) if bodies else [make_body_spec(params, solver)]
     if bodies and any(params[key] is not None for key in (*SIZES, "block")):
-        raise ParameterError("give --bodies, or the sizes of one body, not both")
+        raise ParameterError("--bodies and the sizes of one body exclude each other: give only one of them")
     components = tuple(name for name in source.component if name.lower() != "all")
     records, left_out, suite = _load_suite(source, params)
     report_qc(records, strict=source.strict)
@@ -87,21 +87,21 @@ def run_study(
     _write_exports(study, params)
 
     def figure() -> Any:
-        from seisblock.report.figures.fragility import figure as drawn
+        from seisblock.report.figures.fragility import figure as make_figure
 
-        return drawn(study, gal=output.gal, compare=comparison)
+        return make_figure(study, gal=output.gal, compare=comparison)
 
     write_results(
         document(study, placed_bodies, parameters, compare=comparison, notes=left_out),
         output,
-        tables=lambda: shown.tables(study, gal=output.gal, compare=comparison),
-        csv=lambda path: write_table(path, *shown.csv_columns(study)),
+        tables=lambda: text_output.tables(study, gal=output.gal, compare=comparison),
+        csv=lambda path: write_table(path, *text_output.csv_columns(study)),
         figure=figure,
     )
 
 
 def _check_options(source: Source, params: Mapping[str, Any], *, bodies: tuple[str, ...]) -> None:
-    """Refuse what says nothing of these records and bodies, or of files that are not written."""
+    """Raise an error for options without effect on these records, bodies or outputs."""
     if not source.record:
         reject_with(lazy_gettext("synthetic records"), ["format", "units", "dt", "station", "level", "strict"])
     if params["suite_out"] is None:
@@ -113,21 +113,23 @@ def _check_options(source: Source, params: Mapping[str, Any], *, bodies: tuple[s
 
 
 def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record], tuple[str, ...], str | None]:
-    """Return the records, a sentence for each file that could not be read, and the synthetic suite that they are, if they are one."""
+    """Return the records, a message per unreadable file, and the name of the synthetic suite or None."""
     if source.record:
         for name, value in (("--suite", params["suite"]), ("--suite-out", params["suite_out"])):
             if value is not None:
-                raise ParameterError("give either RECORD or {name}, not both", name=name)
-        reading = ReadOptions(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+                raise ParameterError("RECORD and {name} exclude each other: give only one of them", name=name)
+        read_options = ReadOptions(
+            source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level
+        )
         with progress("reading the records"):
-            records, left_out = read_suite(source.record, reading, strict=source.strict)
+            records, left_out = read_suite(source.record, read_options, strict=source.strict)
         return records, left_out, None
     suite: str = params["suite"] or DEFAULT_SUITE
-    with progress("making synthetic records"):
+    with progress("generating synthetic records"):
         synthetic = list(parse_suite(suite, seed=params["seed"]))
     if params["suite"] is None:
         info("no RECORD given: using {suite}", suite=suite)
-    info("{count} synthetic records, no recordings: of one source, path and site, they differ less than records do", count=len(synthetic))
+    info("{count} synthetic records of one source, path and site: less variable than recorded motions", count=len(synthetic))
     if params["suite_out"] is not None:
         with progress("writing the records"):
             (write_knet if params["suite_format"] == "knet" else write_records)(params["suite_out"], synthetic)
@@ -135,19 +137,18 @@ def _load_suite(source: Source, params: Mapping[str, Any]) -> tuple[list[Record]
     return synthetic, (), suite
 
 
-def _check_exports(output: Output, params: Mapping[str, Any]) -> None:
-    """Refuse, before anything is read, files for other programs that cannot be written."""
+def _check_exports(output: OutputOptions, params: Mapping[str, Any]) -> None:
+    """Raise an error, before any record is read, for export files that cannot be written."""
     rows, model = params["pelicun"], params["nrml"]
     for path, suffix in ((rows, ".csv"), (model, ".xml")):
         if path is not None and path.suffix.lower() != suffix:
-            raise OutputError("{path}: the name must end in {suffix}", path=path, suffix=suffix)
+            raise OutputError("{path}: the file name must end in {suffix}", path=path, suffix=suffix)
     metadata = None if rows is None else rows.with_suffix(".json")
     output_paths = (None if path == STDOUT else path for path in (output.csv, output.plot))
     check_distinct_outputs(rows, metadata, model, *output_paths)
 
 
 def _write_exports(study: FragilityStudy, params: Mapping[str, Any]) -> None:
-    """Write the files for other programs."""
     if params["pelicun"] is not None:
         rows: Path = params["pelicun"]
         write_table(rows, *pelicun_rows(study))
@@ -158,16 +159,16 @@ def _write_exports(study: FragilityStudy, params: Mapping[str, Any]) -> None:
         write_text(params["nrml"], nrml(study, shape=params["nrml_shape"]))
         with_curve = {curve.limit for curve in study.curves if curve.curve is not None}
         if params["nrml_shape"] == "logncdf" and (without_curve := sorted({curve.limit for curve in study.curves} - with_curve)):
-            info("{path} leaves out {limits}, of which no body has a curve", path=params["nrml"], limits=without_curve)
+            info("{path} omits {limits}: no body has a curve for them", path=params["nrml"], limits=without_curve)
         info("wrote {path}", path=params["nrml"])
 
 
 def _parse_curve(text: str, size: float) -> Lognormal:
-    """Return the curve that a median, in the unit shown, and a beta describe."""
+    """Return the curve of a median, in the displayed unit, and a beta."""
     try:
         median, beta = (float(part) for part in text.split(","))
     except ValueError:
         raise click.BadParameter(
-            gettext("{value!r} is not a median and a beta such as 50,0.4", value=text[:100]), param_hint="--compare"
+            gettext("{value!r} is not a median and a beta, for example 50,0.4", value=text[:100]), param_hint="--compare"
         ) from None
     return Lognormal(median * size, beta)

@@ -1,4 +1,4 @@
-"""``seisblock samples``: the bundled files, listed and copied."""
+"""``seisblock samples``: list or copy of the bundled files."""
 
 from __future__ import annotations
 
@@ -21,40 +21,40 @@ from seisblock.cli.verbosity import quiet_output
     "target",
     metavar="DIR|NAME",
     section="Output",
-    help="Copy to this directory; or, given a sample's name, copy that sample to the present directory.",
+    help="Folder to copy to; a sample's name copies that sample to the current folder.",
 )
-@option("--overwrite", is_flag=True, section="Output", help="Replace files of other content that are in the way.")
-@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@option("--overwrite", is_flag=True, section="Output", help="Replace existing files of other content.")
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
+@option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
 def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json: bool, quiet: bool) -> None:
-    """List the bundled records, bodies and cemeteries, with their licence and origin, or copy them.
+    """List of the bundled records, bodies and cemeteries with licence and origin, or copies of them.
 
-    NAME is a file name, or its beginning up to the first dot. Any command takes a sample's name in place of a file.
+    NAME is a file name, or its beginning up to the first dot. All commands accept the name of a sample in place of a file.
     """
-    from seisblock.report.text import samples as shown
+    from seisblock.report.text import samples as text_output
 
     directory = None
     if target is not None:
         directory, name = _destination(target, name)
-    selection = shown.select_samples(name)
+    selection = text_output.select_samples(name)
     with quiet_output(quiet):
         if directory is not None:
-            paths = shown.copy_samples(selection, directory, overwrite=overwrite)
+            paths = text_output.copy_samples(selection, directory, overwrite=overwrite)
             for path in paths:
                 info("wrote {path}", path=path)
             if not paths:
-                info("{directory} holds them already", directory=directory)
+                info("{directory} already contains these files", directory=directory)
     if as_json:
         from seisblock.report.json.encode import to_json
         from seisblock.report.json.library import samples_document
 
         print_result(to_json(samples_document(selection, directory)))
     elif directory is None:
-        print_tables(shown.sample_lines(selection))
+        print_tables(text_output.sample_lines(selection))
 
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:
-    """Return the directory and the names: a sample's name in place of a directory means here, unless a directory is called so."""
+    """Return folder and names; a sample's name means the current folder, unless a folder has that name."""
     from seisblock.samples import find_sample
 
     if not names and not Path(target).is_dir() and find_sample(target) is not None:

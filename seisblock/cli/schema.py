@@ -1,4 +1,4 @@
-"""``seisblock schema``: the keys of a command's ``--json`` document, as JSON Schema."""
+"""``seisblock schema``: JSON Schema of a command's ``--json`` document."""
 
 from __future__ import annotations
 
@@ -12,13 +12,11 @@ from seisblock.report.json.versions import VERSIONS, schema_name
 
 
 @click.command(cls=Command, examples=("seisblock schema rock", "seisblock schema"))
-@argument(
-    "command", required=False, metavar="[COMMAND]", type=SuggestingChoice(DOCUMENTS), help="Whose document. [default: of all commands]"
-)
+@argument("command", required=False, metavar="[COMMAND]", type=SuggestingChoice(DOCUMENTS), help="Command. [default: all commands]")
 def schema(command: str | None) -> None:
-    """Print the JSON Schema of a command's --json document; without COMMAND, list the commands that write one.
+    """JSON Schema of a command's --json document; without COMMAND, the list of commands that write one.
 
-    Each key says what it means and in which unit. The number at the end of a schema's name grows when a key goes or changes.
+    Each key has a description and a unit. The number at the end of a schema's name increases when a key is removed or changed.
     """
     if command is None:
         print_result("\n".join(map(schema_name, VERSIONS)))

@@ -1,4 +1,4 @@
-"""What a shell offers while a command line is typed: components, bundled records, bodies and cemeteries, stones, pairs of surfaces."""
+"""Shell completion of components, bundled files, stones and surface pairs."""
 
 from __future__ import annotations
 
@@ -14,54 +14,54 @@ from seisblock.records.motion import ALL_AZIMUTHS
 Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 COMPONENT_NAMES = ("NS", "EW", "UD", "all")
-"""What most records have."""
+"""Component names offered without reading a record."""
 
 SWEEP_COMMANDS = {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
-"""Commands that look in every direction when they are asked to."""
+"""Commands that accept ``--component all-azimuths``."""
 
 
 def complete_components(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer components, after those that a list already has."""
+    """Complete the last component of a comma-separated list."""
     prefix, _, partial = incomplete.rpartition(",")
     names = [*COMPONENT_NAMES, *([ALL_AZIMUTHS] if ctx.info_name in SWEEP_COMMANDS else [])]
     return _completion_items((f"{prefix}," if prefix else "") + name for name in names if name.lower().startswith(partial.lower()))
 
 
 def complete_records(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer files, and the bundled records once a letter is typed."""
+    """Complete files, and bundled records after the first letter."""
     return [*_completion_items(_bundled_names(incomplete or "?", "record")), CompletionItem(incomplete, type="file")]
 
 
 def complete_scans(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the bundled scans, and files."""
+    """Complete bundled scans and files."""
     return [*_completion_items(_bundled_names(incomplete, "scan")), CompletionItem(incomplete, type="file")]
 
 
 def complete_samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the bundled files."""
+    """Complete bundled files."""
     return _completion_items(_bundled_names(incomplete))
 
 
 def complete_cemeteries(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the bundled cemeteries, and files."""
+    """Complete bundled cemeteries and files."""
     return [*_completion_items(_bundled_names(incomplete, "cemetery")), CompletionItem(incomplete, type="file")]
 
 
 def complete_outcomes(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the bundled tables of outcomes, and files."""
+    """Complete bundled tables of outcomes and files."""
     return [*_completion_items(_bundled_names(incomplete, "outcomes")), CompletionItem(incomplete, type="file")]
 
 
 def complete_hazards(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the bundled tables of hazard, and files."""
+    """Complete bundled hazard tables and files."""
     return [*_completion_items(_bundled_names(incomplete, "hazard")), CompletionItem(incomplete, type="file")]
 
 
 def complete_bodies(*kinds: str) -> Completion:
-    """Return what offers the bundled bodies of some kinds (all of them when left out), and files."""
+    """Return a completion of bundled bodies of the given kinds (default: all) and files."""
 
     def offer(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """Offer names without their suffix, as one types them."""
+        """Complete body names without suffix."""
         names = (name.removesuffix(".toml") for name in _bundled_names(incomplete, "body"))
         fitting = (name for name in names if not kinds or _body_table(name).get("kind") in kinds)
         return [*_completion_items(fitting), CompletionItem(incomplete, type="file")]
@@ -70,27 +70,27 @@ def complete_bodies(*kinds: str) -> Completion:
 
 
 def complete_stones(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the stones of the pile that the line names."""
+    """Complete the stones of the pile on the line."""
     stone_tables = _body_table(str(ctx.params.get("stones") or "wagata")).get("stone", [])
     return _completion_items(name for stone in stone_tables if (name := str(stone.get("name", ""))).startswith(incomplete))
 
 
 def complete_surfaces(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Offer the pairs of surfaces whose friction is known."""
+    """Complete surface pairs with known friction."""
     from seisblock.bodies.friction import SURFACES
 
     return _completion_items(pair for pair in SURFACES if pair.startswith(incomplete))
 
 
 def _bundled_names(incomplete: str, *kinds: str) -> Iterator[str]:
-    """Yield the names of the bundled files of some kinds."""
+    """Yield the names of the bundled files of the given kinds."""
     from seisblock.samples import list_samples
 
     return (sample.name for sample in list_samples() if sample.name.startswith(incomplete) and (not kinds or sample.kind in kinds))
 
 
 def _body_table(name: str) -> dict[str, Any]:
-    """Return what describes a body; empty where it cannot be read: a shell is not told of errors."""
+    """Return the table of a body, empty on errors: completion must not print messages."""
     from seisblock.bodies.toml import read_body_toml
     from seisblock.core.errors import SeisblockError
 
@@ -101,5 +101,4 @@ def _body_table(name: str) -> dict[str, Any]:
 
 
 def _completion_items(names: Iterable[str]) -> list[CompletionItem]:
-    """Return names as a shell takes them."""
     return [CompletionItem(name) for name in names]

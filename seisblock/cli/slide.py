@@ -1,4 +1,4 @@
-"""``seisblock slide``: how far an object slides on a level or sloping base."""
+"""``seisblock slide``: sliding displacement on a level or sloping base."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import FLOATS, LENGTH, MUS
 from seisblock.cli.write_results import write_results
@@ -26,12 +26,12 @@ AZIMUTH_STEP = 5
 
 
 def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Say what --mu is when it is missing."""
+    """Raise an error with an explanation of ``--mu`` where it is missing."""
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
             gettext(
-                "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; a list "
-                "0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study"
+                "friction required: give --mu (static coefficient), for example --mu 0.2; a list 0.1,0.2 or a range 0.05:0.20:0.005 "
+                "runs a parameter study"
             ),
             ctx,
         )
@@ -53,34 +53,36 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     callback=_require_mu,
     metavar="MU",
     section="Body",
-    help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
+    help="Static friction coefficient; a list or a range first:last:step runs a parameter study, as do --mu-kinetic, --kappa, --slope "
     "and --vertical-scale.  [required]",
 )
-@option("--mu-kinetic", type=MUS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
-@option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
+@option("--mu-kinetic", type=MUS, metavar="MU", section="Body", help="Kinetic friction coefficient. [default: as --mu]")
+@option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Ratio of kinetic to static friction, instead of --mu-kinetic.")
 @option(
     "--slope",
     type=FLOATS,
     default="0",
     metavar="DEG",
     section="Body",
-    help="Angle of the base, degrees; the component's positive direction points downhill. [default: 0]",
+    help="Slope of the base, degrees; the component's positive direction is downhill. [default: 0]",
 )
 @option(
     "--slope-length",
     type=LENGTH,
     metavar="M",
     section="Body",
-    help="Distance to the foot of the slope, m or with a unit, with level ground beyond. [default: no end]",
+    help="Distance to the foot of the slope, m or with a unit; level ground beyond. [default: infinite slope]",
 )
-@option("--one-way", is_flag=True, section="Body", help="Slide downhill (or in the positive direction) only, as Newmark assumed.")
-@option("--vertical", is_flag=True, help="Let the vertical component act too.")
-@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Factor on the vertical component, 1; implies --vertical. [default: 1]")
+@option(
+    "--one-way", is_flag=True, section="Body", help="Slide only downhill (on level ground: in the positive direction), as Newmark assumed."
+)
+@option("--vertical", is_flag=True, help="Apply the vertical component.")
+@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Scale factor on the vertical component; implies --vertical. [default: 1]")
 @gravity_option
 @output_options()
 def slide(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     mu: tuple[float, ...],
     mu_kinetic: tuple[float, ...] | None,
     kappa: tuple[float, ...] | None,
@@ -91,10 +93,10 @@ def slide(
     vertical_scale: tuple[float, ...] | None,
     gravity: float,
 ) -> None:
-    """Sliding of an object on a level or sloping base (Fujino et al. 1978).
+    """Sliding displacement of an object on a level or sloping base (Fujino et al. 1978).
 
-    Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal
-    component is solved by itself; --component all-azimuths sweeps the directions in steps of 5 degrees and reports the worst.
+    Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal component is
+    solved separately; --component all-azimuths sweeps the azimuths in steps of 5 degrees and reports the worst.
     """
     scales = vertical_scale or ((1.0,) if vertical else (0.0,))
     parameters = {
@@ -117,15 +119,20 @@ def slide(
 
 
 def _run_single(
-    records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
+    records: list[Record],
+    source: Source,
+    output: OutputOptions,
+    directions: list[str] | None,
+    single: dict[str, float],
+    fixed: dict[str, Any],
 ) -> None:
-    """Solve one set of parameters for each direction, or for the worst one."""
+    """Solve one set of parameters for each direction or for the worst azimuth."""
     from seisblock.bodies.sliding_base import sliding_base
     from seisblock.cli.hints import slide_hint
     from seisblock.models.slide.solve import solve_slide
     from seisblock.records import motion_of
     from seisblock.report.json.slide import document
-    from seisblock.report.text import slide as shown
+    from seisblock.report.text import slide as text_output
     from seisblock.studies.sliding import slide_study, worst_directions
 
     base_options = {name: value for name, value in single.items() if name != "vertical"}
@@ -139,7 +146,7 @@ def _run_single(
             points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
             worst_azimuth = worst_directions(points)[0].component
-            info("largest slip of {count} directions at azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
+            info("largest slip of {count} azimuths: azimuth {azimuth} degrees", count=len(directions), azimuth=worst_azimuth)
             selected = [motion_of(record, worst_azimuth)]
         responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in selected]
     write_results(
@@ -147,19 +154,24 @@ def _run_single(
         output,
         responses=responses,
         tables=lambda: chain(
-            shown.tables(responses, sweep, gal=output.gal),
+            text_output.tables(responses, sweep, gal=output.gal),
             slide_hint(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
         ),
     )
 
 
 def _run_study(
-    records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
+    records: list[Record],
+    source: Source,
+    output: OutputOptions,
+    directions: list[str] | None,
+    choice: dict[str, Any],
+    fixed: dict[str, Any],
 ) -> None:
-    """Compute every combination of parameters."""
+    """Solve all combinations of parameters."""
     from seisblock.report.io.atomic import write_table
     from seisblock.report.json.slide import study_document
-    from seisblock.report.text import slide_study as shown
+    from seisblock.report.text import slide_study as text_output
     from seisblock.studies.sliding import slide_study, worst_directions
 
     points = []
@@ -172,7 +184,7 @@ def _run_study(
     warnings = (
         [
             lazy_gettext(
-                "{count} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction",
+                "{count} combinations omitted: friction does not hold the object at rest, or kinetic exceeds static friction",
                 count=omitted_count,
             )
         ]
@@ -183,14 +195,14 @@ def _run_study(
     write_results(
         study_document(parameters, pairs, warnings),
         output,
-        tables=lambda: shown.tables(records, points, gal=output.gal),
-        csv=lambda path: write_table(path, *shown.study_csv(records, points)),
+        tables=lambda: text_output.tables(records, points, gal=output.gal),
+        csv=lambda path: write_table(path, *text_output.study_csv(records, points)),
         figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal),
     )
 
 
 def _motions(record: Record, source: Source, directions: list[str] | None) -> Iterator[Motion]:
-    """Yield the motions along the directions, or along the components asked for."""
+    """Yield the motions of the azimuths or of the selected components."""
     from seisblock.records import motion_of
 
     if directions is None:
@@ -201,19 +213,18 @@ def _motions(record: Record, source: Source, directions: list[str] | None) -> It
 
 
 def _sweep_azimuths(*, full_circle: bool) -> list[str]:
-    """Return the azimuths of a sweep: half the circle, all of it where the two senses of a direction differ."""
+    """Return the azimuths of a sweep: half a circle, or the full circle for direction-dependent sliding."""
     return [str(azimuth) for azimuth in range(0, 360 if full_circle else 180, AZIMUTH_STEP)]
 
 
 def _without_azimuths(source: Source) -> Source:
-    """Return the record options with every horizontal component instead of the sweep."""
+    """Return the record options with all horizontal components instead of the sweep."""
     from dataclasses import replace
 
     return replace(source, component=())
 
 
 def _draw(*data: Any, **fixed: Any) -> Any:
-    """Return the figure of a study; matplotlib is loaded only for it."""
     from seisblock.report.figures.slide_study import figure
 
     return figure(*data, **fixed)

@@ -1,4 +1,4 @@
-"""``seisblock spectrum``: one record, and blocks of all sizes, slendernesses and frictions."""
+"""``seisblock spectrum``: response of blocks of all sizes, slendernesses and frictions to one record."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seisblock.cli.azimuth_sweep import is_azimuth_sweep
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 
 KINDS = ("rocking", "overturning", "sliding", "modes")
 AZIMUTH_KINDS = KINDS[:2]
-"""Kinds that look in every direction when they are asked to."""
+"""Kinds that accept ``--component all-azimuths``."""
 
 MIN_SPAN, MAX_SPAN = 0.2, 1.5
-"""Friction and b/h to which a map reaches that is not told how far, at least and at most."""
+"""Smallest and largest default range of friction and b/h."""
 
 
 @click.command(
@@ -50,15 +50,14 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     type=SuggestingChoice(KINDS),
     default="rocking",
     show_default=True,
-    help="Largest lean over alpha; overturning alone; the largest slip against friction; or which mode governs, over friction and shape "
-    "or size.",
+    help="Peak tilt over alpha; overturning only; maximum slip against friction; or governing mode over friction and shape or size.",
 )
 @option(
     "--mu",
     type=MUS,
     section="Body",
     metavar="LIST|RANGE",
-    help="Friction, 1, for --kind sliding and modes. [default: 0.02 to 0.8; or what the record can move]",
+    help="Friction coefficients, for --kind sliding and modes. [default: 0.02 to 0.8; modes: range that the record can mobilise]",
 )
 @option(
     "--sizes",
@@ -67,37 +66,47 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     metavar="LIST|RANGE",
     help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric; for modes 1]",
 )
-@option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
+@option(
+    "--frequency-parameter",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Frequency parameter p = sqrt(3g/4R), rad/s, instead of --sizes.",
+)
 @option(
     "--height-over-width",
     type=FLOATS,
     section="Body",
     metavar="LIST|RANGE",
-    help="H/B of the blocks, 1. [default: 1.5 to 10; for modes what the record can move]",
+    help="Ratios H/B of the blocks. [default: 1.5 to 10; modes: range that the record can mobilise]",
 )
 @option(
-    "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
+    "--slenderness-rad",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Slenderness alpha = atan(B/H), rad, instead of --height-over-width.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
     section="Body",
-    help="How far in from each side the blocks' worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
+    help="Inset of worn edges from each side of the blocks: share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
 )
 @option(
     "--steps",
     type=Count(N_("cells"), "SEISBLOCK_CELLS", minimum=2, power=2),
     default=40,
     show_default=True,
-    help="Points of each axis that is left to its default.",
+    help="Number of points on each axis left at its default.",
 )
 @rocking_options
 @gravity_option
 @output_options(histories=False, film=False, accelerations=False)
 def spectrum(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     kind: str,
     mu: tuple[float, ...] | None,
@@ -112,16 +121,16 @@ def spectrum(
     vertical: bool,
     azimuth: tuple[str, ...],
 ) -> None:
-    """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
+    """Rocking spectrum: peak tilt of rectangular blocks over alpha, against size and slenderness, for each component.
 
-    Overturning is not monotone: look for islands in the figure. With --component all-azimuths leans are those of the worst of 18
-    directions, and --kind overturning tells in how many of them each block falls. With --kind sliding, the largest slip against
-    friction. With --kind modes, what a free-standing block does, as respond tells it, over its friction and its shape, or over its
-    friction and its size for one shape; the vertical component acts where there is one, and --restitution is Poisson's, 0 unless given.
+    Overturning is not monotone: the figure may show islands. With --component all-azimuths, tilts are those of the worst of 18
+    azimuths; --kind overturning gives the number of azimuths in which each block overturns. --kind sliding: maximum slip against
+    friction. --kind modes: response of a free-standing block as in respond, over friction and shape, or over friction and size for
+    one shape; the vertical component acts where the record has one, and --restitution is Poisson's, default 0.
     """
     source = with_azimuths(source, azimuth)
     if is_azimuth_sweep(source) and kind not in AZIMUTH_KINDS:
-        raise ParameterError("--component {name} goes with --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AZIMUTH_KINDS))
+        raise ParameterError("--component {name} requires --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AZIMUTH_KINDS))
     _check_exclusive(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
     _check_exclusive(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     if kind == "sliding":
@@ -157,7 +166,7 @@ def spectrum(
     _reject_options(kind, {"mu": mu})
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import document
-    from seisblock.report.text import spectrum as shown
+    from seisblock.report.text import spectrum as text_output
 
     diagonals = default_sizes(steps) if diagonals is None else diagonals
     alphas = default_slendernesses(steps) if alphas is None else alphas
@@ -166,14 +175,14 @@ def spectrum(
     write_results(
         document(spectra, kind, options, gravity=gravity),
         output,
-        tables=lambda: shown.tables(spectra, kind, _wear_note(inset)),
-        csv=lambda path: shown.write_csv(path, spectra),
+        tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
+        csv=lambda path: text_output.write_csv(path, spectra),
         figure=lambda: _draw(spectra, kind, gravity),
     )
 
 
 def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -> Iterator[tuple[Motion, RockingSpectrum]]:
-    """Yield the spectrum of each motion asked for; that of all directions, with the motion of the largest PGA, where they are."""
+    """Yield the spectrum of each selected motion; in a sweep, with the motion of the largest PGA."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.records import motion_of
@@ -196,19 +205,19 @@ def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -
 
 
 def _reject_options(kind: str, values: dict[str, Any]) -> None:
-    """Refuse options that mean nothing to a kind of spectrum."""
+    """Raise an error for options without effect on a kind of spectrum."""
     for name, value in values.items():
         if value:
-            raise ParameterError("--{name} means nothing to --kind {kind}: leave it out", name=name, kind=kind)
+            raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
-def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
-    """Answer ``--kind sliding``."""
+def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
+    """Run ``--kind sliding``."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import sliding_document
-    from seisblock.report.text import sliding_spectrum as shown
+    from seisblock.report.text import sliding_spectrum as text_output
     from seisblock.studies.sliding import slide_study
 
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
@@ -220,27 +229,27 @@ def _run_sliding(source: Source, output: Output, gravity: float, mu: tuple[float
     write_results(
         sliding_document(curves, gravity=gravity, vertical=vertical),
         output,
-        tables=lambda: shown.tables(curves),
-        csv=lambda path: shown.write_csv(path, curves),
+        tables=lambda: text_output.tables(curves),
+        csv=lambda path: text_output.write_csv(path, curves),
         figure=lambda: _draw_sliding(curves),
     )
 
 
 def _run_modes(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     gravity: float,
     grid: tuple[Any, Any, Any, int],
     restitution: float,
     inset: EdgeWear,
     vertical: bool | None,
 ) -> None:
-    """Answer ``--kind modes``; `grid` holds frictions, diagonals and slendernesses, None where not given, and the steps of an axis."""
+    """Run ``--kind modes``; `grid` holds frictions, diagonals and slendernesses (None: default) and steps."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
     from seisblock.report.json.spectrum import modes_document
-    from seisblock.report.text import mode_map as shown
+    from seisblock.report.text import mode_map as text_output
     from seisblock.studies.respond.mode_map import mode_map
 
     all_motions = [motion for record in load_records(source) for motion in selected_motions(record, source)]
@@ -255,8 +264,8 @@ def _run_modes(
     write_results(
         modes_document(maps, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical is not False),
         output,
-        tables=lambda: shown.tables(maps, _wear_note(inset)),
-        csv=lambda path: shown.write_csv(path, maps),
+        tables=lambda: text_output.tables(maps, _wear_note(inset)),
+        csv=lambda path: text_output.write_csv(path, maps),
         figure=lambda: _draw_modes(maps),
     )
 
@@ -264,7 +273,7 @@ def _run_modes(
 def _grid_axes(
     all_motions: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float, *, vertical: bool | None
 ) -> tuple[Any, Any, Any]:
-    """Return frictions, diagonals and slendernesses; those not given reach to what the motions can move, no two of them equal."""
+    """Return frictions, diagonals and slendernesses; defaults cover the range that the motions can mobilise."""
     from seisblock.criteria.initiation import peak_loading_ratio
 
     mu, diagonals, alphas, steps = grid
@@ -274,40 +283,37 @@ def _grid_axes(
         mu = [round(span * (i + 0.5) / steps, 12) for i in range(steps)]
     if alphas is None:
         if diagonals is not None and len(diagonals) > 1:
-            raise ParameterError("--kind modes over several sizes is of one shape: give one --height-over-width or --slenderness-rad")
+            raise ParameterError("--kind modes with several sizes requires one shape: give one --height-over-width or --slenderness-rad")
         alphas = [math.atan(round(span * (i + 1) / steps, 12)) for i in range(steps)]
     return mu, (1.0,) if diagonals is None else diagonals, alphas
 
 
 def _wear_note(inset: EdgeWear | None) -> str:
-    """Return a remark on worn edges, empty where there are none."""
+    """Return a note on worn edges, empty for sharp edges."""
     if not inset or inset == SHARP_EDGES:
         return ""
     return lazy_gettext("; edges worn by {share:g} B + {length:g} m per side", share=inset.share, length=inset.length_m)
 
 
 def _check_exclusive(first: Any, name: str, second: Any, second_name: str) -> None:
-    """Refuse two ways of saying the same."""
+    """Raise an error for two mutually exclusive options."""
     if first and second:
-        raise ParameterError("give either {name} or {other}, not both", name=name, other=second_name)
+        raise ParameterError("{name} and {other} exclude each other: give only one of them", name=name, other=second_name)
 
 
 def _draw(*data: Any) -> Any:
-    """Return the figure of rocking spectra; matplotlib is loaded only for it."""
     from seisblock.report.figures.spectrum import figure
 
     return figure(*data)
 
 
 def _draw_modes(maps: Any) -> Any:
-    """Return the figure of maps of modes; matplotlib is loaded only for it."""
     from seisblock.report.figures.mode_map import figure
 
     return figure(maps)
 
 
 def _draw_sliding(curves: Any) -> Any:
-    """Return the figure of sliding spectra; matplotlib is loaded only for it."""
     from seisblock.report.figures.sliding_spectrum import figure
 
     return figure(curves)

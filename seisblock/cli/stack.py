@@ -1,4 +1,4 @@
-"""``seisblock stack``: how a pile of stones stands, slides and falls."""
+"""``seisblock stack``: response of a pile of stones in three dimensions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import INSET, MU, ContactType
 from seisblock.cli.versions import pop_spreads, version_options
 from seisblock.cli.write_results import write_results
@@ -27,13 +27,13 @@ DEFAULT_PILE = "wagata"
 
 RIGID, SPRINGS = "rigid", "springs"
 EDGES, GRID = 2, 5
-"""Points along each side of a joint: on its edges, and as in Furukawa2009."""
+"""Contact points along each side of a joint: on the edges, and as in Furukawa2009."""
 
 VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
-"""What versions of a pile differ in."""
+"""Parameters that vary between the samples of a pile."""
 
 MAX_GRID = 29
-"""Of the heights of the study one is left."""
+"""Coarsest grid of the criterion study: one height is left."""
 
 
 @click.command(
@@ -53,16 +53,16 @@ MAX_GRID = 29
     default=DEFAULT_PILE,
     show_default=True,
     section="Body",
-    help="TOML file of the pile, or a bundled one: wagata, lantern, column.",
+    help="TOML file of the pile, or bundled pile: wagata, lantern, column.",
 )
-@option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
+@option("--reinforced", is_flag=True, section="Body", help="Insert the dowels that the file defines.")
 @option(
     "--without",
     multiple=True,
     metavar="STONE",
     shell_complete=shell_completion.complete_stones,
     section="Body",
-    help="Leave a stone out; may be repeated.",
+    help="Stone to leave out; may be repeated.",
 )
 @option(
     "--fix",
@@ -70,80 +70,82 @@ MAX_GRID = 29
     metavar="STONE",
     shell_complete=shell_completion.complete_stones,
     section="Body",
-    help="Let a stone move with the ground; may be repeated.",
+    help="Stone fixed to the ground; may be repeated.",
 )
 @option(
     "--inset",
     type=INSET,
     metavar="SHARE|M",
     section="Body",
-    help="How far in from each side of its base every stone's worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm); "
+    help="Inset of worn edges from each side of the base of every stone: share of the width (0.1, 10%), or m with a unit (1cm); "
     "--contact edges. [default: the file's own, or 0]",
 )
-@option("--mu", type=MU, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
+@option("--mu", type=MU, help="Static friction coefficient of every joint. [default: the file's own; wagata 0.438]")
 @option(
     "--mu-kinetic",
     type=MU,
-    help="Friction of every joint that slides, 1; at most that of any joint at rest; --law rigid. [default: the file's own, or as --mu]",
+    help="Kinetic friction coefficient of every joint, at most the smallest static coefficient; --law rigid. [default: the file's "
+    "own, or as --mu]",
 )
 @option(
     "--restitution",
     type=float,
-    help="Velocity with which the edge of a joint leaves over that with which the opposite one strikes, 1; --law rigid. "
-    "[default: what angular momentum gives]",
+    help="Coefficient of restitution: ratio of the velocity of the leaving edge of a joint to that of the striking edge; --law rigid. "
+    "[default: from conserved angular momentum]",
 )
 @option(
     "--contact",
     type=ContactType(),
     metavar="edges|grid=N",
-    help="Where stones touch: on the edges of their bases, or at N x N points of each joint, 1, as Furukawa2009 has 5; these make a stone "
-    "act narrower. [default: edges; --criterion: grid=5]",
+    help="Contact points of a joint: edges of the bases, or grid=N for N x N points, 1 (Furukawa2009: 5); a grid makes a stone act "
+    "narrower. [default: edges; --criterion: grid=5]",
 )
 @option(
     "--law",
     type=click.Choice([RIGID, SPRINGS]),
-    help="Rigid stones, or springs and dashpots as in Furukawa2009. [default: rigid; springs with --criterion, --young or "
-    "--joint-stiffness]",
+    help="Contact law: rigid stones, or springs and dashpots as in Furukawa2009. [default: rigid; springs with --criterion, --young "
+    "or --joint-stiffness]",
 )
 @option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
-@option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: as --young]")
+@option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: from --young]")
 @option("--damping", type=float, help="Damping ratio of a stone on its joint, with --young or --joint-stiffness. [default: 1]")
 @option(
     "--vertical/--no-vertical",
     default=None,
-    help="Whether the vertical component acts. [default: where the record has one]",
+    help="Apply or omit the vertical component. [default: applied where the record has one]",
 )
-@option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
+@option("--across/--no-across", default=True, show_default=True, help="Apply or omit the other horizontal component.")
 @option(
     "--step",
     type=float,
     metavar="S",
-    help="Time step, s. [default: 1/55 of the swing of the smallest stone; of springs, 0.7 of what the stiffest contact admits]",
+    help="Time step, s. [default: 1/55 of the rocking time scale of the smallest stone; springs: 0.7 of the stability limit of the "
+    "stiffest contact]",
 )
 @option(
     "--criterion",
     is_flag=True,
-    help="The criterion study of Furukawa2009 section 3(3), over sines, and over each RECORD given, scaled; long work.",
+    help="Criterion study of Furukawa2009 section 3(3): sines, and each RECORD scaled; takes long.",
 )
 @option(
     "--grid",
     type=click.IntRange(1, MAX_GRID),
     default=1,
     show_default=True,
-    help="--criterion: take every so many-th amplitude and height.",
+    help="--criterion: interval of the amplitudes and heights computed.",
 )
 @option(
     "--resume",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="--criterion: keep finished sines in this file, and go on from it.",
+    help="--criterion: file of finished sines, from which an interrupted study continues.",
 )
 @version_options(*VARIED_PARAMETERS, runs=0)
 @gravity_option
 @output_options()
 def stack(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     stones: str,
     reinforced: bool,
     without: tuple[str, ...],
@@ -155,24 +157,24 @@ def stack(
     resume: Path | None,
     **params: Any,
 ) -> None:
-    """Follow a pile of stones through an earthquake, in three dimensions (Furukawa et al. 2009).
+    """Response of a pile of stones in three dimensions: displacement, separation and fall of each stone (Furukawa et al. 2009).
 
-    Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction. Without
-    --component that is the record's first. Slips are relative to the stone below, in m. A pile is chaotic: --runs 100 tells in what
-    share of plausible versions of it and the shaking each stone falls.
+    Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction, without
+    --component that of the first component of the record. Slips are relative to the stone below, m. The response of a pile is chaotic:
+    --runs 100 gives the probability of falling of each stone over samples of pile and motion.
     """
     from seisblock.bodies.pile.contact import PileContact
     from seisblock.core.errors import ParameterError
 
     if params["young"] is not None and params["joint_stiffness"] is not None:
-        raise ParameterError("give --young or --joint-stiffness, not both")
+        raise ParameterError("--young and --joint-stiffness exclude each other: give only one of them")
     law, young, stiffness, damping = (params.pop(name) for name in ("law", "young", "joint_stiffness", "damping"))
     params["points"] = params.pop("contact") or (GRID if criterion else EDGES)
     springs = law == SPRINGS or (law is None and (criterion or young is not None or stiffness is not None))
     if not springs and not (young is None and stiffness is None):
-        raise ParameterError("rigid stones have no springs: leave --young and --joint-stiffness out, or choose --law springs")
+        raise ParameterError("--young and --joint-stiffness have no effect with --law rigid: omit them, or give --law springs")
     if damping is not None and young is None and stiffness is None:
-        raise ParameterError("--damping goes with --young or --joint-stiffness")
+        raise ParameterError("--damping requires --young or --joint-stiffness")
     contact = PileContact(young=young, stiffness=stiffness, damping_ratio=1.0 if damping is None else damping) if springs else None
     body = _load_pile(stones, reinforced, mu, without, fix)
     body = body if inset is None else body.with_wear(inset)
@@ -181,27 +183,28 @@ def stack(
         name=lazy_gettext(body.name),
         count=len(body.stones),
         mu=body.mu,
-        dowels=lazy_gettext(", dowels in") if body.dowels else "",
+        dowels=lazy_gettext(", with dowels") if body.dowels else "",
     )
     widths = pop_spreads(params, *VARIED_PARAMETERS)
     if criterion:
         if params["runs"]:
-            raise ParameterError("--criterion takes no --runs")
+            raise ParameterError("--runs has no effect with --criterion: omit it")
         if not (params["mu_kinetic"] is None and params["restitution"] is None):
-            raise ParameterError("--criterion takes no --mu-kinetic and no --restitution")
+            raise ParameterError("--mu-kinetic and --restitution have no effect with --criterion: omit them")
         if not (params["step"] is None and params["vertical"] is None and params["across"]):
             raise ParameterError(
-                "--criterion has steps of its own, and all components of a record act: leave out --step, --vertical and --across"
+                "--step, --vertical and --across have no effect with --criterion, which sets its time step and applies all "
+                "components: omit them"
             )
         _run_study(source, output, body, contact, grid, resume, points=params["points"], gravity=params["gravity"], reinforced=reinforced)
         return
     if grid != 1 or resume is not None:
-        raise ParameterError("--grid and --resume go with --criterion")
+        raise ParameterError("--grid and --resume require --criterion")
     _run_records(source, output, body, contact, widths, params)
 
 
 def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
-    """Return the pile that the options of the body describe."""
+    """Return the pile described by the options."""
     from dataclasses import replace
 
     from seisblock.bodies.pile.toml import load_pile
@@ -210,52 +213,54 @@ def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[s
     body = load_pile(stones, reinforced=reinforced, mu=mu)
     for name in removed:
         if name not in body.names:
-            raise BodyError("--without names {name!r}, but the pile {pile} has {names}", name=name, pile=body.name, names=list(body.names))
+            raise BodyError(
+                "--without: the pile {pile} has no stone {name!r}; stones: {names}", name=name, pile=body.name, names=list(body.names)
+            )
     body = body.without(*removed) if removed else body
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
 
-def _run_records(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
-    """Follow the pile through the records."""
+def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
+    """Solve the pile under each record."""
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
     from seisblock.models.stack.solve import solve_stack
     from seisblock.readers._memory import trim_heap
     from seisblock.report.json.stack import document
-    from seisblock.report.text import stack as shown
+    from seisblock.report.text import stack as text_output
     from seisblock.studies.model_comparison import compare_pile_models
     from seisblock.studies.respond.pile_probability import PileVariation, stack_probability
 
     versions = PileVariation(**widths)
     inset_given = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
     if inset_given and versions.inset and params["points"] != EDGES:
-        raise ParameterError("--vary-inset goes with stones on their edges: leave --contact grid={points} out", points=params["points"])
-    study_options = {"versions": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
+        raise ParameterError("--vary-inset has no effect with --contact grid={points}: omit one of them", points=params["points"])
+    study_options = {"samples": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
     responses, extras = [], []
     for record in load_records(source):
         directions = list(selected_motions(record, source))
-        # all components act in every run: without --component one run tells all
+        # all components act in every run: without --component one direction suffices
         for motion in directions if source.component else directions[:1]:
             name = f"{record.station} {motion.name}".strip()
             with progress(name) as advance:
                 responses.append(solve_stack(body, motion, contact=contact, progress=advance, **params))
-            trim_heap()  # a day's models of one stone find no room beside what compiling has freed
+            trim_heap()  # memory freed by the compiler is needed for long records
             extra: dict[str, Any] = {"agreement": compare_pile_models(responses[-1])}
             if study_options["runs"]:
-                with progress("versions {name}", name=name) as advance:
+                with progress("samples {name}", name=name) as advance:
                     extra["probability"] = stack_probability(body, motion, progress=advance, contact=contact, **study_options, **params)
             extras.append(extra)
     write_results(
         document(responses, body, contact, extras),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        tables=lambda: text_output.tables(responses, extras, gal=output.gal),
     )
 
 
 def _run_study(
     source: Source,
-    output: Output,
+    output: OutputOptions,
     body: Pile,
     contact: Any,
     grid: int,
@@ -265,10 +270,9 @@ def _run_study(
     gravity: float,
     reinforced: bool,
 ) -> None:
-    """Run the criterion study."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.stack import study_document
-    from seisblock.report.text import stack_criterion as shown
+    from seisblock.report.text import stack_criterion as text_output
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
     common: dict[str, Any] = {
@@ -299,14 +303,13 @@ def _run_study(
     write_results(
         study_document(study, rigid, record_levels, records, reinforced=reinforced, **study_options),
         output,
-        tables=lambda: shown.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
-        csv=lambda path: shown.write_csv(study, record_levels, path),
+        tables=lambda: text_output.tables(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
+        csv=lambda path: text_output.write_csv(study, record_levels, path),
         figure=lambda: _draw(study, rigid, record_levels, reinforced=reinforced, gal=output.gal),
     )
 
 
 def _draw(*data: Any, **choice: Any) -> Any:
-    """Return the figure of the study; matplotlib is loaded only for it."""
     from seisblock.report.figures.stack_criterion import figure
 
     return figure(*data, **choice)

@@ -1,4 +1,4 @@
-"""What somebody meant who wrote a name that is not there: the nearest of those that are, when one of them is really near."""
+"""Suggestions ("did you mean ...?") for mistyped names."""
 
 from __future__ import annotations
 
@@ -11,44 +11,44 @@ import click
 from seisblock.core.i18n import Message, gettext
 
 KNOWN_KEYS = ("known", "codes", "names")
-"""Fields of a message that list the names there are."""
+"""Fields of a message that list the known names."""
 
 NAME_KEYS = ("name", "code", "pair")
-"""Fields that hold the one that is not."""
+"""Fields of a message that hold the unknown name."""
 
 MIN_TYPO_LENGTH, TWO_TYPO_LENGTH = 3, 8
-"""Of letters: shorter names have no slips, longer ones may have two."""
+"""Shortest name, letters, for which one typing error, and two errors, are tolerated."""
 
 MIN_PREFIX_LENGTH = 4
-"""Letters from which on a name is meant by what goes on after it (``rocking``)."""
+"""Shortest name, letters, that matches a longer word beginning with it (``rocking``: ``rock``)."""
 
 
 def closest_name(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the name that was meant by one that is not there, whatever its case; None where none is near.
+    """Return the candidate nearest to a mistyped name, case-insensitively; None if none is near.
 
-    Near is the only name that begins so, one that differs by a slip of the hand (in eight letters and more, two): a letter too many,
-    too few, another or changed places with the next; and one that is a word of which the name is more.
+    Near are: the only candidate that begins with the name; a candidate within one typing error (two from eight letters on), see
+    :func:`_edit_distance`; and the longest candidate with which the name begins.
     """
-    typed = name.lstrip("-").lower()
+    query = name.lstrip("-").lower()
     by_form: dict[str, str] = {}
     for candidate in candidates:
-        folded = candidate.lstrip("-").lower()
-        by_form.setdefault(folded, candidate)
-        by_form.setdefault(folded.partition(".")[0], candidate)  # a file by its name without suffix
-    if not typed or not by_form:
+        lower_name = candidate.lstrip("-").lower()
+        by_form.setdefault(lower_name, candidate)
+        by_form.setdefault(lower_name.partition(".")[0], candidate)  # a file by its name without suffix
+    if not query or not by_form:
         return None
-    matches = {candidate for form, candidate in by_form.items() if form.startswith(typed)}
+    matches = {candidate for form, candidate in by_form.items() if form.startswith(query)}
     if len(matches) == 1:
         return matches.pop()
-    distance, form = min((_edit_distance(typed, form), form) for form in by_form)
-    if distance <= (0 if len(typed) < MIN_TYPO_LENGTH else 1 if len(typed) < TWO_TYPO_LENGTH else 2):
+    distance, form = min((_edit_distance(query, form), form) for form in by_form)
+    if distance <= (0 if len(query) < MIN_TYPO_LENGTH else 1 if len(query) < TWO_TYPO_LENGTH else 2):
         return by_form[form]
-    words = [form for form in by_form if len(form) >= MIN_PREFIX_LENGTH and typed.startswith(form)]
+    words = [form for form in by_form if len(form) >= MIN_PREFIX_LENGTH and query.startswith(form)]
     return by_form[max(words, key=len)] if words else None
 
 
 def _edit_distance(a: str, b: str) -> int:
-    """Return how many letters are too many, too few, others, or in each other's place."""
+    """Return the optimal-string-alignment distance: insertions, deletions, substitutions and transpositions."""
     row_before_last, last_row = [0] * (len(b) + 1), list(range(len(b) + 1))
     for i, letter in enumerate(a, start=1):
         row = [i]
@@ -62,14 +62,14 @@ def _edit_distance(a: str, b: str) -> int:
 
 
 def add_suggestion(text: str, message: str) -> str:
-    """Return a message as it is told, and after it the name that was meant, where it lists the names there are and one of them is near.
+    """Return a translated message with a suggestion where it lists known names and one of them is near.
 
     Parameters
     ----------
     text : str
-        In the language spoken.
+        Translated message.
     message : str
-        The same, with the values it was said with.
+        The untranslated message with its values.
     """
     if not isinstance(message, Message):
         return text
@@ -79,13 +79,13 @@ def add_suggestion(text: str, message: str) -> str:
 
 
 def did_you_mean(text: str, name: str | None) -> str:
-    """Return a message that asks whether a name was meant, where there is one."""
+    """Return a message with the suggested name, unchanged without one."""
     return gettext("{message}; did you mean {name}?", message=text.rstrip("。.?"), name=name) if name else text
 
 
 @contextmanager
 def suggest_options(command: click.Command, ctx: click.Context) -> Iterator[None]:
-    """Ask for the nearest option of a command where one is given that it does not have."""
+    """Add a suggestion to click's error about an unknown option."""
     try:
         yield
     except click.NoSuchOption as error:
@@ -96,11 +96,11 @@ def suggest_options(command: click.Command, ctx: click.Context) -> Iterator[None
 
 
 class SuggestingChoice(click.Choice[str]):
-    """One of some words; for one that is none of them the nearest is asked for."""
+    """Choice parameter that suggests the nearest value."""
 
     def __init__(self, words: Collection[str]) -> None:
         super().__init__(list(words))
 
     def get_invalid_choice_message(self, value: Any, ctx: click.Context | None) -> str:
-        """Return what is said of another word."""
+        """Return the error message for an invalid choice."""
         return did_you_mean(super().get_invalid_choice_message(value, ctx), closest_name(str(value), self.choices))

@@ -1,4 +1,4 @@
-"""What an option's text may be: lengths with units, ranges, windows."""
+"""Click parameter types: lengths with units, lists, ranges, time windows."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_m
 from seisblock.records.floor_motion import Storey, parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
-"""Of a figure, m."""
+"""Smallest and largest side of a figure, m."""
 
 
 class Count(click.ParamType):  # type: ignore[type-arg]
-    """How many of something: a whole number within a limit of :mod:`seisblock.core.limits`.
+    """Integer parameter with an upper limit from :mod:`seisblock.core.limits`.
 
     Parameters
     ----------
     quantity : str
-        What is counted, see :func:`seisblock.core.limits.check_limit`.
+        Noun of the message, see :func:`seisblock.core.limits.check_limit`.
     variable : str
         Of the limit.
     minimum : int
     power : int
-        How often the number counts: as many points on two axes make the square of it.
+        Power of the number that is limited: 2 for points on two axes.
     """
 
     name = "integer"
@@ -49,7 +49,7 @@ class Count(click.ParamType):  # type: ignore[type-arg]
 
 
 class ContactType(click.ParamType):  # type: ignore[type-arg]
-    """Where stones touch: on their edges, or at n x n points, as the number of points along each side."""
+    """Contact points of a joint: ``edges``, or ``grid=N`` for N x N points."""
 
     name = "contact"
 
@@ -59,8 +59,8 @@ class ContactType(click.ParamType):  # type: ignore[type-arg]
             return 2 if value == "edges" else value
         name, _, count = str(value).partition("=")
         if name != "grid":
-            self.fail(gettext("{value!r} is neither edges nor grid=N, as in grid=5", value=value), param, ctx)
-        return Count(N_("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
+            self.fail(gettext("{value!r} is neither edges nor grid=N, for example grid=5", value=value), param, ctx)
+        return Count(N_("contact points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]
@@ -69,9 +69,9 @@ class Length(click.ParamType):  # type: ignore[type-arg]
     name = "length"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return metres."""
+        """Return the length, m."""
         if isinstance(value, float):
-            return value  # a default, or converted already
+            return value  # default, or already converted
         try:
             return parse_length(value, quantity=lazy_gettext((param.name or "length").replace("_", " ") if param else "length"))
         except InputError as error:
@@ -84,7 +84,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
     name = "mass"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return kilograms."""
+        """Return the mass, kg."""
         try:
             return parse_mass(value)
         except InputError as error:
@@ -92,7 +92,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
 
 
 class InsetType(click.ParamType):  # type: ignore[type-arg]
-    """How far in from each side a block turns: a share of the width (``0.1``, ``10%``), or a length with its unit (``1cm``)."""
+    """Inset of worn edges per side: a share of the width (``0.1``, ``10%``), or a length with unit (``1cm``)."""
 
     name = "inset"
 
@@ -105,7 +105,7 @@ class InsetType(click.ParamType):  # type: ignore[type-arg]
 
 
 class ShareType(Finite):
-    """A number, or per cent: ``0.2``, ``20%``."""
+    """Number or percentage: ``0.2``, ``20%``."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
@@ -160,7 +160,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
 
 
 class SizeType(click.ParamType):  # type: ignore[type-arg]
-    """Width and height of a picture, ``18x12``: cm, or with a unit (``7inx5in``, ``180mmx120mm``)."""
+    """Width and height of a figure, ``18x12``: cm, or with units (``7inx5in``, ``180mmx120mm``)."""
 
     name = "size"
 
@@ -170,7 +170,7 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
             return value
         sides = to_halfwidth(value).lower().replace("×", "x").split("x")
         if len(sides) != 2:
-            self.fail(gettext("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a width and a height, for example 18x12 (cm)", value=value), param, ctx)
         try:
             width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", quantity="size") for side in sides)
         except InputError as error:
@@ -179,33 +179,35 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
         for side in (width, height):
             if not MIN_SIDE <= side <= MAX_SIDE:
                 lower, upper = (f"{limit_m / LENGTH_UNITS[unit]:.4g} {unit}" for limit_m in (MIN_SIDE, MAX_SIDE))
-                text = gettext("{value!r}: a figure is between {least} and {most} wide and high", value=value, least=lower, most=upper)
+                text = gettext(
+                    "{value!r}: width and height of a figure must lie between {least} and {most}", value=value, least=lower, most=upper
+                )
                 self.fail(text, param, ctx)
         return FigureSize(width, height, unit)
 
 
 class WindowType(click.ParamType):  # type: ignore[type-arg]
-    """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
+    """Time window ``T0:T1``, s from the record's first sample; either end may be omitted."""
 
     name = "t0:t1"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float | None, float | None]:
-        """Return both ends, None where left out."""
+        """Return both ends, s; None where omitted."""
         if isinstance(value, tuple):
             return value
         try:
             first, last = (float(piece) if piece.strip() else None for piece in value.split(":"))
         except ValueError:
-            self.fail(gettext("{value!r} is not a window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
+            self.fail(gettext("{value!r} is not a time window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
         if any(end is not None and not math.isfinite(end) for end in (first, last)):
             self.fail(gettext("{value!r}: both ends must be finite", value=value), param, ctx)
         if first is not None and last is not None and last <= first:
-            self.fail(gettext("{value!r} ends before it begins", value=value), param, ctx)
+            self.fail(gettext("{value!r}: the end of the window must be later than its start", value=value), param, ctx)
         return first, last
 
 
 class StoreyType(click.ParamType):  # type: ignore[type-arg]
-    """A storey ``T=0.6,zeta=0.05,height=0.8``: period in s, damping and height as shares; all but the period may be left out."""
+    """Storey ``T=0.6,zeta=0.05,height=0.8``: period, s, damping ratio and height ratio; only T is required."""
 
     name = "storey"
 
@@ -218,7 +220,7 @@ class StoreyType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _share(text: str) -> float:
-    """Return a share, 0.2 or 20%."""
+    """Return a share given as 0.2 or 20%."""
     return float(MU.convert(text, None, None)) if to_halfwidth(text).strip().endswith("%") else float(text)
 
 

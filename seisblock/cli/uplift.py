@@ -1,4 +1,4 @@
-"""``seisblock uplift``: does a block on corner springs lift off, under a record or under harmonic shaking."""
+"""``seisblock uplift``: uplift of a block on corner springs under a record or harmonic motion."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
 from seisblock.cli.write_results import write_results
@@ -21,11 +21,11 @@ SHAKING = ("alpha", "gamma", "phi", "rho")
 RATIOS = (*SHAKING, "beta", "damping")
 DIMENSIONS = ("width", "depth", "height", "stiffness")
 SIZES = (*DIMENSIONS, "mass", "frequency_vertical")
-"""Names of the options that go together."""
+"""Groups of option names."""
 
 
 def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[tuple[float, ...], bool] | None:
-    """Return the frequency ratios, and whether they were given as a range."""
+    """Return the frequency ratios and whether they were given as a range."""
     return None if value is None else (FLOATS.convert(value, param, ctx), ":" in value)
 
 
@@ -39,8 +39,8 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 )
 @record_options
 @option("--width", type=LENGTH, section="Body", help="Side a of the base along the motion, m or with a unit.")
-@option("--depth", type=LENGTH, section="Body", help="Side b of the base across it, m or with a unit. [default: --width]")
-@option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit; the centre of gravity is at half of it.")
+@option("--depth", type=LENGTH, section="Body", help="Side b of the base across the motion, m or with a unit. [default: --width]")
+@option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit; centre of gravity at half of it.")
 @option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit. [default: 1000 kg, which only scales forces]")
 @option("--stiffness", type=FLOATS, metavar="KX,KY,KZ", section="Body", help="Stiffness of the springs at each corner, N/m; needs --mass.")
 @option(
@@ -48,40 +48,40 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
     type=float,
     metavar="HZ",
     section="Body",
-    help="omega_V / 2 pi on the springs, Hz; instead of --stiffness. [default: 1 with --harmonic, else required]",
+    help="Vertical frequency omega_V / 2 pi on the springs, Hz; instead of --stiffness. [default: 1 with --harmonic, else required]",
 )
-@option("--beta", type=FLOATS, section="Body", help="Horizontal over vertical frequency, 1. [default: 0.707, the paper's]")
+@option("--beta", type=FLOATS, section="Body", help="Ratio of horizontal to vertical frequency. [default: 0.707, as in the paper]")
 @option(
     "--damping",
     type=FLOATS,
     section="Body",
     help="Damping ratio: zeta of each corner dashpot, with --harmonic h of each mode. [default: 0.05]",
 )
-@option("--alpha", type=FLOATS, section="Body", help="With --harmonic: height over depth H/b, 1, instead of sizes. [default: 1]")
-@option("--gamma", type=FLOATS, section="Body", help="With --harmonic: width over depth a/b, 1. [default: 1]")
-@option("--harmonic", is_flag=True, help="Steady state under harmonic shaking: no record; lists of parameters are combined.")
-@option("--phi", type=FLOATS, help="With --harmonic: azimuth of the shaking from x to y, degrees. [default: 0]")
-@option("--rho", type=FLOATS, help="With --harmonic: angle of the shaking from the vertical, degrees. [default: 90]")
+@option("--alpha", type=FLOATS, section="Body", help="With --harmonic: ratio H/b of height to depth, instead of sizes. [default: 1]")
+@option("--gamma", type=FLOATS, section="Body", help="With --harmonic: ratio a/b of width to depth. [default: 1]")
+@option("--harmonic", is_flag=True, help="Steady state under harmonic motion, without a record; lists of parameters are combined.")
+@option("--phi", type=FLOATS, help="With --harmonic: azimuth of the motion from x to y, degrees. [default: 0]")
+@option("--rho", type=FLOATS, help="With --harmonic: angle of the motion from the vertical, degrees. [default: 90]")
 @option(
     "--frequency-ratio",
     callback=_parse_ratios,
     metavar="LIST|A:B:STEP",
-    help="With --harmonic: evaluate exactly at these theta/omega_1; a range also bounds the search for minima. [default: 0.01:6:0.01]",
+    help="With --harmonic: ratios theta/omega_1 to evaluate; a range also bounds the search for minima. [default: 0.01:6:0.01]",
 )
-@option("--corner", type=click.IntRange(1, 4), help="With --harmonic: this corner alone; the paper's is 4. [default: the first to lift]")
+@option("--corner", type=click.IntRange(1, 4), help="With --harmonic: corner to evaluate; the paper has 4. [default: first to lift]")
 @option(
     "--figure",
     type=SuggestingChoice(["3", "4", "6", "7", "8", "9", "10", "11"]),
-    help="The parameters of this figure of the paper; implies --harmonic, other options prevail.",
+    help="Parameters of this figure of the paper; implies --harmonic; other options override them.",
 )
 @gravity_option
 @output_options()
-def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
+def uplift(source: Source, output: OutputOptions, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).
 
-    With a record: three-component motion, corners that hold only while compressed; first uplift, which corner, how high and how
-    long. Corners are 1 (+x, +y), 2 (+x, -y), 3 (-x, +y), 4 (-x, -y), with +x the component's positive direction. With --harmonic:
-    natural modes and the least A/g that lifts a corner, against the frequency.
+    With a record: three-component motion, corner springs without tension; time of first uplift, corner, height and duration. Corners
+    are 1 (+x, +y), 2 (+x, -y), 3 (-x, +y), 4 (-x, -y), with +x the component's positive direction. With --harmonic: natural modes and
+    the smallest A/g that lifts a corner, against frequency.
     """
     if harmonic or figure:
         _run_harmonic(source, output, int(figure) if figure else None, params)
@@ -89,11 +89,11 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     from seisblock.bodies.spring_factory import spring_block
     from seisblock.models.uplift.solve import solve_uplift
     from seisblock.report.json.uplift import document
-    from seisblock.report.text import uplift as shown
+    from seisblock.report.text import uplift as text_output
 
     harmonic_flags = [_option_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if params.pop(name) is not None]
     if harmonic_flags:
-        raise ParameterError("{only} speak of harmonic shaking: add --harmonic, or leave them out", only=harmonic_flags)
+        raise ParameterError("{only} requires --harmonic: add --harmonic, or omit {only}", only=harmonic_flags)
     body = spring_block(**{name: _single_value(name, value) for name, value in params.items()})
     responses = [
         solve_uplift(body, motion, gravity=gravity) for record in load_records(source) for motion in selected_motions(record, source)
@@ -102,27 +102,25 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
         document(responses, body),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, gal=output.gal),
+        tables=lambda: text_output.tables(responses, gal=output.gal),
     )
 
 
-def _run_harmonic(source: Source, output: Output, figure: int | None, params: dict[str, Any]) -> None:
-    """Answer for harmonic shaking."""
+def _run_harmonic(source: Source, output: OutputOptions, figure: int | None, params: dict[str, Any]) -> None:
+    """Run ``--harmonic``."""
     from seisblock.cli.progress import progress
     from seisblock.report.json.uplift import harmonic_document
-    from seisblock.report.text import uplift_harmonic as shown
+    from seisblock.report.text import uplift_harmonic as text_output
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 
     if source.record:
-        raise ParameterError(
-            "--harmonic shakes with a sine: leave the record {record} out, or leave --harmonic out", record=source.record[0]
-        )
+        raise ParameterError("RECORD {record} has no effect with --harmonic: omit one of them", record=source.record[0])
     reject_with("--harmonic" if figure is None else "--figure", [*RECORD_OPTIONS, "gravity"])
     ratios, is_range = params["frequency_ratio"] or (DEFAULT_RATIOS, False)
     search_range = (min(ratios), max(ratios)) if is_range else None
     if params["frequency_vertical"] is None and params["stiffness"] is None:
         params["frequency_vertical"] = 1.0
-        info("no --frequency-vertical given: natural frequencies are those for omega_V / 2 pi = 1 Hz; ratios need none")
+        info("no --frequency-vertical given: natural frequencies are for omega_V / 2 pi = 1 Hz; ratios do not depend on it")
     sizes = {name: params[name] for name in SIZES} if any(params[name] is not None for name in DIMENSIONS) else None
     blocks = harmonic_blocks(
         {name: params[name] for name in RATIOS},
@@ -136,30 +134,28 @@ def _run_harmonic(source: Source, output: Output, figure: int | None, params: di
     write_results(
         harmonic_document(regions),
         output,
-        tables=lambda: shown.tables(regions, all_rows=params["frequency_ratio"] is not None),
-        csv=lambda path: shown.write_csv(path, regions),
+        tables=lambda: text_output.tables(regions, all_rows=params["frequency_ratio"] is not None),
+        csv=lambda path: text_output.write_csv(path, regions),
         figure=lambda: _draw(regions, figure),
     )
 
 
 def _draw(regions: Any, figure: int | None) -> Any:
-    """Return the figure of harmonic regions; matplotlib is loaded only for it."""
     from seisblock.report.figures.uplift_harmonic import harmonic_figure
 
     return harmonic_figure(regions, figure)
 
 
 def _single_value(name: str, value: Any) -> Any:
-    """Return the one number of an option that takes a list only with --harmonic."""
+    """Return the single number of an option that accepts lists only with ``--harmonic``."""
     if name not in RATIOS or value is None:
         return value
     if len(value) != 1:
         raise ParameterError(
-            "{name} takes one number with a record, found {count}: lists go with --harmonic", name=_option_flag(name), count=len(value)
+            "{name} accepts one number with a record, found {count}: lists require --harmonic", name=_option_flag(name), count=len(value)
         )
     return value[0]
 
 
 def _option_flag(name: str) -> str:
-    """Return how an option is written."""
     return "--" + name.replace("_", "-")

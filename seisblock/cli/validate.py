@@ -1,4 +1,4 @@
-"""``seisblock validate``: what the papers print, and what this machine computes."""
+"""``seisblock validate``: numbers printed in the papers beside the computed ones."""
 
 from __future__ import annotations
 
@@ -14,23 +14,25 @@ FAILED = 1
 
 
 @click.command(cls=Command, examples=("seisblock validate", "seisblock validate --paper Sugimoto2017 --html evidence.html"))
-@option("--paper", metavar="KEY", multiple=True, help="Only this paper, by its key or the beginning of it; may be repeated. [default: all]")
-@option("--quick", is_flag=True, help="Leave out the cases that take more than a moment.")
-@option("--all", "every", is_flag=True, section="Output", help="List the cases that hold, too, not only those that differ.")
-@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
-@option("--html", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the gallery: one page.")
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@option("--paper", metavar="KEY", multiple=True, help="Key of a paper, or its beginning; may be repeated. [default: all]")
+@option("--quick", is_flag=True, help="Skip the slow cases.")
+@option("--all", "all_cases", is_flag=True, section="Output", help="List all cases, not only the differences.")
+@option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout, SI units.")
+@option("--html", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the gallery as one HTML page.")
+@option("--quiet", is_flag=True, section="Output", help="Print only errors on stderr.")
 @click.pass_context
-def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: bool, as_json: bool, html: Path | None, quiet: bool) -> None:
-    """Compute every number the papers print and compare: what differs, with its reason, and what each kind of evidence comes to.
+def validate(
+    ctx: click.Context, paper: tuple[str, ...], quick: bool, all_cases: bool, as_json: bool, html: Path | None, quiet: bool
+) -> None:
+    """Numbers printed in the papers beside the computed ones: differences with cause, and a summary by kind of evidence.
 
-    Exits with 1 when a case that should agree does not. A case that is said to differ and agrees, or differs by another amount than
-    was explained, counts as one.
+    Exit code 1 when a case that should agree does not. A case documented as different counts as failed, too, when it agrees or
+    differs by another amount than documented.
     """
     from seisblock.cli.progress import progress
     from seisblock.report.io.atomic import check_distinct_outputs, write_text
     from seisblock.report.io.suffix import check_text_suffix
-    from seisblock.report.text import validate as shown
+    from seisblock.report.text import validate as text_output
     from seisblock.validation import cases_of
     from seisblock.validation.case import count_verdicts
 
@@ -57,6 +59,6 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
 
         print_result(to_json(document(results, quick=quick)))
     else:
-        print_tables(shown.tables(results, all_cases=every))
+        print_tables(text_output.tables(results, all_cases=all_cases))
     if count_verdicts(results)["fails"]:
         ctx.exit(FAILED)

@@ -1,4 +1,4 @@
-"""Whether the program was asked to keep silent about everything but its answer."""
+"""Verbosity state: ``--quiet``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _quiet = False
 
 @contextlib.contextmanager
 def quiet_output(quiet: bool | None) -> Iterator[None]:
-    """Keep silent inside the block when asked to; None changes nothing."""
+    """Set quiet mode inside the context; None keeps the current mode."""
     global _quiet
     previous = _quiet
     _quiet = previous if quiet is None else quiet
@@ -21,5 +21,5 @@ def quiet_output(quiet: bool | None) -> Iterator[None]:
 
 
 def is_quiet() -> bool:
-    """Whether the program was asked to keep silent."""
+    """Return whether ``--quiet`` is on."""
     return _quiet

@@ -1,4 +1,4 @@
-"""Plausible versions behind a probability: how many, and how far they differ."""
+"""Options of the samples behind an overturning probability: number, variation, seed."""
 
 from __future__ import annotations
 
@@ -13,39 +13,39 @@ from seisblock.cli.types import LENGTH, Count
 from seisblock.core.i18n import N_
 
 _SPREAD_OPTIONS = {
-    "size": (0.05, "Versions: half width of width and height, a share of each."),
-    "inset": (0.1, "Versions: half width of a known inset, a share of itself."),
-    "mu": (0.2, "Versions: half width of the friction, a share."),
-    "restitution": (0.1, "Versions: half width of the restitution, 1; below 0 a share that rocking impacts lose."),
-    "amplitude": (0.1, "Versions: half width of the shaking's amplitude, a share."),
-    "azimuth": (10.0, "Versions: half width of the direction of shaking, degrees."),
+    "size": (0.05, "Samples: half width of width and height, a share of each."),
+    "inset": (0.1, "Samples: half width of a known inset, a share of the inset."),
+    "mu": (0.2, "Samples: half width of the friction coefficient, a share."),
+    "restitution": (0.1, "Samples: half width of the coefficient of restitution; values below 0 are extra losses of rocking impacts."),
+    "amplitude": (0.1, "Samples: half width of the amplitude of the motion, a share."),
+    "azimuth": (10.0, "Samples: half width of the azimuth of the motion, degrees."),
 }
-"""What versions may differ in: how far, and what is said of it."""
+"""Default half width of each parameter's variation, and its help text."""
 
 
 def version_options(*names: str, runs: int) -> Callable[..., Any]:
-    """Return a decorator that adds --runs with its default, --moved, one option for all that versions differ in, and --seed.
+    """Return a decorator that adds ``--runs``, ``--moved``, a ``--vary-...`` option per name, and ``--seed``.
 
     Examples
     --------
     >>> def f(): ...
-    >>> [each.name for each in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
+    >>> [row.name for row in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
     ['runs', 'moved', 'vary_size', 'vary_azimuth', 'seed']
     """
     options = [
         option(
             "--runs",
-            type=Count(N_("versions"), "SEISBLOCK_RUNS", minimum=0),
+            type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
             default=runs,
             show_default=True,
-            help="Plausible versions behind the probability; 0 for none.",
+            help="Samples of body and motion for the overturning probability; 0 for none.",
         ),
-        option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]"),
+        option("--moved", type=LENGTH, default=0.01, help="Displacement that counts as moved, m or with a unit. [default: 1cm]"),
         *(
             option(f"--vary-{name}", type=float, default=_SPREAD_OPTIONS[name][0], show_default=True, help=_SPREAD_OPTIONS[name][1])
             for name in names
         ),
-        option("--seed", type=int, default=0, show_default=True, help="Seed of the versions."),
+        option("--seed", type=int, default=0, show_default=True, help="Seed of the samples."),
     ]  # fmt: skip
 
     def decorate(function: Any) -> Any:
@@ -58,26 +58,26 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
 
 
 def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:
-    """Return how far versions differ, taken out of what was given, by the names of their fields.
+    """Remove the variation widths from `params` and return them by field name.
 
     Raises
     ------
     ParameterError
-        If it is said how far, of versions of which there are none.
+        If widths are given without samples.
     """
     _check_options(*(f"vary_{name}" for name in names), "moved", "seed")
     return {"azimuth_deg" if name == "azimuth" else name: params.pop(f"vary_{name}") for name in names}
 
 
 def ranges_replaced() -> list[str]:
-    """Return the ranges of a body's kind that a width given on the command line replaces, by the names of their fields."""
+    """Return the fields of the ranges that variation widths on the command line replace."""
     return [name for option, name in (("vary_inset", "inset_m"), ("vary_mu", "mu")) if given_flags([option])]
 
 
 def _check_options(*names: str) -> None:
-    """Refuse what is said of versions where there are none."""
+    """Raise an error for variation options without samples."""
     from seisblock.core.errors import ParameterError
 
     flags = given_flags(names)
     if flags and not click.get_current_context().params["runs"]:
-        raise ParameterError("without versions there is nothing for {flags} to do: give --runs, say --runs 100", flags=flags)
+        raise ParameterError("{flags} has no effect without samples: give --runs, for example --runs 100", flags=flags)

@@ -1,4 +1,4 @@
-"""From a document to stdout and files, as the output options ask."""
+"""Output of a document to stdout and files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.console import info, print_result, print_tables, warning
-from seisblock.cli.output import STDOUT, Output, check_output
+from seisblock.cli.output import STDOUT, OutputOptions, check_output
 from seisblock.cli.progress import close_line, progress, set_task
 from seisblock.core.errors import OutputError
 from seisblock.core.i18n import escape_control, get_locale, use_locale
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 def write_results(
     document: Document,
-    output: Output,
+    output: OutputOptions,
     *,
     tables: Callable[[], Iterable[Any]],
     responses: Sequence[Response[Any]] = (),
@@ -35,34 +35,34 @@ def write_results(
     figure: Callable[[], Figure] | None = None,
     animation: Callable[[Path, AnimationOptions], None] | None = None,
 ) -> None:
-    """Show an answer, or print its document, and write the files asked for.
+    """Print the results as tables or JSON and write the requested files.
 
     Parameters
     ----------
     document : Document
-    output : Output
+    output : OutputOptions
         The output options.
     tables : callable
-        Returns what rich prints when no JSON is asked for.
+        Returns the rich tables printed without ``--json``.
     responses : sequence of Response
         Time histories for ``--csv``.
     csv : callable
-        Writes the file of ``--csv`` where time histories are not what it holds.
+        Writes the file of ``--csv`` if it does not hold time histories.
     figure : callable
-        Returns the matplotlib Figure of ``--plot``; left out, the responses' own.
+        Returns the matplotlib Figure of ``--plot``, default that of the responses.
     animation : callable
-        Writes the file of ``--animate``; left out, the responses' own film, at the speed, in the language and with the progress it is told.
+        Writes the file of ``--animate``, default the animation of the responses.
     """
-    set_task("preparing the answer")
+    set_task("preparing the results")
     if responses:
         figure = figure or (lambda: response_figure(responses, gal=output.gal))
         animation = animation or animation_writer(responses)
     for message in document.warnings:
         warning(message)
     if output.plot is not None and figure is None:
-        raise OutputError("{command} has no figure here: leave --plot out", command=document.command)
+        raise OutputError("{command} has no figure here: omit --plot", command=document.command)
     if output.animate is not None and animation is None:
-        raise OutputError("{command} has no animation here: leave --animate out", command=document.command)
+        raise OutputError("{command} has no animation here: omit --animate", command=document.command)
     check_output(output)
     if output.csv is not None:
         from seisblock.report.io.history_csv import write_histories
@@ -82,7 +82,7 @@ def write_results(
         if output.plot == STDOUT:
             return
         info("wrote {path}", path=output.plot)
-    # stdout comes last: a reader that goes away (| head) takes no file with it
+    # stdout last: a closed pipe (| head) must not prevent the files
     if output.json:
         print_result(to_json(document))
     else:
@@ -90,26 +90,25 @@ def write_results(
 
 
 def _to_stdout(write: Callable[[Path], None]) -> None:
-    """Write a table to stdout."""
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
         path = Path(directory) / "table.csv"
         write(path)
         close_line()
         with path.open(encoding="utf-8", newline="") as stream:
-            if sys.stdout.isatty():  # which would obey what stands in names of stations and bodies
+            if sys.stdout.isatty():  # names may contain terminal control sequences
                 sys.stdout.writelines(map(escape_control, stream))
             else:
                 shutil.copyfileobj(stream, sys.stdout)
 
 
-def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) -> None:
-    """Write a figure to a file, or its .png to stdout, of the size and under the title asked for."""
+def _write_figure(figure: Callable[[], Figure], target: Path, output: OutputOptions) -> None:
+    """Write the figure to a file, or as .png to stdout."""
     from seisblock.report.figures.fit_size import fit_figure_size
     from seisblock.report.figures.fonts import MISSING_GLYPHS, NO_FONT, build_localized, drawable_locale, has_missing_glyphs
     from seisblock.report.figures.style import save, save_png
 
     if target == STDOUT and sys.stdout.isatty():
-        raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
+        raise OutputError("--plot - writes a .png to stdout, which is a terminal: redirect it, or give a file name")
     if drawable_locale() != get_locale():
         info(NO_FONT)
     with progress("drawing"):
@@ -123,8 +122,7 @@ def _write_figure(figure: Callable[[], Figure], target: Path, output: Output) ->
         save_png(fig, sys.stdout.buffer)
 
 
-def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: Output) -> None:
-    """Write an animation, with a bar while its pictures are drawn."""
+def _write_animation(animation: Callable[[Path, AnimationOptions], None], output: OutputOptions) -> None:
     from seisblock.report.animation.render import AnimationOptions
     from seisblock.report.figures.fonts import NO_FONT, drawable_locale
 

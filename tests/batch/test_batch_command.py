@@ -71,7 +71,7 @@ def test_all_that_fails_is_a_failure(folder):
     for suffix in ("csv", "parquet"):
         line = f"--bodies bodies.csv --solver rock --out t.{suffix}"
         answer = run(f"batch gone.csv {line}")
-        assert answer.exit_code == 3 and "no row has an answer" in answer.stderr and "is not written" in answer.stderr
+        assert answer.exit_code == 3 and "no row has a result" in answer.stderr and "is not written" in answer.stderr
         assert "gone.csv: no such file" in answer.stdout and "wrote" not in answer.stderr
         assert not list(folder.glob(f"t.{suffix}*"))
         assert run(f"batch records/r0.csv {line}").exit_code == 0
@@ -273,4 +273,4 @@ def test_a_pipe_is_no_table_to_go_on_with(folder, name):
     """Nobody would write into it."""
     os.mkfifo(folder / name)
     answer = run(LINE + " --resume")
-    assert answer.exit_code == 3 and answer.stderr.endswith("t.csv is no table that was begun: leave --resume out\n")
+    assert answer.exit_code == 3 and answer.stderr.endswith("t.csv is not an interrupted table: omit --resume\n")

@@ -74,11 +74,11 @@ def test_units(table, height):
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        ("", "no gravestone in it"),
-        ("# only\n\n# comments\n", "no gravestone in it, only 3 empty lines and comments"),
-        ("height_over_width\n", "line 1: there is no gravestone below the header"),
-        ("height,fallen\n1,0\n", "line 1: expected a column height_over_width, or height and width; found height, fallen"),
-        ("2.5,1\n2.6,0\n", "line 1: expected a column height_over_width"),
+        ("", "contains no gravestones"),
+        ("# only\n\n# comments\n", "contains no gravestones, only 3 empty lines and comments"),
+        ("height_over_width\n", "line 1: no gravestone below the header"),
+        ("height,fallen\n1,0\n", "line 1: columns required: height_over_width, or height and width; found height, fallen"),
+        ("2.5,1\n2.6,0\n", "line 1: columns required: height_over_width"),
         ("H/B,height over width\n1,2\n", "line 1: two columns mean height_over_width"),
         ("H/B\n2.5\n0\n", "line 3: height over width must be positive, found 0"),
         ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height over width must be positive, found -1 \(2 more invalid rows: lines 5, 6\)"),
@@ -86,13 +86,13 @@ def test_units(table, height):
         ("H/B\ntall\n", "line 2: height_over_width must be a number, found 'tall'"),
         ("H/B,fallen\n2.5,maybe\n", "line 2: fallen must be 0, 1, yes, no, 転倒 or 残存, found 'maybe'"),
         ("H/B,reinforced\n2.5,steel\n", "line 2: reinforced must be 0, 1, yes or no, found 'steel'"),
-        ("H/B,count\n2.5,0\n", "line 2: count must be a whole number of stones, 1 or more, found 0"),
-        ("H/B,count\n2.5,1.5\n", "line 2: count must be a whole number"),
-        ("H/B,count\n2.5,inf\n", "line 2: count must be a whole number"),
+        ("H/B,count\n2.5,0\n", "line 2: count must be an integer, 1 or more; found 0"),
+        ("H/B,count\n2.5,1.5\n", "line 2: count must be an integer"),
+        ("H/B,count\n2.5,inf\n", "line 2: count must be an integer"),
         ("H/B,azimuth\n2.5,NE\n", "line 2: azimuth_deg must be a number, found 'NE'"),
         ("H/B,azimuth\n2.5,nan\n", "line 2: azimuth of a gravestone must be a finite number"),
-        ("height,width\n60,24\n", r"line 2: width of 24 m is no gravestone \(without a unit it means metres"),
-        ("height (cm),width (cm)\n60,\n", "line 2: there is neither height over width nor height and width: width empty"),
+        ("height,width\n60,24\n", r"line 2: width of 24 m is not plausible for a gravestone \(read as metres without a unit"),
+        ("height (cm),width (cm)\n60,\n", "line 2: dimensions missing: height over width, or height and width, required; empty: width"),
         ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -24"),
         ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards': unknown unit 'yards'"),
         ("H/B,height (cm),width (cm)\n3,60,24\n", "line 2: height over width is 3, but height and width give 2.5"),
@@ -113,7 +113,7 @@ def test_files_that_are_none(tmp_path, monkeypatch):
     (tmp_path / "binary.csv").write_bytes(b"\x00\x01\x02")
     (tmp_path / "latin.csv").write_bytes(b"h\xfcgel,H/B\n\xff\xff\x80,2\n")
     for name, message in {
-        "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled are aoyama.csv",
+        "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled: aoyama.csv",
         "synthetic_jma.csv": "no cemetery file synthetic_jma.csv",
         str(tmp_path): "is a directory",
         "binary.csv": "not a text table",
@@ -129,7 +129,7 @@ def test_impossible_stones_are_refused():
         Stone(0.0)
     with pytest.raises(BodyError, match="width of a gravestone must be positive"):
         Stone(2.0, width=-1.0)
-    with pytest.raises(BodyError, match="there is no gravestone in it"):
+    with pytest.raises(BodyError, match="contains no gravestones"):
         Cemetery(())
 
 

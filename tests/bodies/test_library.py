@@ -69,8 +69,8 @@ def test_units_and_everything_a_block_takes(tmp_path):
 @pytest.mark.parametrize(
     ("table", "says"),
     [
-        ({}, "expected kind"),
-        ({"kind": "vase", "width": 1, "height": 1}, "expected kind"),
+        ({}, "kind must be"),
+        ({"kind": "vase", "width": 1, "height": 1}, "kind must be"),
         ({"kind": "block", "height": 1}, "width is missing"),
         ({"kind": "block", "width": "wide", "height": 1}, "width"),
         ({"kind": "block", "width": 1, "height": -1}, "height must be positive"),
@@ -101,7 +101,7 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
     [
         ({}, "--width, --height missing"),
         ({"width": 0.2}, "--height missing"),
-        ({"block": "gravestone", "mass": 3.0}, "not both"),
+        ({"block": "gravestone", "mass": 3.0}, "exclude each other"),
         ({"block": "obelisk"}, "no body file obelisk"),
     ],
 )

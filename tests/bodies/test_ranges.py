@@ -132,15 +132,15 @@ def test_unmeasured_edges_scatter_more():
     wide, narrow = study.curves
     assert wide.dispersion.beta_parameter > 1.1 * narrow.dispersion.beta_parameter
     (note,) = (note for note in study.notes if note.startswith("any: samples drawn from the ranges of the body"))
-    assert "edges 0 to 0.02424 m in" in note
+    assert "edges worn by 0 to 0.02424 m" in note
     assert not any("one: samples" in note for note in study.notes)
 
 
 @pytest.mark.parametrize(
     ("lines", "says"),
     [
-        ('width = ["50cm", "55cm"]', "width is 0.6 in the body, outside its range of 0.5 to 0.55"),
-        ('width = ["70cm", "50cm"]', "width is 0.6 in the body, outside its range"),
+        ('width = ["50cm", "55cm"]', "width of the body is 0.6, outside its range of 0.5 to 0.55"),
+        ('width = ["70cm", "50cm"]', "width of the body is 0.6, outside its range"),
         ('width = ["60cm"]', "width must be a list of 2 values"),
         ("mu = 0.3", "mu must be a list of 2 numbers"),
         ("weight = [1, 2]", "unknown entries weight"),

@@ -45,15 +45,15 @@ def test_rows_may_take_a_body_from_elsewhere(tmp_path):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("", "no body in it"),
-        ("name,width\n", "no body in it"),
+        ("", "contains no bodies"),
+        ("name,width\n", "contains no bodies"),
         ("name,width,colour\na,1,red\n", "line 1: unknown column 'colour'"),
-        ("width,height\n1,2\n", "line 1: expected a column name"),
+        ("width,height\n1,2\n", "line 1: column name required"),
         ("name,width,幅\na,1,2\n", "two columns mean width"),
         ("name,width (gal)\na,1\n", "gal"),
-        ("name,mu (cm)\na,1\n", "unit 'cm'; expected none"),
+        ("name,mu (cm)\na,1\n", "unit 'cm' of column 'mu .cm.' is not known; known: none"),
         ("name,width\na,wide\n", "line 2"),
-        ("name,width\n,1\n", "line 2: a body without a name"),
+        ("name,width\n,1\n", "line 2: the name of a body is empty"),
         ("name,width\na,1,2,3\n", "line 2: expected 2 cells"),
         ("name,width\na,250\nb,300\nc,1\n", r"line 2: .*\(1 more invalid row: line 3\)"),
         ("name,width\na,-0.25\n", "line 2: width must be positive, found -0.25 m"),
@@ -76,7 +76,7 @@ def test_what_is_no_table(tmp_path):
     for name in ("dir.csv", "image.csv", "gone.csv"):
         with pytest.raises(BodyError, match=name):
             read_bodies(tmp_path / name)
-    with pytest.raises(BodyError, match="no body was named"):
+    with pytest.raises(BodyError, match="body required"):
         read_bodies([])
 
 
@@ -88,7 +88,7 @@ def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
     assert (grave.inset, grave.ranges.inset_m) == (of_kind(Block(0.24, 0.72), "gravestone").inset, (0.0, pytest.approx(0.024)))
     assert (shelf.inset, shelf.ranges) == (0.0, None)
     assert body_models("24cmx72cm", kind="gravestone").block.inset == grave.inset
-    for row, says in (("a,,,statue,0.5,lantern", "or `body`, not both"), ("a,0.2,0.6,grave,0.5,", "no kind of body 'grave'")):
+    for row, says in (("a,,,statue,0.5,lantern", "or `body`, not both"), ("a,0.2,0.6,grave,0.5,", "unknown kind of body 'grave'")):
         path.write_text(f"name,width,height,kind,mu,body\n{row}\n")
         (listed,) = read_bodies(path)
         with pytest.raises(BodyError, match=rf"line 2: .*{says}"):

@@ -236,7 +236,7 @@ def test_an_inset_moves_every_side_of_the_base(boxed):
     assert worn.block_toward(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
     assert worn.block_toward(90.0).inset == pytest.approx(0.01, rel=1e-9)
     assert boxed.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
-    with pytest.raises(BodyError, match="leaves nothing of the base"):
+    with pytest.raises(BodyError, match="exceeds the distance of the centre of gravity"):
         boxed.body.with_wear(EdgeWear(length_m=0.16))
 
 
@@ -283,7 +283,7 @@ def test_a_motion_knows_its_azimuth():
     body, bare = load_scan("boulder"), Motion.from_arrays([0.0, 1.0], 0.01)
     assert body.block_for_motion(motion_of(record, "EW")) == body.block_toward(90.0)
     assert bare.azimuth_deg is None
-    with pytest.raises(ComponentError, match="another block in each direction"):
+    with pytest.raises(ComponentError, match="has other dimensions in each azimuth"):
         block_for_motion(body, bare)
     assert block_for_motion(load_block("gravestone"), bare) == load_block("gravestone")
 
@@ -331,13 +331,13 @@ def spoilt(what):
     ("what", "told_so"),
     [
         ("open", "is open: 3 edges"),
-        ("inside out", "is inside out: its triangles run clockwise"),
-        ("in part", "is inside out in part: along 3 edges"),
-        ("meets itself", "meets itself: 1 edges belong to more than two"),
-        ("flat", "encloses nothing"),
-        ("a point", "rests on a point or an edge"),
-        ("top-heavy", "rests on a point or an edge"),
-        ("not a number", "no finite numbers"),
+        ("inside out", "is inside out: its triangles are clockwise"),
+        ("in part", "has inconsistent normals: two triangles with opposite orientation at 3 edges"),
+        ("meets itself", "is not manifold: 1 edges belong to more than two"),
+        ("flat", "encloses no volume"),
+        ("a point", "has no stable base"),
+        ("top-heavy", "has no stable base"),
+        ("not a number", "not finite numbers"),
     ],
 )
 def test_a_surface_that_is_no_body_is_refused_in_words(what, told_so, tmp_path):
@@ -350,12 +350,12 @@ def test_a_surface_that_is_no_body_is_refused_in_words(what, told_so, tmp_path):
     ("name", "data", "told_so"),
     [
         ("empty.stl", b"", "is empty"),
-        ("words.stl", b"hello " * 40, "holds no triangles"),
-        ("words.ply", b"hello " * 40, "is damaged, or no mesh"),
-        ("words.obj", b"hello " * 40, "holds no triangles"),
+        ("words.stl", b"hello " * 40, "contains no triangles"),
+        ("words.ply", b"hello " * 40, "is damaged or not a mesh"),
+        ("words.obj", b"hello " * 40, "contains no triangles"),
         ("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "is damaged"),
         ("cut.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nend_header\n\0", "is damaged"),
-        ("shape.step", b"ISO", "no mesh by its name"),
+        ("shape.step", b"ISO", "the file name of a mesh must end in"),
     ],
 )
 def test_a_file_that_is_no_mesh_is_refused_in_words(name, data, told_so, tmp_path):
@@ -383,7 +383,7 @@ def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
 def test_a_wrong_unit_is_a_doubt():
     """A gravestone of 300 m, and one of 1 mm."""
     for unit in ("km", "mm"):
-        assert any("files of meshes do not say their unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", unit=unit)))
+        assert any("mesh files do not state their unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", unit=unit)))
     assert not any("unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", inset=0.1)))
 
 
@@ -399,7 +399,7 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
     both = write_ply(
         tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
     )
-    assert any("2 surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
+    assert any("2 separate surfaces" in doubt for doubt in scan_qc_messages(scan_body(both)))
     stray = write_ply(tmp_path / "stray.ply", np.concatenate([vertices, [[0.0, 0.0, -9.0]]]), faces)
     assert scan_body(stray).body.height == pytest.approx(0.9, rel=EXACT)
 
@@ -409,16 +409,16 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
     [
         ({"mass": -1.0}, "mass must be positive"),
         ({"height": "x"}, "height"),
-        ({"centre": [0.0, 0.0]}, "expected 3 numbers in centre"),
+        ({"centre": [0.0, 0.0]}, "centre must have 3 numbers"),
         ({"centre": [0.0, 0.0, 2.0]}, "between the ground and the top"),
         ({"centre": [1.0, 0.0, 0.4]}, "does not lie above the base"),
-        ({"inertia": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]}, "three rows of three"),
+        ({"inertia": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]}, "symmetric 3 x 3 matrix"),
         ({"inertia": [[9.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]}, "principal moments"),
         ({"inertia": 3}, "must be a list of rows"),
         ({"base": [[0.0, 0.0], [1.0, 0.0]]}, "three corners or more"),
         ({"base": [[-0.2, -0.2], [-0.2, 0.2], [0.2, 0.2], [0.2, -0.2]]}, "counter-clockwise"),
         ({"base": [[-0.2, -0.2], [0.2, -0.2], [0.0, 0.1], [0.2, 0.2], [-0.2, 0.2]]}, "convex"),
-        ({"inset": "1m"}, "leaves nothing of the base"),
+        ({"inset": "1m"}, "exceeds the distance of the centre of gravity"),
         ({"facing": "north"}, "facing"),
         ({"turned": 3}, "unknown entries"),
     ],
@@ -431,7 +431,7 @@ def test_a_scan_that_is_described_wrongly_is_refused_in_words(change, told_so):
 
 def test_one_block_is_not_taken_for_a_scan():
     """Where one block for all directions is needed, a scan is refused with what is missing."""
-    with pytest.raises(BodyError, match="another block in each direction"):
+    with pytest.raises(BodyError, match="dimensions depend on the azimuth"):
         load_block("boulder")
-    with pytest.raises(BodyError, match='expected kind = "scan"'):
+    with pytest.raises(BodyError, match='kind must be "scan"'):
         load_scan("gravestone")

@@ -92,7 +92,7 @@ def test_no_toml(text, tmp_path):
     """Lists in lists in lists, a date that is none."""
     path = tmp_path / "body.toml"
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
-    with pytest.raises(BodyError, match="is not a TOML description"):
+    with pytest.raises(BodyError, match="is not valid TOML"):
         read_body_toml(path)
 
 
@@ -128,8 +128,8 @@ def test_a_pile_of_thousands_is_refused_at_once(tmp_path):
     [
         (b"", "is empty: give a TOML file"),
         (b"\n  \n", "is empty: give a TOML file"),
-        ('kind = "pile"\nname = "墓石"\n'.encode("shift_jis"), "is no text in UTF-8: .* saved as UTF-8"),
-        (bytes(range(128, 256)), "is no text in UTF-8"),
+        ('kind = "pile"\nname = "墓石"\n'.encode("shift_jis"), "is not UTF-8 text: .* saved as UTF-8"),
+        (bytes(range(128, 256)), "is not UTF-8 text"),
     ],
 )
 def test_a_file_without_text_is_said_to_be_one(tmp_path, content, reason):

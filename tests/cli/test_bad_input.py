@@ -48,7 +48,7 @@ def test_a_stone_of_24_m_in_a_file(run, tmp_path):
     code, said = run("rock", "--block", "body.toml")
     assert code == 3 and said.startswith("seisblock: body.toml: width of 24 m?")
     code, said = run("overturn-rate", "--cemetery", "stones.csv")
-    assert code == 3 and "is no gravestone (without a unit it means metres" in said
+    assert code == 3 and "is not plausible for a gravestone (read as metres without a unit" in said
 
 
 def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):

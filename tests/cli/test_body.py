@@ -112,7 +112,7 @@ def test_a_scan_without_azimuth_is_a_failure_of_its_row(stone, tmp_path):
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
     done = run("rock", record, "--block", stone)
-    assert done.exit_code == 3 and "another block in each direction" in done.stderr.replace("\n", " ")
+    assert done.exit_code == 3 and "has other dimensions in each azimuth" in done.stderr.replace("\n", " ")
 
 
 def test_every_direction_of_rock_and_respond(stone, tmp_path):
@@ -141,7 +141,7 @@ def test_a_scan_is_not_written_over(tmp_path):
     assert done.exit_code == 3 and "would overwrite the input file" in done.stderr.replace("\n", " ")
     assert path.read_bytes() == before
     assert run("body", path, "--out", tmp_path / "none" / "box.toml").exit_code == 3
-    assert "written as .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
+    assert "must end in .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
 
 
 def test_without_trimesh_it_says_what_to_install(monkeypatch):
@@ -175,8 +175,8 @@ def test_a_fit_begins_with_the_block_of_the_azimuth_that_was_shaken(stone):
 def test_a_fit_is_told_along_which_azimuth_a_scan_was_shaken(stone):
     """Without an azimuth a scan is refused, with one a block is."""
     for words, told in (
-        ((stone,), "another block in each direction"),
-        (("gravestone", "--azimuth", "3"), "the same block in each direction"),
+        ((stone,), "dimensions depend on the azimuth"),
+        (("gravestone", "--azimuth", "3"), "has the same dimensions in all azimuths"),
     ):
         done = run(*FIT, "--block", *words)
         assert done.exit_code == 3 and told in " ".join(done.stderr.split())

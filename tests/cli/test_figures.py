@@ -38,10 +38,10 @@ def test_size_and_resolution(drawn, words, pixels):
 @pytest.mark.parametrize(
     ("words", "message", "code"),
     [
-        (("--size", "18"), "is not a width and a height such as 18x12", 2),
+        (("--size", "18"), "is not a width and a height, for example 18x12", 2),
         (("--size", "axb"), "a", 2),
-        (("--size", "1x1"), "a figure is between 4 cm and 120 cm", 2),
-        (("--size", "5mmx5mm"), "a figure is between 40 mm and 1200 mm", 2),
+        (("--size", "1x1"), "width and height of a figure must lie between 4 cm and 120 cm", 2),
+        (("--size", "5mmx5mm"), "width and height of a figure must lie between 40 mm and 1200 mm", 2),
         pytest.param(("--size", "85mmx60mm"), "does not fit in 85 mm x 60 mm", 3, marks=pytest.mark.slow),
         (("--size", "100x100", "--dpi", "1200"), "reduce the size", 3),
         (("--dpi", "0"), "is not in the range", 2),
@@ -62,7 +62,7 @@ def test_a_title_is_the_figures(tmp_path):
     drawn = path.read_text(encoding="utf-8")
     assert "x_1" in drawn and "elcentro" not in drawn
     told = CliRunner().invoke(main, words)
-    assert told.exit_code == 3 and "give --plot, too" in told.stderr
+    assert told.exit_code == 3 and "require --plot" in told.stderr
 
 
 def test_options_are_those_that_act():
@@ -70,4 +70,4 @@ def test_options_are_those_that_act():
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
         told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
         assert ("--animate" in told) == film and ("--slow " in told) == film
-        assert ("Write the time history" in told) == history
+        assert ("Write the time histories" in told) == history

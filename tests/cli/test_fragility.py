@@ -83,8 +83,8 @@ def test_files_are_written(folder, tmp_path):
     ("words", "says"),
     [
         (("FOLDER/S00.csv", *SHELF), "a fragility requires several records"),
-        (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
-        (("FOLDER", *SHELF, "--bodies", "gravestone"), "not both"),
+        (("FOLDER", "--solver", "rock"), "body required (--width, --height missing)"),
+        (("FOLDER", *SHELF, "--bodies", "gravestone"), "exclude each other"),
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
         (("FOLDER", *SHELF, "--levels", "1,2"), "not exceeded at any level up to 2 kine; use higher levels"),
         (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine; use lower levels"),

@@ -8,7 +8,7 @@ from click.testing import CliRunner
 from seisblock.cli import infer, main
 from seisblock.cli.option_checks import RECORD_OPTIONS
 from seisblock.cli.options import Source
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 
 STONES = "infer --cemetery aoyama.csv --rate 35/100"
 SLID = "infer synthetic_jma.csv --slid 5cm --mu 0.3"
@@ -74,12 +74,12 @@ def test_what_has_nothing_to_do_is_refused_by_name(line, flag, tmp_path, monkeyp
 def test_a_body_of_one_block_has_no_long_side(line):
     """--side chose nothing of bodies that are no two-layer block, without a word."""
     done = CliRunner().invoke(main, shlex.split(line))
-    assert done.exit_code == 3 and "--side is of a two-layer --block" in done.stderr
+    assert done.exit_code == 3 and "--side has no effect: this body is not a two-layer --block" in done.stderr
 
 
 def test_a_form_of_infer_refuses_all_that_it_does_not_read():
     """Each option of the command belongs to a form, or to all; the refused are those of the other forms."""
-    shared = {*Source.__dataclass_fields__, *Output.__dataclass_fields__, "help", "lang", "cemetery", "slid", "jumped", "rate"}
+    shared = {*Source.__dataclass_fields__, *OutputOptions.__dataclass_fields__, "help", "lang", "cemetery", "slid", "jumped", "rate"}
     own = {"--cemetery": {*infer.STONE_OPTIONS}, "--slid": {*infer.SLID_OPTIONS}, "--jumped": {*infer.JUMPED_OPTIONS}}
     assert {each.name for each in main.get_command(None, "infer").params} - shared == set().union(*own.values())
     for form, read in own.items():

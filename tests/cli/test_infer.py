@@ -168,14 +168,14 @@ def test_files(run, survey):
 @pytest.mark.parametrize(
     ("words", "code", "message"),
     [
-        ((), 2, "give one of --cemetery"),
+        ((), 2, "exactly one of --cemetery"),
         (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery, --slid"),
-        (("--rate", "35/100"), 2, "give one of --cemetery"),
-        (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate needs --cemetery"),
+        (("--rate", "35/100"), 2, "exactly one of --cemetery"),
+        (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate requires --cemetery"),
         (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),
         (("--cemetery", "aoyama.csv", "--rate", "0.35"), 3, "give both numbers, for example 35/100"),
         (("--cemetery", "aoyama.csv", "--rate", "5/4"), 3, "0 <= fallen <= stones"),
-        (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "stones need no RECORD"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "has no effect with stones"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "--frequency", 0), 3, "frequency must be positive"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "--confidence", 90), 3, "lie in (0, 1)"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "--common-error", 0), 3, "--common-error, in ln PGA"),
@@ -206,7 +206,7 @@ def test_several_cemeteries_are_one_estimate(run, document, survey, no_contour, 
     shown = run("--cemetery", survey, "--cemetery", other, "--frequency", 2).stdout
     assert "survey, stones not reinforced: 32 of 90 overturned" in shown and "other, stones not reinforced: 32 of 90 overturned" in shown
     twice = run("--cemetery", survey, "--cemetery", survey, "--frequency", 2)
-    assert twice.exit_code == 2 and "its stones would count double" in " ".join(twice.stderr.split())
+    assert twice.exit_code == 2 and "give each cemetery only once" in " ".join(twice.stderr.split())
     assert len(found["results"]) == 6 and len(found["joint"]) == 1
     assert found["joint"][0]["contradicts"] == []
     assert found["parameters"]["stones"] == 2 * 101

@@ -97,7 +97,7 @@ def test_interruption_exits_with_130_and_leaves_no_half_file(tmp_path):
 
     code, said = interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
     assert code == 130
-    assert said.strip() == "seisblock: interrupted; no half-written file is left"
+    assert said.strip() == "seisblock: interrupted; no partially written file remains"
     assert [path.name for path in tmp_path.iterdir()] == ["film.gif"] and film.read_bytes() == b"old"
 
 

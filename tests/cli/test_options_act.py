@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from seisblock import cli
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.options import Source
-from seisblock.cli.output import Output
+from seisblock.cli.output import OutputOptions
 from tests.lengths import all_but_slow
 
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
@@ -79,7 +79,7 @@ def test_no_option_is_taken_and_left():
     assert left == {}
 
 
-@pytest.mark.parametrize("gathered", [Source, Output])
+@pytest.mark.parametrize("gathered", [Source, OutputOptions])
 def test_every_field_of_the_shared_options_is_read(gathered):
     """Each field of what the shared options become is read somewhere in the command line."""
     source = "\n".join(path.read_text(encoding="utf-8") for path in Path(cli.__file__).parent.rglob("*.py"))

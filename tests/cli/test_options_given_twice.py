@@ -20,7 +20,7 @@ def test_an_option_of_one_value_stands_once(name):
     for option in of_one_value(name):
         done = CliRunner().invoke(main, [name, option, "1", f"{option}=2", "no_such_record.csv"])
         assert done.exit_code == 2
-        assert f"{option} takes one value, found 2" in " ".join(done.stderr.split()), done.output
+        assert f"{option} may be given only once, found 2" in " ".join(done.stderr.split()), done.output
 
 
 def test_what_may_be_repeated_still_is():
@@ -34,4 +34,4 @@ def test_what_may_be_repeated_still_is():
 def test_it_is_said_in_japanese():
     """As everything is."""
     done = CliRunner().invoke(main, ["overturn-rate", "--cemetery", "a.csv", "--cemetery", "b.csv", "--lang", "ja"])
-    assert done.exit_code == 2 and "--cemetery に指定できる値は一つです" in done.stderr
+    assert done.exit_code == 2 and "--cemetery は 1 回だけ指定できます" in done.stderr

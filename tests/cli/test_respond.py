@@ -84,7 +84,7 @@ def test_surfaces_are_looked_up():
 
 
 ELSEWHERE = (
-    (("jump", "elcentro_1940_ns", "--tenon", "2cm", "--target-pga", "900"), "with its tenons: "),
+    (("jump", "elcentro_1940_ns", "--tenon", "2cm", "--target-pga", "900"), "with friction and tenons: "),
     (("jump", "--component", "EW", "--width", "2", "--heights", "1,2", "--masses", "900,100", "--mu", "0.3", "--tenon", "1cm"), "tenons: "),
     (("rock", "elcentro_1940_ns", "--width", "24cm", "--height", "80cm", "--mu", "0.2"), "slide and rock: "),
     (("rock", "elcentro_1940_ns", "--block", "gravestone", "--mu", "0.2"), "slide and rock: "),
@@ -106,19 +106,19 @@ def test_slide_says_which_bodies_rock_instead(monkeypatch):
     """Below b/h = mu a body rocks; what nothing moves needs no word."""
     monkeypatch.setenv("COLUMNS", "400")
     shown = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2"]).stdout
-    assert "above 0.2. Others: seisblock respond elcentro_1940_ns --width B --height H --mu 0.2" in shown
+    assert "above 0.2. Other objects: seisblock respond elcentro_1940_ns --width B --height H --mu 0.2" in shown
     assert "respond" not in CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.6"]).stdout
 
 
 BAD = (
-    (("--width", "45cm", "--height", "180cm"), "how rough"),
+    (("--width", "45cm", "--height", "180cm"), "friction required"),
     ((*CABINET[:4], "--mu", "-0.1"), "mu|friction"),
     ((*CABINET, "--mu-kinetic", "0.5"), "kinetic"),
     ((*CABINET, "--restitution", "1"), "restitution"),
     ((*CABINET, "--rocking-restitution", "1.5"), "restitution"),
     ((*CABINET, "--centroid-offset", "30cm"), "above the base"),
-    ((*CABINET, "--surface", "granite/granite"), "not both"),
-    (("--width", "45cm", "--height", "180cm", "--surface", "a/b"), "there are"),
+    ((*CABINET, "--surface", "granite/granite"), "exclude each other"),
+    (("--width", "45cm", "--height", "180cm", "--surface", "a/b"), "available: "),
     ((*CABINET, "--runs", "-1"), "runs"),
     ((*CABINET, "--moved", "0"), "positive"),
     ((*CABINET, "--vary-size", "2"), "spread"),
@@ -278,4 +278,4 @@ def test_what_is_worn_is_varied_about_itself_and_said(inset, worn):
 def test_what_is_said_of_no_versions_is_refused(told):
     shown = run("elcentro_1940_ns", *CABINET, "--runs", "0", *told)
     assert (shown.exit_code, shown.stdout) == (3, "")
-    assert f"nothing for {told[0]} to do: give --runs" in shown.stderr
+    assert f"{told[0]} has no effect without samples: give --runs" in shown.stderr

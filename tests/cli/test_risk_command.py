@@ -65,8 +65,8 @@ def test_files(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (LINE[:2] + LINE[4:], "give --fragility FILE, or --median and --beta"),
-        ((*LINE, "--fragility", "f.json"), "give --fragility FILE, or --median and --beta"),
+        (LINE[:2] + LINE[4:], "exactly one form is required: --fragility FILE, or --median and --beta"),
+        ((*LINE, "--fragility", "f.json"), "exactly one form is required: --fragility FILE, or --median and --beta"),
         ((*LINE, "--years", "0"), "must be positive"),
         ((*LINE, "--stood", "-5"), "must be positive"),
         ((*LINE, "--im", "pga"), "synthetic_hazard.csv: the levels are of pgv, but pga is required; give a hazard in pga or"),

@@ -218,13 +218,13 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "24parsec", "--height", "1"], "unknown unit"),
         (["--width", "0.2"], "--height"),
         ([], "--width, --height missing"),
-        (["--block", "gravestone", "--width", "0.2"], "not both"),
+        (["--block", "gravestone", "--width", "0.2"], "exclude each other"),
         (["--block", "nowhere.toml"], "no body file"),
         (["--width", "0.2", "--height", "1", "--restitution", "1.2"], "[0, 1]"),
         (["--width", "0.2", "--height", "1", "--restitution", "-0.1"], "[0, 1]"),
         (["--width", "0.2", "--height", "1", "--restitution", "nan"], "must be a finite number"),
         (["--width", "0.2", "--height", "1", "--centroid-offset", "0.1"], "above the base"),
-        (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "above the height"),
+        (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "exceeds the height"),
         (["--width", "0.2", "--height", "1", "--azimuth", "north"], "degrees"),
         (["--width", "0.2", "--height", "1", "--margin", "--margin-limit", "-1"], "limit"),
         (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "relative spread of the size must lie in [0, 1)"),
@@ -252,7 +252,7 @@ def test_vertical_needs_a_vertical_component(run, tmp_path):
     np.savetxt(tmp_path / "ns.csv", rows, delimiter=",", header="time,NS (gal)", comments="")
     answer = run("ns.csv", "--width", 0.2, "--height", 1, "--vertical")
     assert answer.exit_code == 3
-    assert "needs a vertical component" in answer.stderr
+    assert "requires a vertical component" in answer.stderr
     assert run("ns.csv", "--width", 0.2, "--height", 1).exit_code == 0
 
 

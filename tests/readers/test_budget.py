@@ -180,7 +180,7 @@ def test_a_table_goes_to_stdout():
     for words in (["--json"], ["--plot", "-"]):
         both = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", *words])
         assert both.exit_code == 3
-        assert "writes to stdout, and nothing else: leave" in both.stderr
+        assert "writes to stdout, which takes one output: omit" in both.stderr
 
 
 def test_all_stations_of_a_bundle(tmp_path):

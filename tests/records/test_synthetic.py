@@ -213,7 +213,7 @@ class TestCommand:
         """Without RECORD it says which records it takes, and that they are synthetic."""
         monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
         said = run("--json")
-        assert said.exit_code == 0 and "using synthetic:M7:R20:3" in said.stderr and "no recordings" in said.stderr
+        assert said.exit_code == 0 and "using synthetic:M7:R20:3" in said.stderr and "synthetic records of one source" in said.stderr
         assert "synthetic (not recorded)" in json.loads(said.stdout)["record"][0]["history"][0]
 
     @pytest.mark.parametrize("words", [("--suite", "synthetic:M7:R20:3"), ("--suite-out", "there")])

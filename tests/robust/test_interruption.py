@@ -123,7 +123,10 @@ def best_of_four(script, words, cwd, told):
 @pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
 def test_a_command_ends_at_once(named, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
-    assert best_of_four(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path, "seisblock: interrupted; no half-written file is left") < AT_ONCE
+    assert (
+        best_of_four(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path, "seisblock: interrupted; no partially written file remains")
+        < AT_ONCE
+    )
 
 
 def test_an_interrupt_is_not_lost_while_kernels_are_compiled(tmp_path, monkeypatch):
@@ -172,7 +175,7 @@ def test_what_a_library_swallows_comes_again(number, code, tmp_path):
         finally:
             process.kill()
     assert process.returncode == code
-    assert ("no half-written file is left" in said) == (number == signal.SIGINT)
+    assert ("no partially written file remains" in said) == (number == signal.SIGINT)
 
 
 FIGURE = """
@@ -199,7 +202,7 @@ def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
             _, said = process.communicate(timeout=600)
         finally:
             process.kill()
-    assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no half-written file is left")
+    assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no partially written file remains")
 
 
 class Wrapping:
@@ -246,7 +249,7 @@ def test_an_interrupt_while_the_line_is_taken_apart_is_one(monkeypatch):
     """Click's own end of it is "Aborted!" and exit 1."""
     monkeypatch.setattr(main, "parse_args", lambda *_: signal.raise_signal(signal.SIGINT))
     done = CliRunner().invoke(main, ["cite"])
-    assert done.exit_code == 130 and "interrupted; no half-written file is left" in done.stderr and "Abort" not in done.stderr
+    assert done.exit_code == 130 and "interrupted; no partially written file remains" in done.stderr and "Abort" not in done.stderr
 
 
 def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):

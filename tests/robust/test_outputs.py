@@ -394,9 +394,9 @@ REFUSED = {
     "a table that says it is a workbook": (["--csv", "out.xlsx"], "cannot write CSV to out.xlsx: the name must end in .csv, .txt"),
     "a table that says it is a picture": (["--csv", "out.PNG"], "the name must end in .csv, .txt"),
     "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv, .txt"),
-    "a size of no figure": (["--size", "18x12"], "give --plot, too"),
-    "dots of no figure": (["--dpi", "100"], "give --plot, too"),
-    "a slow motion of no film": (["--slow", "4"], "give --animate, too"),
+    "a size of no figure": (["--size", "18x12"], "require --plot"),
+    "dots of no figure": (["--dpi", "100"], "require --plot"),
+    "a slow motion of no film": (["--slow", "4"], "--slow requires --animate"),
 }
 
 

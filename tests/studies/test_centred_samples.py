@@ -166,5 +166,5 @@ def test_kinds_differ_in_the_prior_of_their_edges():
     assert stone.ranges == ParameterRanges(inset_m=(0.0, 0.024)) and stone.with_wear(0.1).ranges is None
     lopsided = of_kind(Block(0.2, 0.6, centroid_offset=0.096), "gravestone")
     assert 0.0 < lopsided.inset < 0.004 and wear_range(lopsided, 0.1)[1] < 0.02
-    with pytest.raises(BodyError, match="no kind of body 'tombstone'"):
+    with pytest.raises(BodyError, match="unknown kind of body 'tombstone'"):
         of_kind(block, "tombstone")

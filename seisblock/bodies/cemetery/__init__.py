@@ -1,1 +1,1 @@
-"""A cemetery and its table."""
+"""Cemeteries: gravestones and their tables."""

@@ -1,4 +1,4 @@
-"""A cemetery: gravestones known by the proportions of their top stone (sao), and perhaps by what became of them."""
+"""Gravestones of a cemetery: proportions of the upper stone (sao) and observed overturning."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.core.units import SUN
 
 PAPER_WIDTH = 8 * SUN
-"""Width of a sao when none is known, m: that of the stones behind the criterion ([Furukawa2009]_ table 1)."""
+"""Default width of an upper stone (sao), m: that of the fitted criterion ([Furukawa2009]_ table 1)."""
 
 
 @dataclass(frozen=True)
 class Stone:
-    """One gravestone, or several alike.
+    """One gravestone, or several of equal proportions.
 
     Parameters
     ----------
     height_over_width : float
         H/B of the sao, positive.
     width : float or None, m
-        B, where it is known.
+        B, None if unknown.
     reinforced : bool
         Whether a dowel joins sao and jodai.
     fallen : bool or None
-        Whether it overturned; None where nobody says.
+        Whether the stone overturned; None if unknown.
     azimuth_deg : float or None
-        Which way it faces, degrees clockwise from north.
+        Azimuth of the front, degrees clockwise from north.
     count : int
-        How many stones this stands for, positive.
+        Number of such stones, positive.
     line : int or None
-        Line of the file it was read from.
+        Line of the source file.
 
     Raises
     ------
@@ -53,7 +53,7 @@ class Stone:
 
     def __post_init__(self) -> None:
         checks.positive("height over width of a gravestone", self.height_over_width, error=BodyError)
-        checks.positive("count of a gravestone", self.count, error=BodyError)
+        checks.positive("number of gravestones (count)", self.count, error=BodyError)
         if self.width is not None:
             checks.positive("width of a gravestone", self.width, "m", error=BodyError)
         if self.azimuth_deg is not None:
@@ -61,7 +61,7 @@ class Stone:
 
     @property
     def height(self) -> float | None:
-        """Height H of the sao, m, where the width is known."""
+        """Height H of the upper stone (sao), m; None without a width."""
         return None if self.width is None else self.width * self.height_over_width
 
 
@@ -74,11 +74,11 @@ class Cemetery:
     stones : tuple of Stone
         At least one.
     name : str
-        For tables and figures.
+        Name for tables and figures.
     source : str
-        File it was read from, empty when made in memory.
+        Source file, empty if created in memory.
     notes : tuple of str
-        Comments at the head of that file: where the numbers come from.
+        Comments at the head of the file: origin of the data.
 
     Raises
     ------
@@ -100,11 +100,11 @@ class Cemetery:
     def __post_init__(self) -> None:
         object.__setattr__(self, "stones", tuple(self.stones))
         if not self.stones:
-            raise BodyError("{source}: there is no gravestone in it", source=self.source or self.name)
+            raise BodyError("{source} contains no gravestones", source=self.source or self.name)
 
     @property
     def size(self) -> int:
-        """Number of stones, those of a row with a count each counted."""
+        """Number of stones, counts included."""
         return sum(stone.count for stone in self.stones)
 
     @property
@@ -114,16 +114,16 @@ class Cemetery:
 
     @property
     def reinforced(self) -> BoolArray:
-        """Which stones are reinforced, (size,)."""
+        """Mask of reinforced stones, (size,)."""
         return np.repeat(np.array([stone.reinforced for stone in self.stones]), self._counts)
 
     def widths(self, default: float = PAPER_WIDTH) -> FloatArray:
-        """Width of each stone, (size,), m; `default` where it is not known."""
+        """Width of each stone, (size,), m; `default` where unknown."""
         return np.repeat(np.array([default if stone.width is None else stone.width for stone in self.stones]), self._counts)
 
     @property
     def has_survey(self) -> bool:
-        """Whether it is known of some stone if it fell."""
+        """True if the outcome of any stone is known."""
         return any(stone.fallen is not None for stone in self.stones)
 
     def share_above(self, height_over_width: float) -> float:
@@ -131,20 +131,20 @@ class Cemetery:
         return float(np.count_nonzero(self.ratios > height_over_width)) / self.size
 
     def rows(self) -> Cemetery:
-        """Return the cemetery with each row taken for one stone."""
+        """Return the cemetery with each row as one stone."""
         return replace(self, stones=tuple(replace(stone, count=1) for stone in self.stones))
 
     def select(self, predicate: Callable[[Stone], bool]) -> Cemetery:
-        """Return the cemetery of those stones for which `keep` is true."""
+        """Return the cemetery of the stones that satisfy a predicate."""
         return replace(self, stones=tuple(stone for stone in self.stones if predicate(stone)))
 
     def with_dowels(self, most_fragile: int | None = None) -> Cemetery:
-        """Return the cemetery with all stones reinforced, or with only so many more, the most slender first.
+        """Return the cemetery with all, or the most slender, stones reinforced.
 
         Parameters
         ----------
         most_fragile : int or None
-            How many stones get a dowel; those that have one keep it and do not count.
+            Number of stones to reinforce, in addition to those already reinforced; None for all.
         """
         if most_fragile is None:
             return replace(self, stones=tuple(replace(stone, reinforced=True) for stone in self.stones))
@@ -162,5 +162,5 @@ class Cemetery:
 
     @property
     def _counts(self) -> IntArray:
-        """Return how many stones each row stands for."""
+        """Return the count of each row."""
         return np.array([stone.count for stone in self.stones], dtype=np.int64)

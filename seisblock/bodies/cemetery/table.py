@@ -1,4 +1,4 @@
-"""Reading a cemetery from a table: the columns that survey teams write, in English or Japanese."""
+"""CSV tables of cemeteries, with English or Japanese column names."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _COLUMN_NAMES = {
     "azimuth_deg": ("azimuthdeg", "azimuth", "方位", "方位角", "向き"),
     "count": ("count", "number", "個数", "基数", "数"),
 }
-"""Column names accepted, without case, blanks and underscores."""
+"""Accepted column names, without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _COLUMN_NAMES.items() for spelling in spellings}
 _BOOLEAN_WORDS = {
@@ -64,29 +64,29 @@ _BOOLEAN_WORDS = {
 }
 
 MAX_SIZE = 20.0
-"""A stone beyond this, m, is taken for a number whose unit was forgotten."""
+"""Largest plausible size of a stone, m; larger numbers probably lack their unit."""
 
 RATIO_TOLERANCE = 0.05
-"""Largest relative difference between a ratio written down and that of the sizes beside it."""
+"""Largest relative difference between a given ratio and that of height and width."""
 
 
 def read_cemetery(name: str | Path) -> Cemetery:
-    """Return a cemetery from a CSV file, or a bundled one by its name.
+    """Return a cemetery from a CSV file or a bundled one.
 
     The header names the columns: ``height_over_width``, or ``height`` and ``width`` (a unit in the name, ``height (cm)``,
     or in the cell, ``8sun``; metres without); and, where known, ``reinforced``, ``fallen``, ``azimuth_deg``, ``count``. Japanese
-    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) do as well. Lines that begin with # are comments; those before the header are kept
-    as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are passed over.
+    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) are accepted, too. Lines that begin with # are comments; those before the
+    header are kept as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are ignored.
 
     Parameters
     ----------
     name : str or Path
-        A file, else for example ``aoyama.csv``.
+        File, or name of a bundled cemetery such as ``aoyama.csv``.
 
     Raises
     ------
     BodyError
-        If there is no such file or bundled cemetery, a column is missing, or a row is wrong; rows are named by their line.
+        If there is no such file or bundled cemetery, a column is missing, or a row is invalid; the message gives the line.
 
     Examples
     --------
@@ -102,12 +102,12 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
     data_rows = data_lines(text)
     if not data_rows:
-        raise BodyError("{source}: there is no gravestone in it, only {count} empty lines and comments", source=source, count=len(lines))
+        raise BodyError("{source} contains no gravestones, only {count} empty lines and comments", source=source, count=len(lines))
     (header_line, header), rows = data_rows[0], data_rows[1:]
     separator = find_separator(header)
     columns, units = _parse_header(split_cells(header, separator), source, header_line)
     if not rows:
-        template = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
+        template = "{source}, line {line}: no gravestone below the header; add one line per stone"
         raise BodyError(template, source=source, line=header_line)
     stones, bad_rows = [], []
     for number, line in rows:
@@ -125,20 +125,20 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
 
 
 def _resolve_path(name: str | Path) -> Path:
-    """Return the file that a name means: a path, else a bundled cemetery."""
+    """Return the path of a file, or of a bundled cemetery."""
     path = Path(checks.path(name))
     if path.is_dir():
-        raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
+        raise BodyError("{name} is a folder: give the CSV file of a cemetery", name=name)
     resolved = resolve_file_or_sample(path, "cemetery")
     if resolved is None:
         raise BodyError(
-            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}", name=name, known=sample_names("cemetery")
+            "no cemetery file {name}, and no bundled cemetery of that name; bundled: {known}", name=name, known=sample_names("cemetery")
         )
     return resolved
 
 
 def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
-    """Return the meaning of each column, empty for those passed over, and the units that stand in their names."""
+    """Return the meaning of each column (empty if ignored) and the units in the column names."""
     columns, units = [], {}
     for cell in cells:
         name, unit = parse_heading(cell, _COLUMNS)
@@ -150,7 +150,7 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
     if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
         columns_found = cells or lazy_gettext("none")
         raise BodyError(
-            "{source}, line {line}: expected a column height_over_width, or height and width; found {found}",
+            "{source}, line {line}: columns required: height_over_width, or height and width; found {found}",
             source=source,
             line=line,
             found=columns_found,
@@ -159,7 +159,6 @@ def _parse_header(cells: Sequence[str], source: str, line: int) -> tuple[list[st
 
 
 def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
-    """Return the stone of one row."""
     width, height = (_parse_size(row, key, units) for key in ("width", "height"))
     ratio = _parse_number(row, "height_over_width")
     if ratio is not None:
@@ -170,7 +169,7 @@ def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) ->
         ratio = height / width if ratio is None else ratio
     elif ratio is None:
         missing_names = [name for name, value in (("height", height), ("width", width)) if value is None]
-        raise BodyError("there is neither height over width nor height and width: {missing} empty", missing=missing_names)
+        raise BodyError("dimensions missing: height over width, or height and width, required; empty: {missing}", missing=missing_names)
     elif height is not None:
         width = height / ratio
     return Stone(
@@ -185,7 +184,7 @@ def _parse_stone(row: Mapping[str, str], units: Mapping[str, str], line: int) ->
 
 
 def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float | None:
-    """Return a length in metres, None where the cell is empty."""
+    """Return a length, m; None for an empty cell."""
     text = row.get(key, "")
     if not text:
         return None
@@ -195,33 +194,33 @@ def _parse_size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> f
         raise BodyError("{key} must be positive, found {text}", key=key, text=text)
     if value > MAX_SIZE:
         remedy = (
-            lazy_gettext(" (without a unit it means metres: name the column for example {key} (cm))", key=key)
+            lazy_gettext(" (read as metres without a unit: name the column, for example, {key} (cm))", key=key)
             if has_no_unit and not unit
             else ""
         )
-        raise BodyError("{key} of {value:g} m is no gravestone{remedy}", key=key, value=value, remedy=remedy)
+        raise BodyError("{key} of {value:g} m is not plausible for a gravestone{remedy}", key=key, value=value, remedy=remedy)
     return value
 
 
 def _parse_number(row: Mapping[str, str], key: str) -> float | None:
-    """Return a number, None where the cell is empty."""
+    """Return a number; None for an empty cell."""
     text = row.get(key, "")
     return parse_number_cell(text, key) if text else None
 
 
 def _parse_count(row: Mapping[str, str]) -> int:
-    """Return how many stones a row stands for, one where the cell is empty."""
+    """Return the number of stones of a row; 1 for an empty cell."""
     value = _parse_number(row, "count")
     if value is None:
         return 1
     if not (1 <= value < math.inf and value == int(value)):
-        raise BodyError("count must be a whole number of stones, 1 or more, found {count}", count=row["count"])
+        raise BodyError("count must be an integer, 1 or more; found {count}", count=row["count"])
     check_limit(N_("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
     return int(value)
 
 
 def _parse_bool(row: Mapping[str, str], key: str) -> bool | None:
-    """Return yes, no, or None where the cell is empty."""
+    """Return a bool; None for an empty cell."""
     text = row.get(key, "")
     true_words, false_words, expected = _BOOLEAN_WORDS[key]
     if not text:

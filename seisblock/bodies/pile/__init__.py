@@ -1,1 +1,1 @@
-"""Piles of stones: what stands on what, and how the stones press on each other."""
+"""Piles of stones: geometry, contact and checks."""

@@ -1,4 +1,4 @@
-"""Whether a pile can stand: what is wrong with it, in one sentence that names the stone."""
+"""Consistency checks of a pile of stones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from seisblock.core.i18n import N_, lazy_gettext
 
 
 class PileLike(Protocol):
-    """What the checks look at: a pile, or one about to be."""
+    """Interface of the checks: a pile, or one under construction."""
 
     @property
     def name(self) -> str: ...  # noqa: D102
@@ -35,12 +35,12 @@ class PileLike(Protocol):
 
 
 def check_pile(pile: PileLike) -> None:
-    """Refuse a pile that cannot be what is meant.
+    """Raise an error for an inconsistent or unstable pile.
 
     Raises
     ------
     BodyError
-        With the first thing found wrong.
+        For the first inconsistency.
     """
     _check_names(pile)
     _check_friction(pile)
@@ -52,16 +52,16 @@ def check_pile(pile: PileLike) -> None:
 
 
 def _check_names(pile: PileLike) -> None:
-    """Refuse a pile whose names do not say what stands on what."""
+    """Raise an error for duplicate or unknown names."""
     if not pile.stones:
         raise BodyError("the pile {name} has no stones: give at least one", name=pile.name)
     names_below: set[str] = set()
     for stone in pile.stones:
         if stone.name in names_below or stone.name == GROUND:
-            raise BodyError("two stones of the pile {pile} are called {name}: give each its own name", pile=pile.name, name=stone.name)
+            raise BodyError("the pile {pile} has two stones named {name}: names must be unique", pile=pile.name, name=stone.name)
         if stone.on != GROUND and stone.on not in names_below:
             raise BodyError(
-                "the stone {name} stands on {on!r}, which is not before it in the list: {known}",
+                "the stone {name} stands on {on!r}, which does not precede it in the list: {known}",
                 name=stone.name,
                 on=stone.on,
                 known=[GROUND, *sorted(names_below)],
@@ -71,29 +71,29 @@ def _check_names(pile: PileLike) -> None:
         for name in names:
             if name not in names_below:
                 raise BodyError(
-                    "the {what} names {name!r}, but the pile {pile} has {names}",
+                    "{what}: the pile {pile} has no stone {name!r}; stones: {names}",
                     what=lazy_gettext(role),
                     name=name,
                     pile=pile.name,
                     names=list(pile.names),
                 )
     if all(name in pile.fixed for name in pile.names):
-        raise BodyError("every stone of the pile {name} is fixed: leave at least one free", name=pile.name)
+        raise BodyError("all stones of the pile {name} are fixed: leave at least one free", name=pile.name)
 
 
 def _check_friction(pile: PileLike) -> None:
-    """Refuse friction that is none, or more of it once a stone slides than before."""
+    """Raise an error for negative friction, or kinetic above static friction."""
     if not pile.mu >= 0.0:
-        raise BodyError("friction of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
+        raise BodyError("the friction coefficient of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
     static, kinetic = pile.friction()
     checks.non_negative("kinetic friction", kinetic, error=BodyError)
     if kinetic > static:
-        raise BodyError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=kinetic, mu=static)
+        raise BodyError("kinetic friction {kinetic:g} must not exceed static friction {mu:g}", kinetic=kinetic, mu=static)
     for stone in pile.stones:
         static, kinetic = pile.friction(stone)
         if kinetic > static:
             raise BodyError(
-                "kinetic friction under the stone {name}, {kinetic:g}, is more than its static friction, {mu:g}",
+                "kinetic friction under the stone {name}, {kinetic:g}, must not exceed static friction, {mu:g}",
                 name=stone.name,
                 kinetic=kinetic,
                 mu=static,
@@ -101,7 +101,7 @@ def _check_friction(pile: PileLike) -> None:
 
 
 def _check_overlaps(pile: PileLike) -> None:
-    """Refuse stones in each other or in the ground."""
+    """Raise an error for stones that overlap each other or the ground."""
     centres = pile.centres()
     for i, (centre, stone) in enumerate(zip(centres, pile.stones, strict=True)):
         if centre[2] - 0.5 * stone.height < -CONTACT_TOLERANCE:
@@ -123,30 +123,30 @@ def _check_overlaps(pile: PileLike) -> None:
 
 
 def _check_floating(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a stone under which there is nothing."""
+    """Raise an error for a stone without support."""
     for i, stone in enumerate(pile.stones):
         if stone.name not in pile.fixed and not any(joint.upper == i for joint in joints):
-            raise BodyError("the stone {name} floats: no stone and no ground touches its lower face", name=stone.name)
+            raise BodyError("the stone {name} has no support: neither a stone nor the ground touches its base", name=stone.name)
 
 
 def _check_dowels(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a dowel between stones that do not touch."""
-    touching = {frozenset((joint.upper, joint.lower)) for joint in joints}
+    """Raise an error for a dowel between stones that do not touch."""
+    touching_pairs = {frozenset((joint.upper, joint.lower)) for joint in joints}
     dowelled_names: set[str] = set()
     for group in pile.dowels:
         if len(group) < 2:
-            raise BodyError("a dowel holds at least two stones together, found only {group}", group=list(group) or lazy_gettext("none"))
+            raise BodyError("a dowel connects at least two stones, found {group}", group=list(group) or lazy_gettext("none"))
         for lower, upper in pairwise(group):
-            if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching:
-                raise BodyError("the dowel between {lower} and {upper} holds nothing: these stones do not touch", lower=lower, upper=upper)
+            if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching_pairs:
+                raise BodyError("the dowel between {lower} and {upper} has no effect: these stones do not touch", lower=lower, upper=upper)
         repeated_names = dowelled_names & set(group)
         if repeated_names:
-            raise BodyError("the stone {name} is in two dowels: name all stones it is held to in one", name=min(repeated_names))
+            raise BodyError("the stone {name} belongs to two dowels: name all connected stones in one dowel", name=min(repeated_names))
         dowelled_names |= set(group)
 
 
 def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
-    """Refuse a pile of which some part would tip over at rest."""
+    """Raise an error for a pile that is unstable at rest."""
     centres = pile.centres()
     group_of_stone = {i: group for group in pile.bodies() for i in group}
     for body in dict.fromkeys(group_of_stone.values()):
@@ -160,8 +160,8 @@ def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
             if not low < centroid < high:
                 name = pile.stones[min(supports, key=lambda joint: joint.height).upper].name
                 raise BodyError(
-                    "the pile {pile} is unstable at rest: the stone {name}, with what it carries, has its centre of gravity "
-                    "{depth:.4g} m outside what it stands on, along {axis}",
+                    "the pile {pile} is unstable at rest: the centre of gravity of the stone {name} and the stones on it lies "
+                    "{depth:.4g} m outside its support along {axis}",
                     pile=pile.name,
                     name=name,
                     depth=max(low - centroid, centroid - high),
@@ -170,7 +170,7 @@ def _check_balance(pile: PileLike, joints: list[Joint]) -> None:
 
 
 def _supported_stones(body: tuple[int, ...], group_of_stone: dict[int, tuple[int, ...]], joints: list[Joint]) -> set[int]:
-    """Return the stones of a body and all that stand on it alone."""
+    """Return the stones of a body and all stones supported by it alone."""
     supported_stones = set(body)
     changed = True
     while changed:

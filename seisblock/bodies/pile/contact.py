@@ -1,4 +1,4 @@
-"""How the stones of a pile press on each other."""
+"""Contact law of a pile: springs, dashpots and sliders."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ class PileContact:
     normal_damping, shear_damping : float, 1/s
         Dashpots per point over the upper stone's mass.
     young : float, Pa, or None
-        Each joint is as stiff as the half heights of its two stones, all damped by ``damping_ratio``; replaces the four above.
+        Young's modulus: each joint has the stiffness of the half heights of its two stones, damped by ``damping_ratio``; replaces the
+        four above.
     stiffness : float, N/m^3, or None
         Stiffness of the joints per area; replaces the four above.
     damping_ratio : float
-        Of the upper stone on its whole joint, for the physical descriptions.
+        Damping ratio of the upper stone on its whole joint, for the physical descriptions.
     shear_ratio : float
         Shear over normal stiffness, for the physical descriptions; 0.4 as in [Furukawa2009]_ table 2.
     """
@@ -50,19 +51,19 @@ class PileContact:
         for name in ("normal_damping", "shear_damping", "damping_ratio"):
             checks.non_negative("{name} of the contact", getattr(self, name), name=name)
         if self.young is not None and self.stiffness is not None:
-            raise ParameterError("the contact takes Young's modulus or the stiffness per area, not both")
+            raise ParameterError("Young's modulus and the stiffness per area exclude each other: give only one of them")
 
     def point_coefficients(self, mass: float, area: float, length: float, points: int) -> tuple[float, float, float, float]:
-        """Return normal spring and dashpot, shear spring and dashpot of one point of a joint, N/m and N s/m.
+        """Return normal spring and dashpot, shear spring and dashpot of one contact point, N/m and N s/m.
 
         Parameters
         ----------
         mass : float, kg
-            Of the upper stone.
+            Mass of the upper stone.
         area, length_ : float, m^2, m
-            Of the joint; and half the heights of both stones together.
+            Area of the joint, and half the sum of the heights of both stones.
         points : int
-            How many points share the joint.
+            Number of points of the joint.
         """
         per_area = self.stiffness if self.young is None else self.young / length
         if per_area is None:

@@ -1,27 +1,27 @@
-"""Samples of a pile with worn edges."""
+"""Edge wear of the samples of a pile."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from seisblock.bodies.block_array import MOST_WORN
+from seisblock.bodies.block_array import MAX_WEAR_SHARE
 from seisblock.bodies.edge_wear import MAX_SHARE
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.errors import BodyError
 
-CLOSE = 1e-3
-"""Tolerances this near are one."""
+BISECTION_TOLERANCE = 1e-3
+"""Tolerance of the bisection for the half width."""
 
 
 def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
-    """Return a sample of a pile whose insets differ from their own by one share of themselves; sharp stones stay sharp.
+    """Return a sample of a pile whose insets differ by one common share; sharp stones stay sharp.
 
     Parameters
     ----------
     body : Pile
     tolerance : float, 1
-        Half width of the insets, a share of each; less where hardly a fifth of what a stone stands on would be left.
+        Half width of the insets, a share of each; reduced where less than a fifth of a base would remain.
     draw : float
         In [-1, 1].
 
@@ -34,20 +34,20 @@ def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
     """
     if tolerance == 0.0:
         return body
-    return replace(body, stones=tuple(_worn(stone, tolerance, draw) for stone in body.stones))
+    return replace(body, stones=tuple(_vary_wear(stone, tolerance, draw) for stone in body.stones))
 
 
-def _worn(stone: PileStone, tolerance: float, draw: float) -> PileStone:
-    """Return one stone of a sample; an inset that is a length stays one."""
-    own = worn_share(stone)
-    if own == 0.0:
+def _vary_wear(stone: PileStone, tolerance: float, draw: float) -> PileStone:
+    """Return the sample of one stone; an inset given as a length stays a length."""
+    share = worn_share(stone)
+    if share == 0.0:
         return stone
-    factor = 1.0 + min(tolerance, MOST_WORN * (MAX_SHARE - own) / own) * draw
+    factor = 1.0 + min(tolerance, MAX_WEAR_SHARE * (MAX_SHARE - share) / share) * draw
     return replace(stone, inset=replace(stone.inset, length_m=factor * stone.inset.length_m, share=factor * stone.inset.share))
 
 
 def worn_share(stone: PileStone) -> float:
-    """Return how far in from the sides of its base a stone turns, a share of the side of which that is more."""
+    """Return the inset of a stone, the larger share of its two sides."""
     along, across = stone.insets()
     return max(along / stone.width, across / stone.depth)
 
@@ -55,7 +55,7 @@ def worn_share(stone: PileStone) -> float:
 def widest_wear(body: Pile, tolerance: float) -> float:
     """Return the half width of the insets of the samples of a pile, a share of each.
 
-    Less than asked where the pile would not stand at rest, its load being near an edge: what stands is not worn like that.
+    Smaller than `tolerance` where the most worn sample would be unstable at rest.
 
     Examples
     --------
@@ -64,17 +64,17 @@ def widest_wear(body: Pile, tolerance: float) -> float:
     >>> widest_wear(one, 0.9), round(widest_wear(two, 0.9), 2)
     (0.9, 0.44)
     """
-    if _stands(body, tolerance / MOST_WORN):
+    if _is_stable(body, tolerance / MAX_WEAR_SHARE):
         return tolerance
-    low, high = 0.0, tolerance / MOST_WORN
-    while high - low > CLOSE:
+    low, high = 0.0, tolerance / MAX_WEAR_SHARE
+    while high - low > BISECTION_TOLERANCE:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _stands(body, middle) else (low, middle)
-    return min(tolerance, MOST_WORN * low)
+        low, high = (middle, high) if _is_stable(body, middle) else (low, middle)
+    return min(tolerance, MAX_WEAR_SHARE * low)
 
 
-def _stands(body: Pile, tolerance: float) -> bool:
-    """Return whether the most worn sample of a pile stands at rest."""
+def _is_stable(body: Pile, tolerance: float) -> bool:
+    """Return whether the most worn sample of a pile is stable at rest."""
     try:
         worn_to(body, tolerance, 1.0)
     except BodyError:

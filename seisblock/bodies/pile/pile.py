@@ -1,4 +1,4 @@
-"""A pile of rectangular and round stones: gravestones, lanterns, pagodas, columns of drums, stacked crates."""
+"""Pile of cuboid and cylindrical stones: gravestones, lanterns, pagodas, columns, crates."""
 
 from __future__ import annotations
 
@@ -15,28 +15,27 @@ from seisblock.core.errors import BodyError, ParameterError
 
 @dataclass(frozen=True)
 class Pile:
-    """An ordered pile of stones ([Furukawa2009]_ section 3(2), fig. 3).
+    """Ordered pile of stones ([Furukawa2009]_ section 3(2), fig. 3).
 
     Parameters
     ----------
     name : str
     stones : tuple of PileStone
-        From below upwards.
+        From bottom to top.
     dowels : tuple of tuples of str
-        Names of stones held together as one body ([Furukawa2009]_ section 3(6)).
+        Names of stones joined as one body ([Furukawa2009]_ section 3(6)).
     fixed : tuple of str
         Stones that move with the ground.
     mu, mu_kinetic : float, 1
-        Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2. What slides has the latter, at most
-        the former; None: the same.
-    ranges : Ranges or None
-        Of its kind, as one block; a pile itself has no versions.
+        Static and kinetic friction of joints without their own; 0.438 as in [Furukawa2009]_ table 2. The kinetic value is at most the
+        static one; None: equal.
+    ranges : ParameterRanges or None
+        Ranges of the kind, for the pile as one block.
 
     Raises
     ------
     BodyError
-        If stones overlap, float, or do not touch where a dowel holds them; if the pile is unstable at rest; if kinetic friction is
-        more than static friction.
+        If stones overlap, lack support, or do not touch at a dowel; if the pile is unstable at rest; if kinetic exceeds static friction.
     """
 
     name: str
@@ -52,11 +51,11 @@ class Pile:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the stones, from below upwards."""
+        """Names of the stones, from bottom to top."""
         return tuple(stone.name for stone in self.stones)
 
     def centres(self) -> list[tuple[float, float, float]]:
-        """Return the centres of the stones, m, seen from the ground under the pile."""
+        """Return the centres of the stones in ground axes, m."""
         centre_by_name: dict[str, tuple[float, float, float]] = {}
         for stone in self.stones:
             x, y, top = 0.0, 0.0, 0.0
@@ -69,7 +68,7 @@ class Pile:
         return [centre_by_name[stone.name] for stone in self.stones]
 
     def joints(self) -> list[Joint]:
-        """Return where stones stand on each other and on the ground."""
+        """Return the joints between stones and with the ground."""
         centres = self.centres()
         result = []
         for upper, stone in enumerate(self.stones):
@@ -84,7 +83,7 @@ class Pile:
         return result
 
     def bodies(self) -> Iterator[tuple[int, ...]]:
-        """Yield the stones that move as one, without the fixed ones."""
+        """Yield the groups of stones that move as one body, without the fixed ones."""
         index = {name: i for i, name in enumerate(self.names)}
         group_of_stone = {name: tuple(sorted(index[member] for member in group)) for group in self.dowels for name in group}
         visited: set[int] = set()
@@ -95,7 +94,7 @@ class Pile:
                 yield members
 
     def friction(self, stone: PileStone | None = None) -> tuple[float, float]:
-        """Return static and kinetic friction of the joint under a stone, or of what else meets, 1.
+        """Return static and kinetic friction of the joint under a stone, or of other contacts, 1.
 
         Examples
         --------
@@ -110,7 +109,7 @@ class Pile:
 
     @property
     def has_lower_kinetic_friction(self) -> bool:
-        """Whether any kinetic friction is below static friction."""
+        """True if any joint has kinetic friction below static friction."""
         return any(kinetic < static for static, kinetic in map(self.friction, (None, *self.stones)))
 
     def with_kinetic_friction(self, mu_kinetic: float) -> Pile:
@@ -119,7 +118,7 @@ class Pile:
         Raises
         ------
         ParameterError
-            If that is more than the static friction of one of them.
+            If the value exceeds the static friction of a joint.
         """
         stones = tuple(replace(stone, mu_kinetic=None) for stone in self.stones)
         try:
@@ -128,15 +127,15 @@ class Pile:
             raise ParameterError("{why}", why=error.message) from None
 
     def without(self, *names: str) -> Pile:
-        """Return the pile without some of its stones, on which none of the others may stand."""
+        """Return the pile without the named stones, on which no other stone may stand."""
         stones = tuple(stone for stone in self.stones if stone.name not in names)
         dowels = tuple(group for group in self.dowels if not set(group) & set(names))
         return replace(self, stones=stones, dowels=dowels, fixed=tuple(name for name in self.fixed if name not in names))
 
     def as_block(self) -> Block:
-        """Return it as one rigid block that moves along x: the base of what touches the ground, mass, centre and inertia of all.
+        """Return the pile as one rigid block in the x-z plane: base on the ground, total mass, centre and inertia.
 
-        Its height is that of the highest stone; stones that stand wider than the base do not widen it.
+        Height: top of the highest stone; stones wider than the base do not widen it.
         """
         centres = self.centres()
         free_stones = [i for i, name in enumerate(self.names) if name not in self.fixed]
@@ -165,7 +164,7 @@ class Pile:
         )
 
     def with_wear(self, inset: EdgeWear | float) -> Pile:
-        """Return the pile with worn edges: every stone with the same share of its width per side, or the same inset.
+        """Return the pile with worn edges: the same share of the width per side, or the same inset, for all stones.
 
         Examples
         --------
@@ -177,5 +176,5 @@ class Pile:
         return replace(self, stones=tuple(replace(stone, inset=wear) for stone in self.stones))
 
     def with_dowels(self, *names: str) -> Pile:
-        """Return the pile with these stones held together."""
+        """Return the pile with the named stones joined by a dowel."""
         return replace(self, dowels=(*self.dowels, names))

@@ -1,4 +1,4 @@
-"""One stone of a pile, rectangular or round, and the joint between two."""
+"""Stone of a pile (cuboid or cylinder) and joint between two stones."""
 
 from __future__ import annotations
 
@@ -15,48 +15,48 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import warn_large_lengths
 
 GROUND = "ground"
-"""What the lowest stones stand on."""
+"""Name of the support of the lowest stones."""
 GRANITE_DENSITY = 2650.0
-"""Density of granite, kg/m^3; the motion of a pile of one stone does not depend on it."""
+"""Density of granite, kg/m^3; without effect on the motion of a single stone."""
 CONTACT_TOLERANCE = 1e-6
-"""Faces this close, m, touch."""
+"""Largest gap between touching surfaces, m."""
 RECTANGULAR, ROUND = "rectangular", "round"
 """Shapes in plan."""
 
 
 @dataclass(frozen=True)
 class PileStone:
-    """One stone of a pile: a cuboid, or an upright cylinder.
+    """One stone of a pile: a cuboid or an upright cylinder.
 
     Parameters
     ----------
     name : str
     width, depth, height : float, m
-        Sizes along x, y and z; of a round stone the first two are its diameter.
+        Sizes along x, y and z; the first two are the diameter of a cylinder.
     offset : (float, float), m
-        Where its centre is seen from the centre of the stone (or the point of the ground) it stands on, along x and y.
+        Position of the centre relative to the centre of the supporting stone (or the origin of the ground), along x and y.
     on : str
-        The stone it stands on, or ``ground``.
+        Name of the supporting stone, or ``ground``.
     density : float, kg/m^3
     mu, mu_kinetic : float or None, 1
-        Friction of the joint under it, as long as it clings and once it slides; None: that of the pile.
+        Static and kinetic friction of the joint under the stone; None: that of the pile.
     bottom : float or None, m
-        Height of its lower face above the ground; None: the upper face of the stone it stands on.
+        Height of the base above the ground; None: top of the supporting stone.
     shape : str
         ``rectangular`` or ``round`` in plan.
-    inset : Inset
-        How far in from the sides of its base it turns, at worn edges; its mass and inertia stay as they are.
+    inset : EdgeWear
+        Distance of the worn pivot edges from the sides of the base; mass and inertia are unchanged.
 
     Raises
     ------
     BodyError
-        If a size or the density is not positive, or the friction negative; if a round stone is not as deep as it is wide, the shape is
-        unknown, or the inset leaves nothing of the base.
+        If a size or the density is not positive, or the friction negative; if width and depth of a cylinder differ, the shape is unknown,
+        or the inset leaves no base.
 
     Warns
     -----
     UserWarning
-        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+        If a length exceeds 20 m, which was probably meant in cm or mm.
 
     Examples
     --------
@@ -90,7 +90,7 @@ class PileStone:
             checks.non_negative("kinetic friction under the stone {name}", self.mu_kinetic, error=BodyError, name=self.name)
         if len(self.offset) != 2 or not all(math.isfinite(part) for part in self.offset):
             raise BodyError(
-                "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
+                "offset of the stone {name} requires two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
             )
         if self.shape not in (RECTANGULAR, ROUND):
             raise BodyError(
@@ -102,7 +102,7 @@ class PileStone:
             )
         if self.is_round and self.width != self.depth:
             raise BodyError(
-                "the stone {name} is round, so that it is as deep as it is wide: found {width:g} m and {depth:g} m",
+                "the cylinder {name} must have equal width and depth: found {width:g} m and {depth:g} m",
                 name=self.name,
                 width=self.width,
                 depth=self.depth,
@@ -119,7 +119,7 @@ class PileStone:
 
     @property
     def is_round(self) -> bool:
-        """Whether it is a cylinder."""
+        """True for a cylinder."""
         return self.shape == ROUND
 
     @property
@@ -129,27 +129,27 @@ class PileStone:
 
     @property
     def gyration_squared(self) -> FloatArray:
-        """Squared radii of gyration about x, y and z through its centre, (3,), m^2, homogeneous as it is."""
+        """Squared radii of gyration about x, y and z through the centre, (3,), m^2 (homogeneous)."""
         w, d, h = (side * side for side in self.size)
         return np.array([d / 16 + h / 12, w / 16 + h / 12, w / 8]) if self.is_round else np.array([d + h, w + h, w + d]) / 12.0
 
     def insets(self) -> tuple[float, float]:
-        """Return how far in from the sides of its base it turns, along x and along y, m."""
+        """Return the insets of the worn edges along x and along y, m."""
         return self.inset.inset(self.width), self.inset.inset(self.depth)
 
 
 @dataclass(frozen=True)
 class Joint:
-    """Two stones, face on face.
+    """Contact area of two stones, or of a stone and the ground.
 
     Parameters
     ----------
     upper, lower : int
         Indices of the stones; ``lower`` is -1 for the ground.
     x, y : (float, float), m
-        The rectangle in which they touch.
+        Ends of the contact rectangle.
     height : float, m
-        Its height above the ground.
+        Height above the ground.
     """
 
     upper: int
@@ -162,7 +162,7 @@ class Joint:
 def bearing_rectangle(
     joint: Joint, stones: Sequence[PileStone], centres: Sequence[tuple[float, float, float]]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the part of a joint that carries, its ends along x and along y, m: its smaller face turns about worn edges.
+    """Return the load-bearing rectangle of a joint within worn edges: its ends along x and along y, m.
 
     Examples
     --------
@@ -187,7 +187,7 @@ def bearing_rectangle(
 def overlaps_in_plan(
     centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other_stone: PileStone
 ) -> bool:
-    """Return whether two stones share more than a touch in plan, m.
+    """Return whether two stones overlap in plan by more than the contact tolerance.
 
     Examples
     --------
@@ -206,10 +206,10 @@ def overlaps_in_plan(
 
 
 def span(centre: float, size: float) -> tuple[float, float]:
-    """Return the ends of a side."""
+    """Return the ends of a side, m."""
     return centre - 0.5 * size, centre + 0.5 * size
 
 
 def interval_overlap(a: float, size_a: float, b: float, size_b: float) -> tuple[float, float]:
-    """Return the part that two sides share; its ends are in the wrong order where there is none."""
+    """Return the common interval of two sides; its ends are reversed where there is none."""
     return max(a - 0.5 * size_a, b - 0.5 * size_b), min(a + 0.5 * size_a, b + 0.5 * size_b)

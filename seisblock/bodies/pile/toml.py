@@ -1,4 +1,4 @@
-"""Piles as TOML files, the bundled ones among them."""
+"""TOML files of piles, bundled ones included."""
 
 from __future__ import annotations
 
@@ -34,25 +34,25 @@ _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "m
 
 
 def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
-    """Return a pile of stones from a TOML file, or a bundled one by its name (``wagata``, ``lantern``, ``column``).
+    """Return a pile from a TOML file or a bundled one (``wagata``, ``lantern``, ``column``).
 
     Parameters
     ----------
     name : str or Path
-        ``kind = "pile"``, and one ``[[stone]]`` table per stone, from below upwards: ``name``, ``width``, ``depth``, ``height``
-        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``mu_kinetic``,
-        ``bottom``, ``shape = "round"`` (``width`` is then its diameter, and ``depth`` may be left out), ``inset`` as of a block.
+        ``kind = "pile"``, and one ``[[stone]]`` table per stone, from bottom to top: ``name``, ``width``, ``depth``, ``height``
+        (numbers in m or strings such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``mu_kinetic``,
+        ``bottom``, ``shape = "round"`` (``width`` is the diameter, ``depth`` optional), ``inset`` as of a block.
         On top: ``name``, ``mu``, ``mu_kinetic``, ``density``, ``inset``, ``fixed`` (list of names), ``reinforced`` (list of lists of
-        names that dowels hold); ``[ranges]`` of its kind, as of a block.
+        dowelled names); ``[ranges]`` of the kind, as of a block.
     reinforced : bool
-        Whether the dowels of the file are in place.
+        Whether to insert the dowels of the file.
     mu : float or None, 1
-        Friction of every joint, sliding or not; None: what the file says.
+        Static and kinetic friction of every joint; None: that of the file.
 
     Raises
     ------
     BodyError
-        If there is no such file, or it describes no pile that can stand.
+        If there is no such file, or the pile is invalid or unstable.
 
     Examples
     --------
@@ -67,7 +67,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     check_keys(table, _PILE_KEYS)
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
-        raise BodyError("{source}: a pile needs at least one [[stone]] table", source=source)
+        raise BodyError("{source}: a pile requires at least one [[stone]] table", source=source)
     check_limit(N_("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", source=source, error=BodyError)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
@@ -79,7 +79,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         stones = [replace(stone, mu=None, mu_kinetic=None) for stone in stones]
     dowels = get_text_groups(table, "reinforced")
     if reinforced and not dowels:
-        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
+        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or omit `reinforced`", source=source)
     file_mu = get_number(table, "mu")
     friction = mu if mu is not None else Pile.mu if file_mu is None else file_mu
     pile_name, fixed, kinetic = get_text(table, "name", Path(source).stem), get_texts(table, "fixed"), get_number(table, "mu_kinetic")
@@ -90,7 +90,6 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
 
 
 def _parse_stone(entry: Mapping[str, Any], default_support: str, table: Mapping[str, Any]) -> PileStone:
-    """Return one stone of a file."""
     check_keys(entry, _STONE_KEYS)
     if not isinstance(entry.get("name"), str):
         raise BodyError("{source}: name is missing", source=entry["source"])
@@ -117,7 +116,7 @@ def _parse_stone(entry: Mapping[str, Any], default_support: str, table: Mapping[
 
 @contextmanager
 def _prefix_errors(source: str) -> Iterator[None]:
-    """Have what is wrong with a pile, or with a stone of it, said with the file in front."""
+    """Prefix the errors of a pile with the name of its file."""
     try:
         yield
     except BodyError as error:

@@ -1,4 +1,4 @@
-"""The top of a pile as one rigid block."""
+"""Top of a pile as one rigid block."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from seisblock.bodies.pile.pile import Pile
 
 
 def rigid_top(body: Pile, points: int) -> Block:
-    """Return the top stone, with those it is dowelled to, as one rigid block on its outermost points ([Furukawa2009]_ fig. 12).
+    """Return the top stone and those dowelled to it as one rigid block on its outermost contact points.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""Bodies that were scanned: from a mesh to the arms with which they rock in every direction."""
+"""Scanned bodies: from a mesh to block dimensions for each azimuth."""

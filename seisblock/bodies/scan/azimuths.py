@@ -1,4 +1,4 @@
-"""A scanned body in all directions: the arm, the slenderness and the frequency parameter with which it turns towards each azimuth."""
+"""Arm, slenderness and frequency parameter of a scanned body for each azimuth."""
 
 from __future__ import annotations
 
@@ -15,31 +15,31 @@ from seisblock.core.limits import check_limit
 from seisblock.core.units import STANDARD_GRAVITY
 
 DEFAULT_STEP_DEG = 10.0
-"""Between azimuths, unless told otherwise."""
+"""Default azimuth step, degrees."""
 
 
 @dataclass(frozen=True)
 class ScanAzimuth:
-    """How a body turns towards an azimuth.
+    """Rocking parameters of a body towards an azimuth.
 
     Parameters
     ----------
     azimuth_deg : float
         Clockwise from north.
     arm_m : float
-        Level distance from the line about which it turns to the centre of gravity, b.
+        Horizontal distance b from the pivot line to the centre of gravity.
     slenderness_rad : float
         alpha, the angle between the vertical and R.
     radius_m : float
-        R, from that line to the centre of gravity.
+        R, from the pivot line to the centre of gravity.
     pivot_inertia_kg_m2 : float
-        I_O about that line.
+        I_O about the pivot line.
     frequency_parameter_rad_s : float
         p.
     restitution : float
-        Angular velocity after an impact onto that side over that before, which keeps the angular momentum about it.
+        Ratio of angular velocities after and before an impact on that side, from conserved angular momentum.
     threshold_m_s2 : float
-        Level acceleration of the ground, away from the azimuth, above which it turns.
+        Horizontal ground acceleration at which rocking towards the azimuth starts.
     """
 
     azimuth_deg: float
@@ -53,29 +53,29 @@ class ScanAzimuth:
 
 
 def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, gravity: float = STANDARD_GRAVITY) -> list[ScanAzimuth]:
-    """Return how a body turns towards azimuths all around, p = sqrt(m g R/I_O) ([Furukawa2009]_ eq. (3)) and g b/h (eq. (2)) among it.
+    """Return the rocking parameters for azimuths all around ([Furukawa2009]_ eqs. (2), (3)).
 
     Parameters
     ----------
     body : ScannedBody
     step_deg : float
-        Degrees between azimuths, from north on.
+        Azimuth step, starting at north.
     gravity : float, m/s^2
 
     Examples
     --------
     >>> from seisblock.bodies.scan.toml import load_scan
-    >>> [round(each.slenderness_rad, 2) for each in scan_azimuths(load_scan("boulder"), step_deg=90.0)]
+    >>> [round(row.slenderness_rad, 2) for row in scan_azimuths(load_scan("boulder"), step_deg=90.0)]
     [0.22, 0.3, 0.26, 0.26]
     """
     checks.instance(body, ScannedBody)
     checks.positive("`step_deg`", step_deg, "degrees")
-    check_limit(N_("directions"), math.ceil(360.0 / step_deg), "SEISBLOCK_RUNS")
+    check_limit(N_("azimuths"), math.ceil(360.0 / step_deg), "SEISBLOCK_RUNS")
     return [_at_azimuth(body, azimuth, gravity) for azimuth in np.arange(0.0, 360.0, step_deg).tolist()]
 
 
 def _at_azimuth(body: ScannedBody, azimuth: float, gravity: float) -> ScanAzimuth:
-    """Return how a body turns towards one azimuth."""
+    """Return the rocking parameters for one azimuth."""
     block = body.block_toward(azimuth)
     return ScanAzimuth(
         azimuth,

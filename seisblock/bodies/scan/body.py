@@ -1,4 +1,4 @@
-"""A scanned body: not the same to all sides, so that in each direction it is another block."""
+"""Scanned body: mass properties and support polygon, with a block for each azimuth."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from seisblock.core.typing import FloatArray
 from seisblock.records import Motion
 
 EAST = 90.0
-"""Azimuth of +x where nothing is said: x to the east and y to the north, as on a map."""
+"""Default azimuth of +x, degrees: x east, y north."""
 
 Triple = tuple[float, float, float]
 Pair = tuple[float, float]
@@ -26,35 +26,35 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class ScannedBody:
-    """A rigid body of any shape that stands on level ground on some of its points.
+    """Rigid body of any shape on level ground, with a convex support polygon.
 
     Parameters
     ----------
     name : str
     mass : float, kg
     height : float, m
-        Overall, above the ground.
+        Overall height above the ground.
     centre : three floats, m
-        Centre of gravity, x, y, and z above the ground.
+        Centre of gravity: x, y, and z above the ground.
     inertia : three rows of three floats, kg m^2
         Tensor about the centre of gravity.
     base : pairs of floats, m
-        x and y of the corners that carry, counter-clockwise: a convex polygon, sharp.
+        Corners of the sharp support polygon, convex, counter-clockwise.
     inset : Inset
-        How far in from each side of the base the worn body turns; a share is one of the base's least width.
+        Distance of the worn edges from each side of the base; a share refers to the smallest width of the base.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
 
     Raises
     ------
     BodyError
-        If the mass, a size or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
+        If the mass, a size or the inertia is not positive, or the centre of gravity does not lie above the base within its worn edges.
 
     Examples
     --------
     >>> base = ((0.1, 0.15), (-0.1, 0.15), (-0.1, -0.15), (0.1, -0.15))
     >>> box = ScannedBody("box", 240.0, 0.8, (0.0, 0.0, 0.4), ((16.0, 0.0, 0.0), (0.0, 14.0, 0.0), (0.0, 0.0, 5.0)), base)
-    >>> east, north = box.towards(90.0), box.towards(0.0)
+    >>> east, north = box.block_toward(90.0), box.block_toward(0.0)
     >>> round(east.width, 12), round(north.width, 12)
     (0.2, 0.3)
     """
@@ -74,21 +74,21 @@ class ScannedBody:
         checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=lazy_gettext("azimuth of +x"))
         tensor, corners = np.array(self.inertia, dtype=np.float64), self.corners
         if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
-            raise BodyError("{name}: the inertia must be three rows of three numbers, the same across its diagonal", name=self.name)
+            raise BodyError("{name}: the inertia must be a symmetric 3 x 3 matrix", name=self.name)
         smallest, middle, largest = np.linalg.eigvalsh(tensor)
         if not (smallest > 0.0 and largest <= (smallest + middle) * (1.0 + 1e-9)):
             raise BodyError(
-                "{name}: no body has principal moments of inertia of {moments} kg m^2",
+                "{name}: principal moments of inertia of {moments} kg m^2 are not physically possible",
                 name=self.name,
                 moments=[f"{moment:.4g}" for moment in (smallest, middle, largest)],
             )
         if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) < 3 or not np.isfinite(corners).all():
-            raise BodyError("{name}: the base must be three corners or more, each an x and a y", name=self.name)
+            raise BodyError("{name}: the base must have three corners or more, each with x and y", name=self.name)
         sides = np.roll(corners, -1, axis=0) - corners
         cross_products = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
         area = 0.5 * float(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - np.roll(corners[:, 0], -1) * corners[:, 1]))
         if not (area > 0.0 and cross_products.min() >= -1e-9 * area):
-            raise BodyError("{name}: the corners of the base must go round a convex polygon, counter-clockwise", name=self.name)
+            raise BodyError("{name}: the corners of the base must form a convex polygon, counter-clockwise", name=self.name)
         if not (len(self.centre) == 3 and 0.0 < self.centre[2] < self.height):
             raise BodyError(
                 "{name}: the centre of gravity must lie between the ground and the top, {height:g} m; found {centre}",
@@ -100,7 +100,7 @@ class ScannedBody:
             raise BodyError("{name}: the centre of gravity does not lie above the base", name=self.name)
         if not interior_distance(self.support_polygon, self.centre[:2]) > 0.0:
             raise BodyError(
-                "{name}: an inset of {inset:.4g} m leaves nothing of the base under the centre of gravity, which lies {depth:.4g} m inside",
+                "{name}: an inset of {inset:.4g} m exceeds the distance of the centre of gravity from the edge of the base, {depth:.4g} m",
                 name=self.name,
                 inset=self.inset_m,
                 depth=interior_distance(corners, self.centre[:2]),
@@ -108,12 +108,12 @@ class ScannedBody:
 
     @cached_property
     def corners(self) -> FloatArray:
-        """The sharp base, (n, 2), m."""
+        """Support polygon with sharp edges, (n, 2), m."""
         return np.array(self.base, dtype=np.float64)
 
     @cached_property
     def inset_m(self) -> float:
-        """How far in from each side of its base it turns, m."""
+        """Inset of the worn edges from each side of the base, m."""
         if self.inset == SHARP_EDGES:
             return 0.0
         width = min_width(self.corners)
@@ -122,18 +122,18 @@ class ScannedBody:
 
     @cached_property
     def support_polygon(self) -> FloatArray:
-        """The base within its worn edges, (n, 2), m."""
+        """Support polygon within the worn edges, (n, 2), m."""
         return offset_polygon(self.corners, self.inset_m)
 
     def with_wear(self, inset: EdgeWear | float) -> ScannedBody:
-        """Return the body with other worn edges: a share of its base's least width per side, or an :class:`EdgeWear`."""
+        """Return the body with other edge wear: a share of the smallest base width per side, or an ``EdgeWear``."""
         return replace(self, inset=inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
 
     def block_toward(self, azimuth: float) -> Block:
-        """Return the block as which it rocks, slides and flies in a vertical plane whose +x has an azimuth.
+        """Return the equivalent block in the vertical plane whose +x has an azimuth.
 
-        The plane is that of the motion: it turns about the level line across it that touches its base, and its inertia is that about the
-        line's direction; turning aside, about the corner where line and base meet, is left out (ours). Its two sides differ.
+        The pivots are the horizontal lines across the plane that touch the base, and the inertia is that about their direction;
+        out-of-plane rotation about the touching corner is neglected (derived here). The two sides differ.
 
         Parameters
         ----------
@@ -143,7 +143,7 @@ class ScannedBody:
         Returns
         -------
         Block
-            Its inset is the mean of both sides', its arms are exact.
+            The inset is the mean of both sides; the arms are exact.
         """
         turn = math.radians(self.facing - checks.finite("the azimuth", azimuth, "degrees"))
         forward, lateral = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
@@ -164,17 +164,17 @@ class ScannedBody:
         )
 
     def block_for_motion(self, motion: Motion) -> Block:
-        """Return the block as which it follows a motion, towards its azimuth.
+        """Return the equivalent block for a motion, from the azimuth of its +x.
 
         Raises
         ------
         ComponentError
-            If the azimuth of the motion's +x is not known.
+            If the azimuth of the motion's +x is unknown.
         """
         azimuth = motion.azimuth_deg
         if azimuth is None:
             raise ComponentError(
-                "{name} is another block in each direction, and nobody knows the azimuth of {component}: give a record that tells it",
+                "{name} has other dimensions in each azimuth, and the azimuth of {component} is unknown: give a record with azimuths",
                 name=self.name,
                 component=motion.name or "+x",
             )
@@ -182,7 +182,7 @@ class ScannedBody:
 
 
 def min_slenderness(body: ScannedBody) -> tuple[float, float]:
-    """Return the least alpha of a body, rad, and towards which azimuth, degrees: that of the nearest side of its base (derived here).
+    """Return the smallest alpha, rad, and its azimuth, degrees: the nearest side of the base (derived here).
 
     Examples
     --------

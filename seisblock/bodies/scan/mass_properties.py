@@ -1,4 +1,4 @@
-"""What a closed surface encloses: its volume, centre and inertia; and whether it encloses anything."""
+"""Mass properties of a closed triangle mesh: volume, centre and inertia, with closure checks."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from seisblock.core.errors import BodyError
 from seisblock.core.typing import FloatArray, IntArray
 
 CHUNK_SIZE = 2**17
-"""Triangles that are worked on at a time."""
+"""Triangles per chunk."""
 
 
 MIN_VOLUME_SHARE = 1e-9
-"""Share of the cube of its largest extent below which a surface encloses nothing."""
+"""Smallest volume, a share of the cube of the largest extent."""
 
 
 @dataclass(frozen=True, eq=False)
 class MassProperties:
-    """The inside of a surface, filled evenly.
+    """Mass properties of the homogeneous solid inside a surface.
 
     Parameters
     ----------
     volume : float, m^3
     centre : (3,) array, m
     gyration : (3, 3) array, m^2
-        Tensor of inertia about the centre for a mass of one.
+        Inertia tensor about the centre for unit mass.
     pieces : int
-        Surfaces that do not touch each other; one inside another, turned inwards, is a hollow.
+        Number of connected surfaces; an inner one oriented inwards is a cavity.
     """
 
     volume: float
@@ -39,7 +39,7 @@ class MassProperties:
 
 
 def mass_properties(mesh: Mesh) -> MassProperties:
-    """Return what a mesh encloses.
+    """Return volume, centre and inertia of a mesh.
 
     Each triangle (a, b, c) and the middle o of the vertices span a tetrahedron of 6 V = (a - o) . (b - o) x (c - o), positive where o lies
     inside; over it the integral of x x' is V/20 (s s' + the sum of the corners' own), s their sum (derived here).
@@ -51,7 +51,7 @@ def mass_properties(mesh: Mesh) -> MassProperties:
     Raises
     ------
     BodyError
-        If the surface is open, meets itself along an edge, is turned inside out in part or in whole, or encloses nothing.
+        If the surface is open, not manifold, inconsistently oriented or inside out, or encloses no volume.
 
     Examples
     --------
@@ -73,11 +73,11 @@ def mass_properties(mesh: Mesh) -> MassProperties:
     size = float(np.ptp(mesh.vertices, axis=0).max())
     if volume < 0.0:
         raise BodyError(
-            "{source} is inside out: its triangles run clockwise seen from outside; turn its normals round and export it again",
+            "{source} is inside out: its triangles are clockwise seen from outside; reverse the normals and export the mesh again",
             source=mesh.source,
         )
     if not volume > MIN_VOLUME_SHARE * size**3:
-        raise BodyError("{source} encloses nothing: its volume is {volume:.3g} m^3", source=mesh.source, volume=volume)
+        raise BodyError("{source} encloses no volume: {volume:.3g} m^3", source=mesh.source, volume=volume)
     centre = first_moment / volume
     second_central_moment = second_moment / volume - np.outer(centre, centre)
     return MassProperties(
@@ -94,7 +94,7 @@ def _edges(mesh: Mesh) -> IntArray:
 
 
 def _check_closed(source: str, edges: IntArray) -> None:
-    """Refuse a surface that is not closed: each edge has one triangle at its left and one at its right."""
+    """Raise an error for an open surface: each edge needs one triangle on either side."""
     count = int(edges.max()) + 1
     low, high = edges.min(axis=1), edges.max(axis=1)
     order = np.argsort(low * count + high, kind="stable")
@@ -104,14 +104,14 @@ def _check_closed(source: str, edges: IntArray) -> None:
     open_ends, shared_edges = int((face_counts == 1).sum()), int((face_counts > 2).sum())
     if open_ends:
         raise BodyError(
-            "{source} is open: {count} edges belong to one triangle alone, so that it encloses nothing; close its holes, the base above "
-            "all, and export it again",
+            "{source} is open: {count} edges belong to only one triangle; close the holes, above all in the base, and export the "
+            "mesh again",
             source=source,
             count=open_ends,
         )
     if shared_edges:
         raise BodyError(
-            "{source} meets itself: {count} edges belong to more than two triangles; repair it in the scanner's program",
+            "{source} is not manifold: {count} edges belong to more than two triangles; repair the mesh in the scan software",
             source=source,
             count=shared_edges,
         )
@@ -119,15 +119,15 @@ def _check_closed(source: str, edges: IntArray) -> None:
     flipped_edges = int((forward[group_starts] == forward[group_starts + 1]).sum())
     if flipped_edges:
         raise BodyError(
-            "{source} is inside out in part: along {count} edges two triangles look to opposite sides; make its normals consistent and "
-            "export it again",
+            "{source} has inconsistent normals: two triangles with opposite orientation at {count} edges; unify the normals and "
+            "export the mesh again",
             source=source,
             count=flipped_edges,
         )
 
 
 def _count_pieces(edges: IntArray, vertices: int) -> int:
-    """Return how many surfaces there are that do not touch each other."""
+    """Return the number of connected components of the surface."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 

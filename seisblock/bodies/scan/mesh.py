@@ -1,4 +1,4 @@
-"""A surface of triangles from a scanner's file: read within a budget, its vertices shared, closed, and turned outside out."""
+"""Triangle meshes from STL, PLY and OBJ files, with merged vertices."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.core.units import LENGTH_UNITS
 from seisblock.samples import find_sample
 
 SUFFIXES = (".stl", ".ply", ".obj")
-"""Formats of meshes that are read."""
+"""Mesh formats."""
 
 AXIS_ROTATIONS = {
     "x": ((2, -1), (1, 1), (0, 1)),
@@ -31,30 +31,30 @@ AXIS_ROTATIONS = {
     "-y": ((0, 1), (2, 1), (1, -1)),
     "-z": ((0, 1), (1, -1), (2, -1)),
 }
-"""For each axis of a file that may point upwards: which of its axes, with what sign, become x, y and z.
+"""Axis and sign of the file that become x, y and z, for each upward axis.
 
-The body is turned about the file's x, which stays x; where x itself points up or down, about y.
+The body rotates about the file's x, which stays x; where x points up or down, about y.
 """
 
 HEADER_BYTES = 2**14
-"""Bytes in which a file says what it holds."""
+"""Largest size of a file header, bytes."""
 
 _HASH_MULTIPLIERS = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
-"""Odd numbers that spread the bits of three coordinates over one."""
+"""Odd multipliers of the coordinate hash."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A surface of triangles.
+    """Triangle mesh.
 
     Parameters
     ----------
     vertices : (n, 3) array, m
         z upwards.
     faces : (k, 3) array of int
-        Their corners, counter-clockwise seen from outside.
+        Vertex indices, counter-clockwise seen from outside.
     source, sha256 : str
-        The file, and its digest.
+        File name and SHA-256 digest.
     """
 
     vertices: FloatArray
@@ -64,22 +64,22 @@ class Mesh:
 
 
 def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
-    """Return the mesh of an STL, PLY or OBJ file, or of a bundled one, its equal vertices shared.
+    """Return the mesh of an STL, PLY or OBJ file or of a bundled one, with equal vertices merged.
 
     Parameters
     ----------
     name : path
     unit : str
-        Of the file's numbers, one of ``LENGTH_UNITS``; formats of meshes do not say.
+        Unit of the file's coordinates, one of ``LENGTH_UNITS``; mesh formats do not state it.
     up : str
         The file's axis that points upwards: x, y, z, -x, -y or -z.
 
     Raises
     ------
     BodyError
-        If there is no such file, it is no mesh, or not all of its numbers are finite.
+        If there is no such file, it is not a mesh, or a coordinate is not finite.
     ParameterError
-        If it is larger than may be read, or trimesh is not installed.
+        If the mesh exceeds the limit, or trimesh is not installed.
 
     Examples
     --------
@@ -88,32 +88,30 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     (3, True)
     """
     if unit not in LENGTH_UNITS:
-        raise BodyError("unknown unit {unit!r} of a mesh; known are {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
+        raise BodyError("unknown unit {unit!r} of a mesh; known: {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
     if up not in AXIS_ROTATIONS:
-        raise BodyError(
-            "{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS)
-        )
+        raise BodyError("unknown upward axis {up!r} of a mesh; known: {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS))
     data = _read_mesh_file(name)
     suffix = Path(name).suffix.lower()
     check_limit(N_("triangles"), _declared_triangles(data, suffix), "SEISBLOCK_TRIANGLES", source=str(name), error=BodyError)
     vertices, faces = _load_triangles(io.BytesIO(data), suffix, str(name))
     if faces.size == 0:
-        raise BodyError("{name} holds no triangles: expected a surface, as a scanner's program exports it", name=str(name))
+        raise BodyError("{name} contains no triangles: export a surface from the scan software", name=str(name))
     is_finite = np.isfinite(vertices[:, 0]) & np.isfinite(vertices[:, 1]) & np.isfinite(vertices[:, 2])
     if not is_finite[faces].all():
-        raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
+        raise BodyError("{name} has vertices that are not finite numbers: fill the holes and export the mesh again", name=str(name))
     vertices, faces = _merge_vertices(vertices * LENGTH_UNITS[unit], faces)
     rotated = np.column_stack([sign * vertices[:, axis] for axis, sign in AXIS_ROTATIONS[up]])
     return Mesh(rotated, faces, str(name), hashlib.sha256(data).hexdigest())
 
 
 def _read_mesh_file(name: str | Path) -> bytes:
-    """Return what a file of a mesh holds, if it is one by its name and not too large."""
+    """Return the bytes of a mesh file after checks of name and size."""
     path = Path(checks.path(name))
     bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
     path = path if bundled is None else bundled
     if path.suffix.lower() not in SUFFIXES:
-        raise BodyError("{name} is no mesh by its name: expected {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
+        raise BodyError("{name}: the file name of a mesh must end in {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty", name=str(name))
@@ -121,7 +119,7 @@ def _read_mesh_file(name: str | Path) -> bytes:
 
 
 def _declared_triangles(data: bytes, suffix: str) -> int:
-    """Return how many triangles a file says that it holds, or has room for, before any of them is made."""
+    """Return the number of triangles that a file declares or has room for, before parsing."""
     if suffix == ".obj":
         return data.count(b"\nf ") + data.startswith(b"f ")
     if suffix == ".ply":
@@ -131,13 +129,13 @@ def _declared_triangles(data: bytes, suffix: str) -> int:
 
 
 def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, IntArray]:
-    """Return vertices and faces as a file has them; no other file is opened that it may name."""
+    """Return vertices and faces of a file; files that it references are not opened."""
     try:
         import trimesh
     except ImportError as error:
-        raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
+        raise BodyError("reading a mesh requires trimesh: pip install 'seisblock[scan]'") from error
     try:
-        with np.errstate(all="ignore"):  # what is no number is told below
+        with np.errstate(all="ignore"):  # non-finite vertices raise an error below
             mesh: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
@@ -145,21 +143,21 @@ def _load_triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatAr
     except MemoryError:
         raise
     except Exception as error:
-        raise BodyError("{name} is damaged, or no mesh: export it again", name=name) from error
+        raise BodyError("{name} is damaged or not a mesh: export it again", name=name) from error
     if not indices_valid:
-        raise BodyError("{name} is damaged: a triangle names a vertex that is not there", name=name)
+        raise BodyError("{name} is damaged: a triangle refers to a vertex that does not exist", name=name)
     return vertices, faces
 
 
 def _merge_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
-    """Return a mesh in which equal vertices are one, without triangles that have two corners in one, and vertices that have none."""
+    """Return a mesh with equal vertices merged, without degenerate triangles and unused vertices."""
     vertex_ids, faces = np.unique(faces, return_inverse=True)
-    points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # of the two zeros one
+    points = np.ascontiguousarray(vertices[vertex_ids]) + 0.0  # -0.0 becomes 0.0
     bits = points.view(np.uint64)
     bits = (bits ^ (bits >> np.uint64(29))) * _HASH_MULTIPLIERS
     hashes = (bits ^ (bits >> np.uint64(32))).sum(axis=1, dtype=np.uint64)
     _, first, number = np.unique(hashes, return_index=True, return_inverse=True)
-    if not np.array_equal(points[first][number], points):  # two points of one number: slower, and never wrong
+    if not np.array_equal(points[first][number], points):  # hash collision: exact comparison, slower
         _, first, number = np.unique(points, axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces.reshape(-1, 3)]
     is_nondegenerate = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])

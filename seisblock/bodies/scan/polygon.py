@@ -1,4 +1,4 @@
-"""Convex polygons in the plane: the hull of points, how far it reaches in a direction, and what is left within worn edges."""
+"""Convex polygons in the plane: hull, support function, offset and width."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray
 
 CHUNK_SIZE = 2**13
-"""Points that are looked at at a time."""
+"""Points per chunk."""
 
 PREFILTER_POINTS, PREFILTER_DIRECTIONS = 5000, 64
-"""Of more points than the first, those that lie inside the hull of the furthest in so many directions are left out at once."""
+"""Number of points from which interior points are filtered first, and number of filter directions."""
 
 COLLINEAR_TOLERANCE = 1e-6
-"""Share of a polygon's size by which a corner of it stands out from the line between its neighbours at least."""
+"""Smallest distance of a corner from the line between its neighbours, a share of the polygon's size."""
 
 
 def convex_hull(points: ArrayLike) -> FloatArray:
-    """Return the corners of the convex hull of some points, (n, 2), m, counter-clockwise; two points where it has no inside.
+    """Return the corners of the convex hull, (n, 2), m, counter-clockwise; two points where it is degenerate.
 
-    Corners that stand out by less than a millionth of its size are left out.
+    Corners within a millionth of the polygon's size of the line between their neighbours are dropped.
 
     Parameters
     ----------
@@ -40,20 +40,20 @@ def convex_hull(points: ArrayLike) -> FloatArray:
         points_array = np.concatenate([extreme_points, _points_outside(points_array, extreme_points)])
     try:
         corners = points_array[ConvexHull(points_array).vertices]
-    except QhullError:  # all on a line, or too few
+    except QhullError:  # collinear or too few points
         return points_array[:2]
     return _drop_collinear(corners)
 
 
 def _drop_collinear(corners: FloatArray) -> FloatArray:
-    """Return a polygon without the corners that hardly stand out from the line between their neighbours."""
+    """Return a polygon without nearly collinear corners."""
     min_height = COLLINEAR_TOLERANCE * float(np.ptp(corners, axis=0).max())
     while len(corners) > 3:
         previous_corners, next_corners = np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0)
         chord, arm = next_corners - previous_corners, corners - previous_corners
         height = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0]) / np.linalg.norm(chord, axis=1)
         flat = height < min_height
-        # of two neighbours one at a time: those with an even number first
+        # never drop two neighbours at once: even indices first
         even_flat = flat & (np.arange(len(corners)) % 2 == 0)
         flat = even_flat if even_flat.any() else flat
         if not flat.any() or len(corners) - int(flat.sum()) < 3:
@@ -63,7 +63,7 @@ def _drop_collinear(corners: FloatArray) -> FloatArray:
 
 
 def _extreme_points(points: FloatArray, directions: int) -> IntArray:
-    """Return which points reach furthest in directions all around, counter-clockwise, each once."""
+    """Return the indices of the extreme points in directions all around, counter-clockwise, without duplicates."""
     turn = 2.0 * math.pi / directions * np.arange(directions)
     unit_vectors = np.stack([np.cos(turn), np.sin(turn)])
     best, indices = np.full(directions, -np.inf), np.zeros(directions, dtype=np.int64)
@@ -76,7 +76,7 @@ def _extreme_points(points: FloatArray, directions: int) -> IntArray:
 
 
 def _points_outside(points: FloatArray, corners: FloatArray) -> FloatArray:
-    """Return the points outside a polygon of some of them: no other but its own is a corner of their hull."""
+    """Return the points outside a polygon of hull candidates: only these can be further hull corners."""
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.stack([edges[:, 1], -edges[:, 0]])
     limits = np.einsum("ij,ji->i", corners, normals)
@@ -85,7 +85,7 @@ def _points_outside(points: FloatArray, corners: FloatArray) -> FloatArray:
 
 
 def support_distance(polygon: FloatArray, direction: ArrayLike) -> float:
-    """Return how far a polygon reaches from the origin in a direction, a unit vector, m.
+    """Return the support function of a polygon for a unit direction, m.
 
     Examples
     --------
@@ -96,10 +96,10 @@ def support_distance(polygon: FloatArray, direction: ArrayLike) -> float:
 
 
 def offset_polygon(polygon: FloatArray, distance: float) -> FloatArray:
-    """Return what is left of a convex polygon when each of its sides moves inwards, (k, 2), m; nothing, (0, 2), where none is.
+    """Return a convex polygon with each side moved inwards, (k, 2), m; (0, 2) where nothing is left.
 
-    What is left is the set of points that lie at least so far from each side: the polygon cut by each side's line, moved by its normal
-    (derived here). A corner of angle phi moves by more than its sides do, by/sin(phi/2) (derived here).
+    The result is the set of points at least `distance` from each side: the polygon clipped by each side's line, shifted along its normal
+    (derived here). A corner of angle phi moves by distance/sin(phi/2), more than its sides (derived here).
 
     Parameters
     ----------
@@ -128,17 +128,17 @@ def offset_polygon(polygon: FloatArray, distance: float) -> FloatArray:
 
 
 def _clip_half_plane(polygon: FloatArray, excess: FloatArray) -> FloatArray:
-    """Return the part of a polygon on one side of a line, from how far each corner lies beyond it."""
+    """Clip a polygon by a half plane, from the excess of each corner beyond the line."""
     next_corners, next_excess = np.roll(polygon, -1, axis=0), np.roll(excess, -1)
     is_crossing = (excess > 0.0) != (next_excess > 0.0)
     share = np.where(is_crossing, excess / np.where(is_crossing, excess - next_excess, 1.0), 0.0)
-    # each corner that stays, and behind it where its side crosses the line
+    # keep inside corners; after each, add the intersection of its side with the line
     candidates = np.stack([polygon, polygon + share[:, None] * (next_corners - polygon)], axis=1).reshape(-1, 2)
     return candidates[np.column_stack([excess <= 0.0, is_crossing]).ravel()]
 
 
 def interior_distance(polygon: FloatArray, point: ArrayLike) -> float:
-    """Return how far a point lies inside a convex polygon from its nearest side, m; negative outside, -inf where there is no inside.
+    """Return the distance of a point inside a convex polygon to its nearest side, m; negative outside.
 
     Examples
     --------
@@ -153,7 +153,7 @@ def interior_distance(polygon: FloatArray, point: ArrayLike) -> float:
 
 
 def nearest_edge(polygon: FloatArray, point: ArrayLike) -> tuple[float, float]:
-    """Return how far a point lies inside a convex polygon from its nearest side, m, and the direction in which that looks, rad from x.
+    """Return the distance to the nearest side, m, and the direction of that side's normal, rad from x.
 
     Examples
     --------
@@ -168,7 +168,7 @@ def nearest_edge(polygon: FloatArray, point: ArrayLike) -> tuple[float, float]:
 
 
 def min_width(polygon: FloatArray) -> float:
-    """Return the least distance between two parallel lines that hold a convex polygon between them, m: one of them lies along a side.
+    """Return the smallest width of a convex polygon, m: the distance of parallel lines, one along a side.
 
     Examples
     --------

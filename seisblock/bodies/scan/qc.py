@@ -1,4 +1,4 @@
-"""What a careful reader of a scan notices before he believes it."""
+"""Quality checks of a scan."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import Message, lazy_gettext
 
 MIN_EXTENT, MAX_EXTENT = 0.02, 20.0
-"""Extents, m, beyond which no object is shaken that anybody asks about: the unit was another."""
+"""Range of plausible extents, m; outside it the unit is probably wrong."""
 
 MAX_UNREPORTED_TILT = math.radians(0.5)
-"""A turn beyond which a scan was not level."""
+"""Largest levelling rotation that is not reported, rad."""
 
 SLENDERNESS_TOLERANCE = 0.1
-"""Change of the least alpha, as a share, by half or twice the tolerance, from which on the base is a matter of taste."""
+"""Relative change of the smallest alpha, by half or twice the tolerance, that is reported."""
 
 
 def scan_qc_messages(scan: Scan) -> Iterator[Message]:
-    """Yield what is doubtful about a scan, in sentences.
+    """Yield the quality warnings of a scan.
 
     Examples
     --------
@@ -31,18 +31,18 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
     largest = max(scan.size)
     if not MIN_EXTENT <= largest <= MAX_EXTENT:
         yield lazy_gettext(
-            "{name} measures {size:.3g} m, read as {unit}: files of meshes do not say their unit; give the right one",
+            "{name} measures {size:.3g} m, read in {unit}: mesh files do not state their unit; check the unit",
             name=scan.body.name,
             size=largest,
             unit=scan.unit,
         )
     if scan.tilt > MAX_UNREPORTED_TILT:
         yield lazy_gettext(
-            "{name} was turned by {tilt:.2g} degrees so that it rests on level ground", name=scan.body.name, tilt=math.degrees(scan.tilt)
+            "{name} was turned by {tilt:.2g} degrees to rest on level ground", name=scan.body.name, tilt=math.degrees(scan.tilt)
         )
     if scan.pieces > 1:
         yield lazy_gettext(
-            "{name} has {count} surfaces that do not touch each other: all of them move as one body",
+            "{name} has {count} separate surfaces: they move as one body",
             name=scan.body.name,
             count=scan.pieces,
         )
@@ -54,8 +54,8 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
         abs(alpha / sharp_slenderness - 1.0) > SLENDERNESS_TOLERANCE for alpha in tolerance_slendernesses
     ):
         yield lazy_gettext(
-            "{name}: which points carry depends on the tolerance: the least alpha in degrees is {alpha:.3g}, with half of it {nearer}, "
-            "with twice as much {wider}",
+            "{name}: the support polygon depends on the tolerance: smallest alpha {alpha:.3g} degrees, {nearer} with half the "
+            "tolerance, {wider} with twice",
             name=scan.body.name,
             alpha=math.degrees(sharp_slenderness),
             nearer=_format_degrees(scan.slenderness_half_tolerance),
@@ -63,11 +63,11 @@ def scan_qc_messages(scan: Scan) -> Iterator[Message]:
         )
     if not scan.body.inset_m:
         yield lazy_gettext(
-            "sharp edges are the unsafe end: scans of two granite rocks gave angles 1.4 to 2.5 times those that explain their falls on a "
-            "shaking table; give an inset, or find it with fit from what fell and what stood"
+            "sharp edges are unconservative: scans of two granite rocks gave angles 1.4 to 2.5 times those that explain their "
+            "overturning on a shaking table; give an inset, or estimate it with fit from observed overturning"
         )
 
 
 def _format_degrees(alpha: float) -> str:
-    """Return an angle, or that there is none."""
-    return lazy_gettext("none, as it falls") if math.isnan(alpha) else f"{math.degrees(alpha):.3g}"
+    """Return an angle as text, or "none"."""
+    return lazy_gettext("none (overturns)") if math.isnan(alpha) else f"{math.degrees(alpha):.3g}"

@@ -1,4 +1,4 @@
-"""How a scanned body rests: the plane that carries it, and the polygon of the points that touch it."""
+"""Resting pose of a scanned body: support plane and support polygon."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from seisblock.core.errors import BodyError
 from seisblock.core.typing import FloatArray
 
 MAX_TILT = math.radians(10.0)
-"""A scan that would have to be turned further than this, so that it rests, does not stand as it was given."""
+"""Largest levelling rotation of a scan, rad."""
 
 MAX_ITERATIONS = 60
-"""Planes that are tried at most; each meets the points better than the one before."""
+"""Largest number of trial planes; each improves on the one before."""
 
 PLANE_TOLERANCE = 1e-9
-"""Share of a body's size below which a point lies on a plane."""
+"""Largest distance of a point on a plane, a share of the body's size."""
 
 
 @dataclass(frozen=True, eq=False)
 class RestingPose:
-    """A body on level ground.
+    """Body on level ground.
 
     Parameters
     ----------
     rotation : (3, 3) array
-        What turned the scan so that it rests.
+        Rotation that levels the scan.
     tilt : float, rad
-        By how much.
+        Angle of the rotation.
     ground_height : float, m
-        Height of the ground, along the scan's z after the turn.
+        Height of the ground, along the scan's z after the rotation.
     base : (n, 2) array, m
-        The corners that carry, counter-clockwise.
+        Corners of the support polygon, counter-clockwise.
     touching : int
         Vertices within the tolerance of the ground.
     """
@@ -47,10 +47,10 @@ class RestingPose:
 
 
 def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: float, source: str) -> RestingPose:
-    """Return how a body rests on level ground, near the position in which it was scanned.
+    """Return the resting pose of a body on level ground nearest to its scanned position.
 
-    It rests on the plane below all of its points that meets the vertical through its centre of gravity highest: the side of its convex
-    hull below the centre (derived here). What carries are the points within a tolerance of that plane.
+    The support plane is the plane below all points whose intersection with the vertical through the centre of gravity is highest: the
+    face of the convex hull below the centre (derived here). The support points are those within the tolerance of that plane.
 
     Parameters
     ----------
@@ -59,14 +59,14 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
     centre : (3,) array, m
         Centre of gravity.
     tolerance : float, m
-        How far above the ground a point may lie that still carries.
+        Largest height above the ground of a support point.
     source : str
-        For messages.
+        Name for messages.
 
     Raises
     ------
     BodyError
-        If it rests on a point or on an edge, or its centre of gravity does not lie above what carries it.
+        If the body rests on a point or an edge, or its centre of gravity does not lie above its support polygon.
 
     Examples
     --------
@@ -82,8 +82,8 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
     base = convex_hull((vertices[in_contact] @ turn.T)[:, :2])
     if not interior_distance(base, (turn @ centre)[:2]) > 0.0:
         raise BodyError(
-            "{source} rests on a point or an edge: its {count} points within {tolerance:.3g} m of the ground do not lie around its centre "
-            "of gravity; turn it (`up`), widen `tolerance`, or cut its base level",
+            "{source} has no stable base: its {count} points within {tolerance:.3g} m of the ground do not surround the centre of "
+            "gravity; change `up`, increase `tolerance`, or cut the base level",
             source=source,
             count=int(in_contact.sum()),
             tolerance=tolerance,
@@ -92,10 +92,10 @@ def find_resting_pose(vertices: FloatArray, centre: FloatArray, *, tolerance: fl
 
 
 def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArray:
-    """Return the slopes along x and y of the plane on which a body rests, within what it may be turned.
+    """Return the slopes along x and y of the support plane, within the largest rotation.
 
-    A plane t + p x + q y below every point, highest at the centre: a linear programme with as many conditions as there are points, of
-    which few matter; those that the last plane breaks are added until none is.
+    The plane t + p x + q y below all points, highest at the centre, solves a linear programme with one constraint per point, few of which
+    are active: constraints violated by the last plane are added until none is (constraint generation).
     """
     from scipy.optimize import linprog
 
@@ -119,7 +119,7 @@ def _support_plane_slopes(vertices: FloatArray, centre: FloatArray) -> FloatArra
 
 
 def _levelling_rotation(slopes: FloatArray) -> tuple[FloatArray, float]:
-    """Return the least turn that makes a plane of these slopes level, and its angle, rad."""
+    """Return the smallest rotation that levels a plane of these slopes, and its angle, rad."""
     normal_vector = np.array([-slopes[0], -slopes[1], 1.0])
     normal = normal_vector / np.linalg.norm(normal_vector)
     tilt = math.atan2(math.hypot(normal[0], normal[1]), normal[2])

@@ -1,4 +1,4 @@
-"""From a scanner's file to the body that stands there."""
+"""Scanned body from a mesh file."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from seisblock.core import checks
 from seisblock.core.errors import BodyError
 
 DEFAULT_TOLERANCE_SHARE = 0.002
-"""How far above the ground a point may lie that carries, a share of the body's largest extent: what scanners leave of a plane."""
+"""Default support tolerance, a share of the body's largest extent: typical roughness of a scanned plane."""
 
 
 ROUND_OFF_SHARE = 1e-12
-"""A product of inertia below this share of the trace is what sums over triangles leave of zero."""
+"""Products of inertia below this share of the trace are round-off."""
 
 
 @dataclass(frozen=True)
 class Scan:
-    """A body from a scan, and what the scan was like.
+    """Scanned body with the properties of its scan.
 
     Parameters
     ----------
@@ -36,20 +36,20 @@ class Scan:
     volume : float, m^3
     density : float, kg/m^3
     tolerance : float, m
-        How far above the ground a point may lie that carries.
+        Largest height above the ground of a support point.
     tilt : float, rad
-        By how much the scan was turned so that it rests.
+        Angle of the levelling rotation.
     triangles, touching, pieces : int
-        Triangles, vertices that touch the ground, surfaces that do not touch each other.
+        Numbers of triangles, support points and connected surfaces.
     size : three floats, m
         Extents along x, y and z.
     outline : pairs of floats, m
-        x and y of the corners of its convex hull seen from above.
+        Corners of the convex hull in plan.
     slenderness_half_tolerance, slenderness_double_tolerance : float, rad
-        The least alpha with half and with twice the tolerance; NaN where it would not stand.
+        Smallest alpha with half and with twice the tolerance; NaN where the body overturns.
     source, sha256 : str
     unit, up : str
-        As the file was read.
+        Unit and upward axis of the file.
     """
 
     body: ScannedBody
@@ -81,42 +81,42 @@ def scan_body(
     facing: float = EAST,
     body_name: str | None = None,
 ) -> Scan:
-    """Return the body of a scan: mass, centre and inertia of what its surface encloses, on the polygon of the points that carry it.
+    """Return the body of a scan: mass properties of the enclosed solid and support polygon.
 
     Parameters
     ----------
     name : path
-        An STL, PLY or OBJ file, or a bundled one: a closed surface of triangles.
+        STL, PLY or OBJ file, or a bundled one: a closed triangle mesh.
     density : float, kg/m^3
-        The motion does not depend on it.
-    inset : Inset or float
-        How far in from each side of the base it turns: a length, or a share of the base's least width.
+        Without effect on the motion.
+    inset : EdgeWear or float
+        Distance of the worn edges from each side of the base: a length, or a share of the smallest base width.
     tolerance : float, m
-        How far above the ground a point may lie that carries; 0.002 of the largest extent when left out.
+        Largest height above the ground of a support point; default 0.002 of the largest extent.
     unit : str
-        Of the file's numbers, m, cm, mm, in, ft ...
+        Unit of the file's coordinates: m, cm, mm, in, ft ...
     up : str
         The file's axis that points upwards: x, y, z, -x, -y or -z.
     facing : float, degrees
         Azimuth of +x, clockwise from north.
     body_name : str, optional
-        Name of the body; that of the file when left out.
+        Name of the body, default the file name.
 
     Returns
     -------
-    Scanned
+    Scan
 
     Raises
     ------
     BodyError
-        If the file is no mesh, its surface is not closed, or what it encloses does not stand.
+        If the file is not a mesh, the surface is not closed, or the body has no stable pose.
     ParameterError
         If a number lies outside its range.
 
     Examples
     --------
-    >>> found = scan_body("boulder.ply")
-    >>> round(found.body.mass), round(found.body.towards(0.0).slenderness, 2)
+    >>> scan = scan_body("boulder.ply")
+    >>> round(scan.body.mass), round(scan.body.block_toward(0.0).slenderness, 2)
     (310, 0.22)
     """
     checks.positive("the density", density, "kg/m^3", error=BodyError)
@@ -131,7 +131,7 @@ def scan_body(
     mass = density * properties.volume
 
     def body_at_tolerance(tolerance_m: float, wear: EdgeWear) -> tuple[ScannedBody, float, int]:
-        """Return the body on the points within a tolerance, by how much it was turned, and how many points they are."""
+        """Return the body for a tolerance, its levelling rotation and its number of support points."""
         pose = find_resting_pose(mesh.vertices, properties.centre, tolerance=tolerance_m, source=mesh.source)
         centre = pose.rotation @ properties.centre
         tensor = mass * pose.rotation @ properties.gyration @ pose.rotation.T
@@ -151,13 +151,13 @@ def scan_body(
         return body, pose.tilt, pose.touching
 
     def slenderness_at_tolerance(tolerance_m: float) -> float:
-        """Return the least alpha with another tolerance."""
+        """Return the smallest alpha for another tolerance."""
         try:
             return min_slenderness(body_at_tolerance(tolerance_m, SHARP_EDGES)[0])[0]
         except BodyError:
             return math.nan
 
-    body, tilt, touching = body_at_tolerance(contact_tolerance, inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
+    body, tilt, support_points = body_at_tolerance(contact_tolerance, inset if isinstance(inset, EdgeWear) else EdgeWear(share=inset))
     return Scan(
         body,
         properties.volume,
@@ -165,7 +165,7 @@ def scan_body(
         contact_tolerance,
         tilt,
         len(mesh.faces),
-        touching,
+        support_points,
         properties.pieces,
         (float(size[0]), float(size[1]), float(size[2])),
         tuple((x, y) for x, y in convex_hull(mesh.vertices[:, :2]).tolist()),

@@ -1,4 +1,4 @@
-"""A scanned body as TOML: what ``kind = "scan"`` holds, read and written."""
+"""TOML files of scanned bodies (``kind = "scan"``), read and written."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from seisblock.core.limits import check_limit
 
 KEYS = ("name", "mass", "height", "centre", "inertia", "base", "inset", "facing", "scan")
 OPTIONAL_KEYS = ("mu", "mu_kinetic", "restitution")
-"""What may be said beside, as of a block."""
+"""Optional keys, as of a block."""
 
 
 def scan_from_table(table: Mapping[str, Any]) -> ScannedBody:
-    """Return the body that a TOML table describes; see :func:`load_scan`.
+    """Return the body described by a TOML table, see :func:`load_scan`.
 
     Examples
     --------
@@ -65,7 +65,7 @@ def scan_from_table(table: Mapping[str, Any]) -> ScannedBody:
 
 
 def load_scan(name: str | Path) -> ScannedBody:
-    """Return the scanned body of a TOML file, or a bundled one, as ``seisblock body`` writes it.
+    """Return the scanned body of a TOML file or a bundled one, as written by ``seisblock body``.
 
     Parameters
     ----------
@@ -75,19 +75,19 @@ def load_scan(name: str | Path) -> ScannedBody:
     Raises
     ------
     BodyError
-        If there is no such body, something is missing or wrong, or it is of another kind.
+        If there is no such body, an entry is missing or invalid, or the kind is another.
 
     Examples
     --------
     >>> body = load_scan("boulder")
-    >>> round(body.towards(90.0).slenderness, 2), round(body.with_wear(0.1).towards(90.0).slenderness, 2)
+    >>> round(body.block_toward(90.0).slenderness, 2), round(body.with_wear(0.1).block_toward(90.0).slenderness, 2)
     (0.26, 0.22)
     """
     return scan_from_table(read_body_toml(name))
 
 
 def scan_to_toml(scan: Scan) -> str:
-    """Return the TOML of a scan; every number keeps all of its digits.
+    """Return the TOML text of a scan, with all digits.
 
     Examples
     --------
@@ -123,17 +123,16 @@ def scan_to_toml(scan: Scan) -> str:
 
 
 def _toml_string(string: str) -> str:
-    """Return a text as TOML has it: as JSON does, whose escapes are among TOML's."""
+    """Return a text as a TOML string (JSON escapes are valid TOML)."""
     return json.dumps(string, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _toml_rows(rows: Iterable[Iterable[float]]) -> str:
-    """Return rows of numbers, one on each line."""
+    """Return rows of numbers as TOML, one per line."""
     return "[\n" + "".join(f"    {list(row)!r},\n" for row in rows) + "]"
 
 
 def _parse_rows(table: Mapping[str, Any], key: str, count: int) -> tuple[tuple[float, ...], ...]:
-    """Return a required list of rows of numbers."""
     value = table.get(key)
     if not isinstance(value, list):
         raise BodyError(
@@ -147,10 +146,9 @@ def _parse_rows(table: Mapping[str, Any], key: str, count: int) -> tuple[tuple[f
 
 
 def _parse_row(value: Any, table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
-    """Return so many numbers."""
     if not isinstance(value, list) or len(value) != count:
         raise BodyError(
-            "{source}: expected {count} numbers in {key}, found {found}",
+            "{source}: {key} must have {count} numbers, found {found}",
             source=source_name(table),
             key=key,
             count=count,

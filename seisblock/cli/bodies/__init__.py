@@ -1,1 +1,1 @@
-"""Which body the user means: options and what they build."""
+"""Command-line options of bodies and the bodies built from them."""

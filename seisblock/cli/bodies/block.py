@@ -1,4 +1,4 @@
-"""Which body the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+"""Body from command-line options: sizes, TOML file or bundled name."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ from seisblock.report.describe_wear import describe_edges
 
 @dataclass(frozen=True)
 class BodyChoice:
-    """A body, which may be another block in each direction."""
+    """Body selected by options: a block, or a scan whose block depends on the azimuth."""
 
     body: Block | ScannedBody
 
     @property
     def block(self) -> Block:
-        """The block, where it is the same one in each direction."""
+        """The block; an error for a scan, whose block depends on the azimuth."""
         if isinstance(self.body, ScannedBody):
-            raise BodyError("{name} is a scan, which is another block in each direction: say towards which azimuth", name=self.body.name)
+            raise BodyError("{name} is a scan, whose dimensions depend on the azimuth: give the azimuth", name=self.body.name)
         return self.body
 
     def towards(self, azimuth: float) -> Block:
-        """Return the block that a scan is towards an azimuth, degrees clockwise from north."""
+        """Return the block of a scan for an azimuth, degrees clockwise from north."""
         if not isinstance(self.body, ScannedBody):
-            raise BodyError("{name} is the same block in each direction: leave the azimuth out", name=lazy_gettext(self.body.name))
+            raise BodyError("{name} has the same dimensions in all azimuths: omit the azimuth", name=lazy_gettext(self.body.name))
         return self.body.block_toward(azimuth)
 
     def block_for_motion(self, motion: Motion) -> Block:
-        """Return the block that follows a motion: of a scan that towards its azimuth."""
+        """Return the block for a motion; for a scan, the block of the motion's azimuth."""
         return self.body.block_for_motion(motion) if isinstance(self.body, ScannedBody) else self.body
 
     def block_key(self, block: Block) -> dict[str, Any]:
-        """Return what is told beside an answer of the block that it is of, nothing where all answers are of one."""
+        """Return the JSON entry of the block of a scan, empty for other bodies."""
         from seisblock.report.json.bodies import block_entry
 
         return {"block": block_entry(block)} if isinstance(self.body, ScannedBody) else {}
@@ -49,32 +49,35 @@ class BodyChoice:
 
 @dataclass(frozen=True)
 class BlockChoice(BodyChoice):
-    """A body, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
+    """Body with the restitution from its file (None: from angular momentum) and a one-line description."""
 
     restitution: float | None
     description: str
 
 
 def choose_block(params: Mapping[str, Any]) -> BlockChoice:
-    """Return the body that a set of options describes.
+    """Return the body described by a set of options.
 
     Parameters
     ----------
     params : mapping
         ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI, and ``kind``; ``restitution`` and ``inset``
-        override what a file brings along. None where not given. ``gal``: False where lengths are told in m.
+        override those of a file. None where not given. ``gal``: False for lengths in m in the description.
 
     Raises
     ------
     BodyError
-        If sizes and a named block are mixed, or something needed is missing.
+        If both sizes and a named block are given, or a required value is missing.
     """
     keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
     sizes = {key: params[key] for key in keys if params.get(key) is not None}
     restitution = params.get("restitution")
     if params.get("block"):
         if sizes:
-            raise BodyError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+            raise BodyError(
+                "--block and sizes ({sizes}) exclude each other: give only one of them",
+                sizes=["--" + key.replace("_", "-") for key in sizes],
+            )
         refuse_kind(params)
         table = read_body_toml(params["block"])
         if restitution is None:
@@ -87,7 +90,8 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
-                "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+                "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)",
+                missing=missing,
             )
         body = of_kind(Block(**sizes), params.get("kind") or "block")
         origin = lazy_gettext("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
@@ -100,13 +104,13 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
     )
 
 
-def refuse_kind(asked: Mapping[str, Any]) -> None:
-    """Refuse the kind of a body that comes from a file, which tells its own ranges."""
-    if asked.get("kind") is not None:
-        raise BodyError("--kind has no effect with --block: give it with --width and --height")
+def refuse_kind(params: Mapping[str, Any]) -> None:
+    """Raise an error for ``--kind`` with a body from a file, which has its own ranges."""
+    if params.get("kind") is not None:
+        raise BodyError("--kind has no effect with --block: use --kind with --width and --height")
 
 
 def check_side(params: Mapping[str, Any], kind: str | None) -> None:
-    """Refuse the side of a body that has but one."""
+    """Raise an error for ``--side`` unless the body is a two-layer block."""
     if params.get("side") is not None and kind != "two-layer":
-        raise BodyError("--side is of a two-layer --block: leave it out")
+        raise BodyError("--side has no effect: this body is not a two-layer --block; omit --side")

@@ -1,4 +1,4 @@
-"""The one body that options describe, as a list of bodies would hold it: what each solver of a batch takes of it is its own affair."""
+"""Body options converted to a :class:`~seisblock.bodies.table.BodySpec`, as in a table of bodies."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import lazy_gettext
 
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "kind")
-"""Options that describe a body which has no name."""
+"""Options that describe a body by its sizes."""
 
 OWN_OPTIONS = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
-"""Options of a body that one solver has and another has not; what is asked for goes before what the body's file says."""
+"""Body options that only some solvers have; they override the values of the body's file."""
 
 
 def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
-    """Return the one body that sizes or a name describe.
+    """Return the specification of one body given by sizes or by name.
 
     Parameters
     ----------
     params : mapping
-        ``block`` and ``side``, or sizes, SI, and what else is to hold of that body; None where not given.
+        ``block`` and ``side``, or sizes, SI, and further parameters of the body; None where not given.
     solver : str
-        ``slide`` needs neither.
+        ``slide`` requires neither.
 
     Raises
     ------
     ParameterError
-        If sizes and a named body are mixed, or something needed is missing.
+        If both sizes and a named body are given, or a required value is missing.
 
     Examples
     --------
@@ -46,7 +46,10 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     if params.get("block"):
         sizes = [key for key in values if key not in ("inset", "kind") and key in SIZES]
         if sizes:
-            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+            raise ParameterError(
+                "--block and sizes ({sizes}) exclude each other: give only one of them",
+                sizes=["--" + key.replace("_", "-") for key in sizes],
+            )
         refuse_kind(params)
         side = {} if params.get("side") is None else {"side": params["side"]}
         table = read_body_toml(params["block"])
@@ -58,7 +61,7 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     missing = [f"--{key}" for key in ("width", "height") if key not in values]
     if missing:
         raise ParameterError(
-            "which body? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+            "body required ({missing} missing): give --width and --height, or --block NAME|FILE (for example gravestone)", missing=missing
         )
     name = lazy_gettext("block {width:g} x {height:g} m", width=values["width"], height=values["height"])
     return BodySpec(name, values, None, lazy_gettext("the block"))

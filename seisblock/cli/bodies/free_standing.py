@@ -1,4 +1,4 @@
-"""A free-standing body and what it stands on: one rigid block with its friction, from options, a file or a bundled name."""
+"""Free-standing body and friction from options, a file or a bundled name."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from seisblock.core.i18n import lazy_gettext
 
 @dataclass(frozen=True)
 class FreeStandingChoice(BodyChoice):
-    """A body, its friction, and one line on where they come from."""
+    """Body with its friction and a one-line description."""
 
     mu: float
     mu_kinetic: float | None
@@ -29,14 +29,14 @@ class FreeStandingChoice(BodyChoice):
 
 
 _FRICTION = (
-    option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient, 1. [default: the body's own; else needed]"),
-    option("--mu-kinetic", type=MU, section="Body", metavar="MU", help="Kinetic friction coefficient, 1, at most --mu. [default: as --mu]"),
+    option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient. [default: the body's own; else required]"),
+    option("--mu-kinetic", type=MU, section="Body", metavar="MU", help="Kinetic friction coefficient, at most --mu. [default: as --mu]"),
     option(
         "--surface",
         section="Body",
         metavar="A/B",
         shell_complete=shell_completion.complete_surfaces,
-        help=f"Friction from a table of pairs, instead of --mu: {', '.join(SURFACES)}.",
+        help=f"Surface pair that gives the friction coefficient, instead of --mu: {', '.join(SURFACES)}.",
     ),
     option(
         "--restitution",
@@ -45,46 +45,46 @@ _FRICTION = (
         show_default=True,
         metavar="E",
         section="Body",
-        help="Restitution of impacts at a corner (Poisson's), a ratio of impulses, [0, 1).",
+        help="Coefficient of restitution of a corner impact (Poisson), ratio of impulses, [0, 1).",
     ),
     option(
         "--rocking-restitution",
         type=float,
         metavar="E",
         section="Body",
-        help="Angular velocity after over that before when the other corner comes down, [0, 1]. [default: from the impact itself]",
+        help="Ratio of angular velocities after and before the impact of the other corner, [0, 1]. [default: from the impact equations]",
     ),
     option(
         "--tenon",
         type=LENGTH,
         default=0.0,
         section="Body",
-        help="Depth of tenons that hold the feet until they have left them in flight, m or with a unit (2cm). [default: none]",
+        help="Depth of tenons, which hold the feet until they leave the holes in flight, m or with a unit (2cm). [default: none]",
     ),
 )
 
 
 def free_standing_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of a free-standing body; it receives them by name, for :func:`choose_free_standing`."""
+    """Add the options of a free-standing body to a command, for :func:`choose_free_standing`."""
     for declare in reversed(_FRICTION):
         function = declare(function)
     return block_options(function)
 
 
 def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:
-    """Return the body and its friction that a set of options describes; taken out of what is left for the solver.
+    """Return the body and the friction described by a set of options.
 
     Raises
     ------
     BodyError
-        If the body is not known, or nothing says how rough the ground is.
+        If the body is unknown, or no friction coefficient is given.
     """
     choice = choose_block({**params, "restitution": None})
     mu, kinetic, origin = params.get("mu"), params.get("mu_kinetic"), lazy_gettext("as given")
     body = choice.body
     if params.get("surface") is not None:
         if mu is not None:
-            raise BodyError("give either --mu or --surface, not both")
+            raise BodyError("--mu and --surface exclude each other: give only one of them")
         pair = surface(params["surface"])
         mu, kinetic = pair.mu, pair.mu_kinetic if kinetic is None else kinetic
         origin = lazy_gettext("{surface}, {source}", surface=params["surface"], source=pair.source.replace("_", ""))
@@ -97,7 +97,7 @@ def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:
         body = body.without_ranges("mu")
     if mu is None:
         raise BodyError(
-            "how rough is it under the body? Give --mu, the static friction coefficient, or --surface with a pair: {pairs}",
+            "friction required: give --mu (static coefficient) or --surface, one of {pairs}",
             pairs=list(SURFACES),
         )
     friction_text = (

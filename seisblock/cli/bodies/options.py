@@ -1,4 +1,4 @@
-"""The options that say which block is meant, for every command about one rigid block."""
+"""Options that describe one rigid block, shared by several commands."""
 
 from __future__ import annotations
 
@@ -17,10 +17,15 @@ _SIZES = (
 )
 
 _OPTIONAL_SIZES = (
-    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; only the mass depends on it."),
-    option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; the motion depends on it only with --inertia."),
+    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; affects only the mass."),
+    option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; affects the motion only with --inertia."),
     option("--centroid-height", type=LENGTH, section="Body", help="Height of the centre of gravity, m. [default: half the height]"),
-    option("--centroid-offset", type=LENGTH, section="Body", help="Its distance to +x from the middle of the base, m. [default: 0]"),
+    option(
+        "--centroid-offset",
+        type=LENGTH,
+        section="Body",
+        help="Offset of the centre of gravity to +x from the middle of the base, m. [default: 0]",
+    ),
     option(
         "--inertia",
         "centroid_inertia",
@@ -34,8 +39,8 @@ _OPTIONAL_SIZES = (
         type=INSET,
         metavar="SHARE|M",
         section="Body",
-        help="How far in from each side its worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). "
-        "[default: the body's own, 0.05 for gravestones, else 0]",
+        help="Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: the body's own, "
+        "0.05 for gravestones, else 0]",
     ),
     option(
         "--kind",
@@ -63,7 +68,7 @@ _OPTIONAL_SIZES = (
 
 
 def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--block`` of a two-layer block; one text says what it is there for."""
+    """Return ``--block`` for a two-layer block, with the given help text."""
     return option(
         "--block",
         "--body",
@@ -76,42 +81,41 @@ def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., 
 
 
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--side`` of a two-layer block, short unless another is asked for."""
+    """Return ``--side`` for a two-layer block, default short."""
     return option("--side", type=SuggestingChoice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
 
 
 def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--landing`` of a two-layer block, the paper's unless friction's is asked for."""
+    """Return ``--landing`` for a two-layer block, default paper."""
     return option("--landing", type=SuggestingChoice(["paper", "friction"]), default="paper", show_default=True, help=text)
 
 
 def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of one rigid block; it receives them by name, for ``choose_block``."""
+    """Add the options of one rigid block to a command, for ``choose_block``."""
     for declare in reversed((*_SIZES, *_OPTIONAL_SIZES)):
         function = declare(function)
     return function
 
 
 def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth``."""
+    """Add ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth`` to a command."""
     for declare in reversed(
         (
             option(
                 "--restitution",
                 type=float,
                 metavar="E",
-                help="Angular velocity after an impact over that before, 0 to 1. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
+                help="Coefficient of restitution, ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
+                "sin^2(alpha), or the body's own]",
             ),
-            option("--linear", is_flag=True, help="The linearised equation of slender blocks. [default: the exact one]"),
-            option(
-                "--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]"
-            ),
+            option("--linear", is_flag=True, help="Use the linearised equation of slender blocks. [default: exact equation]"),
+            option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]"),
             option(
                 "--azimuth",
                 multiple=True,
                 metavar="DEG[,DEG...]",
                 section="Record",
-                help="Direction of +x, degrees clockwise from north; as --component DEG.",
+                help="Azimuth of +x, degrees clockwise from north; same as --component DEG.",
             ),
         )
     ):

@@ -1,4 +1,4 @@
-"""Which two-layer block the user means: a bundled one, a file, or sizes given one by one."""
+"""Two-layer block from command-line options: bundled name, TOML file or sizes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 @dataclass(frozen=True)
 class TwoLayerChoice:
-    """A block with its contact, and one line on where they come from."""
+    """Two-layer block with its contact and a one-line description."""
 
     block: TwoLayerBlock
     contact: Contact
@@ -24,25 +24,27 @@ class TwoLayerChoice:
 
 
 def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
-    """Return the block and contact that a set of options describes.
+    """Return the two-layer block and the contact described by a set of options.
 
     Parameters
     ----------
     params : mapping
         ``block``, ``side``, or ``width``, ``depth``, ``heights``, ``masses``; and ``mu``, ``mu_kinetic``, ``restitution_x``,
-        ``restitution_y``, which override those that a preset brings along. SI; None where not given.
+        ``restitution_y``, which override those of a preset. SI; None where not given.
     default : str
         Bundled body taken when neither a block nor sizes are given.
 
     Raises
     ------
     BodyError
-        If sizes and a named block are mixed, or something needed is missing.
+        If both sizes and a named block are given, or a required value is missing.
     """
     sizes = {key: params.get(key) for key in ("width", "heights", "masses")}
     given_sizes = [key for key, value in sizes.items() if value is not None]
     if given_sizes and params.get("block"):
-        raise BodyError("give either --block or sizes ({given}), not both", given=[f"--{name}" for name in given_sizes])
+        raise BodyError(
+            "--block and sizes ({given}) exclude each other: give only one of them", given=[f"--{name}" for name in given_sizes]
+        )
     preset: Mapping[str, float] = {}
     if given_sizes:
         block = _from_sizes(params, sizes)
@@ -51,13 +53,13 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
         name = params.get("block") or default
         table = read_body_toml(name)
         block, preset = two_layer_from_table(table, params.get("side") or "short"), contact_from_table(table)
-        origin = lazy_gettext("from {file}", file=name) if params.get("block") else lazy_gettext("from {file} (the default)", file=name)
+        origin = lazy_gettext("from {file}", file=name) if params.get("block") else lazy_gettext("from {file} (default)", file=name)
     values = {**preset, **{key: params[key] for key in _CONTACT if params.get(key) is not None}}
     if "mu" not in values:
-        raise BodyError("{name} brings no friction of its own: give --mu", name=block.name)
+        raise BodyError("friction required: {name} defines none; give --mu", name=block.name)
     layer_contact = Contact(**values)
     values_text = lazy_gettext(
-        "mu {mu:g}, mu kinetic {kinetic:g}, restitution x {x:g}, restitution y {y:g}",
+        "mu {mu:g}, kinetic {kinetic:g}, restitution x {x:g}, y {y:g}",
         mu=layer_contact.mu,
         kinetic=layer_contact.kinetic,
         x=layer_contact.restitution_x,
@@ -67,12 +69,11 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
 
 
 def _from_sizes(params: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
-    """Return a block from sizes given one by one."""
     missing = [f"--{key}" for key, value in sizes.items() if value is None]
     if missing:
-        raise BodyError("a block given by its sizes also needs {missing}", missing=missing)
+        raise BodyError("a two-layer block given by its sizes requires also {missing}", missing=missing)
     for key in ("heights", "masses"):
         if len(sizes[key]) != 2:
-            raise BodyError("--{key} takes two values, upper and lower layer, found {count}", key=key, count=len(sizes[key]))
+            raise BodyError("--{key} requires two values, upper and lower layer; found {count}", key=key, count=len(sizes[key]))
     width, depth = sizes["width"], params.get("depth")
     return TwoLayerBlock(width, width if depth is None else depth, *sizes["heights"], *sizes["masses"])
