@@ -99,7 +99,10 @@ def test_a_body_is_needed(name):
 @pytest.mark.parametrize(
     ("call", "says"),
     [
-        (lambda: sb.response_spectrum(MOTION, 0.01), "expected an array of accelerations, found Motion: pass motion.horizontal and motion.dt"),
+        (
+            lambda: sb.response_spectrum(MOTION, 0.01),
+            "expected an array of accelerations, found Motion: pass motion.horizontal and motion.dt",
+        ),
         (lambda: sb.response_spectrum(MOTION.horizontal, 0.0), "the sampling interval must be positive, found 0 s"),
         (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "`damping` must be one of modal, dashpots, found 'modl'"),
         (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers with 0 <= fallen <= stones, .* found 3.5/10"),
@@ -127,7 +130,10 @@ def test_a_body_is_needed(name):
         (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be an integer of at least 1, found 2.5"),
         (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be an integer of at least 1, found True"),
         (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be an integer"),
-        (lambda: sb.solve_stack(PILE, MOTION, points=2.5), "the number of points along each side of a joint must be an integer of at least 2"),
+        (
+            lambda: sb.solve_stack(PILE, MOTION, points=2.5),
+            "the number of points along each side of a joint must be an integer of at least 2",
+        ),
         (lambda: sb.uplift_thresholds(SPRINGS, "a"), "`frequency_ratio` must be numbers, found 'a'"),
         (lambda: sb.mode_map([0.3], None, [0.2], MOTION), "sizes and slendernesses must be numbers, found None"),
         (lambda: sb.rocking_spectrum(["a"], [0.2], MOTION), "sizes and slendernesses must be numbers, found \\['a'\\]"),

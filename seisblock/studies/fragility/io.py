@@ -70,9 +70,7 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
     try:
         curves = tuple(_curve_from_entry(entry) for entry in document["results"] if entry["median"] is not None)
     except (KeyError, TypeError, InputError) as error:
-        raise ParameterError(
-            "{name} is a damaged fragility document; create it again with seisblock fragility", name=name
-        ) from error
+        raise ParameterError("{name} is a damaged fragility document; create it again with seisblock fragility", name=name) from error
     if not curves:
         raise ParameterError("{name} contains no fragility curve (all fits failed)", name=name)
     return curves
