@@ -51,6 +51,6 @@ def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[
     def draw() -> Figure:
         from seisblock.report.figures.azimuths import figure
 
-        return figure(responses, [extra["azimuths"] for extra in extras], gal=gal)
+        return figure(responses, [extra["directions"] for extra in extras], gal=gal)
 
     return draw

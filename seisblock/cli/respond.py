@@ -91,7 +91,7 @@ def respond(
                     block.without_ranges(*replaced), motion, versions=ParameterVariation(**widths), progress=advance, **study_options
                 )
         if directions:
-            extra["azimuths"] = directions
+            extra["directions"] = directions
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras),

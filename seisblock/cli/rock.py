@@ -114,7 +114,7 @@ def rock(
         responses.append(flag_near_flip(solve_rock(block, motion, **options)))
         extra: dict[str, Any] = {"agreement": compare_models(block, motion, **options), **choice.block_key(block)}
         if directions:
-            extra["azimuths"] = directions
+            extra["directions"] = directions
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
