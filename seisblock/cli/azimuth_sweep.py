@@ -45,7 +45,7 @@ def sweep_motions(source: Source, solve: Callable[[Record], Sequence[Any]]) -> I
 
 def azimuth_figure(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
     """Return a function that draws the azimuth sweep, None without a sweep."""
-    if not any("azimuths" in extra for extra in extras):
+    if not any("directions" in extra for extra in extras):
         return None
 
     def draw() -> Figure:
