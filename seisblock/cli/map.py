@@ -162,7 +162,7 @@ def map(  # noqa: A001 - the command's name
 
     def table(path: Path) -> None:
         from seisblock.report.io.atomic import write_table
-        from seisblock.studies.map.row import station_row
+        from seisblock.studies.map.station_row import station_row
 
         rows = [station_row(answer) for answer in stations.answers]
         write_table(path, list(rows[0]), (list(row.values()) for row in rows))

@@ -116,7 +116,6 @@ OLD_MODULES = [
     "budget",
     "siblings",
     "places",
-    "peaks",
     "called",
     "roster",
     "sheet",

@@ -23,7 +23,7 @@ from dlml._tabular import convert_to_MultiIndex, load_tabular
 from seisblock.bodies.block import Block
 from seisblock.core.errors import OutputError
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.report.exports.names import ascii_identifiers
+from seisblock.report.exports.identifiers import ascii_identifiers
 from seisblock.report.exports.openquake import NAMESPACE, imt_of, lognormal_moments, nrml, pool_adjacent_violators
 from seisblock.report.exports.pelicun import demand_of, pelicun_metadata, pelicun_rows
 from seisblock.studies.fragility.intensity import intensity_measure

@@ -12,7 +12,7 @@ from seisblock.studies.fit.cross_validation import calibration, score_prediction
 from seisblock.studies.fit.dataset import assign_folds, make_experiment, trim_zeros
 from seisblock.studies.fit.likelihood import log_likelihood, make_lapse_rate
 from seisblock.studies.fit.priors import DEFAULT_PRIORS, make_priors
-from seisblock.studies.fit.proposal import make_proposal
+from seisblock.studies.fit.proposal_distribution import make_proposal
 from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
 from tests.fit.conftest import KNOWN, TRUTH, pulse, shaken
 

@@ -44,7 +44,7 @@ from seisblock.report.figures import (
     fit,
     fragility,
     infer,
-    inputs,
+    input_panels,
     mode_map,
     risk,
     slide_study,
@@ -280,8 +280,8 @@ OF_THE_RECORD = dict(of_models()) | {
     "factors": (infer.factor_figure, lambda _: infer.factor_figure(factors())),
     "rock, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rock")], [every_azimuth("rock")])),
     "respond, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("respond")], [every_azimuth("respond")])),
-    "a record": (inputs.record_figure, lambda _: inputs.record_figure(record())),
-    "a motion": (inputs.motion_figure, lambda _: inputs.motion_figure(motion())),
+    "a record": (input_panels.record_figure, lambda _: input_panels.record_figure(record())),
+    "a motion": (input_panels.motion_figure, lambda _: input_panels.motion_figure(motion())),
 }
 """What is drawn of a record: by its name, the function and a call of it, given whether accelerations are in gal."""
 
@@ -316,10 +316,10 @@ OF_NO_RECORD = {
     "stations, their shaking": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(), gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
     "response spectrum": (
-        inputs.response_spectrum_figure,
-        lambda _: inputs.response_spectrum_figure(response_spectrum(motion().horizontal, DT)),
+        input_panels.response_spectrum_figure,
+        lambda _: input_panels.response_spectrum_figure(response_spectrum(motion().horizontal, DT)),
     ),
-    "rocking spectrum": (inputs.rocking_spectrum_figure, lambda _: inputs.rocking_spectrum_figure(spectra()[0][1])),
+    "rocking spectrum": (input_panels.rocking_spectrum_figure, lambda _: input_panels.rocking_spectrum_figure(spectra()[0][1])),
 }
 """What is drawn of a paper, a cemetery or of numbers alone."""
 

@@ -17,7 +17,7 @@ from seisblock.measures import measure
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
-from seisblock.report.text.agreement import agreement_line, rates_line
+from seisblock.report.text.model_comparison import agreement_line, rates_line
 from seisblock.studies.model_comparison import (
     GRAVESTONES,
     ISHIYAMA,

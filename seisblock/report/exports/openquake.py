@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 from seisblock import __version__
 from seisblock.core.errors import OutputError
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.report.exports.names import ascii_identifiers
+from seisblock.report.exports.identifiers import ascii_identifiers
 from seisblock.studies.fragility.estimate import CLOUD
 from seisblock.studies.fragility.intensity import ARIAS, PGA, PGD, PGV, SA, IntensityMeasure
 from seisblock.studies.fragility.lognormal import Lognormal

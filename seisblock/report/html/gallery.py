@@ -11,7 +11,7 @@ from typing import Any
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.references import REFERENCES
 from seisblock.report.figures.svg import Picture
-from seisblock.report.html.formulas import typeset_formulas
+from seisblock.report.html.unicode_math import typeset_formulas
 from seisblock.report.templating import render_page
 from seisblock.report.text.validate import KINDS, explanation, format_short, quantity_label, unit_label, verdict_counts_text
 from seisblock.validation.case import EVIDENCE_KINDS, VERDICTS, CaseResult, count_verdicts, count_verdicts_by_kind, sort_by_verdict

@@ -71,17 +71,19 @@ def html(value: Any) -> str:
 def _figure(value: Any) -> Figure:
     if isinstance(value, Response):
         return response_figure([value])
-    from seisblock.report.figures import inputs
+    from seisblock.report.figures import input_panels
 
     if isinstance(value, Record):
-        return inputs.record_figure(value)
+        return input_panels.record_figure(value)
     if isinstance(value, Motion):
-        return inputs.motion_figure(value)
+        return input_panels.motion_figure(value)
     if isinstance(value, FragilityStudy):
         from seisblock.report.figures.fragility import figure
 
         return figure(value)
-    return inputs.response_spectrum_figure(value) if isinstance(value, ResponseSpectrum) else inputs.rocking_spectrum_figure(value)
+    return (
+        input_panels.response_spectrum_figure(value) if isinstance(value, ResponseSpectrum) else input_panels.rocking_spectrum_figure(value)
+    )
 
 
 def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:

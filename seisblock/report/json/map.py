@@ -11,8 +11,8 @@ from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.references import papers
 from seisblock.report.json.schema import Document, DocumentSchema, EarthquakeEntry, Result, earthquake_entry
 from seisblock.studies.map.earthquakes import ONE_DAY
-from seisblock.studies.map.row import station_row
 from seisblock.studies.map.station_response import StationBody, StationModel
+from seisblock.studies.map.station_row import station_row
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
 

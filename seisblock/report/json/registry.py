@@ -33,8 +33,8 @@ DOCUMENTS: dict[str, tuple[str, ...]] = {
     "risk": ("risk:RISK",),
     "fit": ("fit:FIT",),
     "validate": ("validate:VALIDATE",),
-    "cite": ("library:CITE",),
-    "samples": ("library:SAMPLES",),
+    "cite": ("citations:CITE",),
+    "samples": ("citations:SAMPLES",),
 }
 """Module and name of each document schema by command; text, so that listing needs no import."""
 

@@ -10,8 +10,8 @@ from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core.i18n import N_, format_percent, gettext
 from seisblock.records import Record
 from seisblock.report.io.history_csv import concat_tables
-from seisblock.report.text.agreement import rates_line
 from seisblock.report.text.measure import filter_range_text
+from seisblock.report.text.model_comparison import rates_line
 from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
 from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.survey.assessment import CemeteryRate

@@ -13,7 +13,7 @@ from seisblock.core.results import Response
 from seisblock.models.rock.outcome import RockOutcome, friction_suffices
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.directions import direction_label
-from seisblock.report.text.agreement import agreement_line, perturbation_lines
+from seisblock.report.text.model_comparison import agreement_line, perturbation_lines
 from seisblock.report.text.respond import direction_sentence, fall_azimuth
 from seisblock.report.text.tables import (
     acceleration_cell,

@@ -17,7 +17,7 @@ from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
 from seisblock.models.stack.solve import EDGE_POINTS, RIGID
 from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
-from seisblock.report.text.agreement import agreement_line
+from seisblock.report.text.model_comparison import agreement_line
 from seisblock.report.text.stone_falls import describe_falls
 from seisblock.report.text.tables import DASH, format_fixed, format_seconds, format_share_interval, group_answers, styled_line, table
 from seisblock.report.units_display import Unit, format_length, length_cell, length_unit

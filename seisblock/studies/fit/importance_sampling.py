@@ -16,7 +16,7 @@ from seisblock.core.typing import FloatArray, IntArray, Progress
 from seisblock.studies.fit.block_family import BlockFamily, quasi_random_points
 from seisblock.studies.fit.dataset import Experiment
 from seisblock.studies.fit.likelihood import LapseRate, log_likelihood, log_likelihoods_held_out
-from seisblock.studies.fit.proposal import Proposal, make_proposal
+from seisblock.studies.fit.proposal_distribution import Proposal, make_proposal
 from seisblock.studies.fit.simulate import SHARE_DENOMINATOR, outcome_shares
 
 INITIAL_BLOCKS = 64
