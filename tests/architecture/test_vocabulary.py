@@ -243,30 +243,66 @@ def test_user_texts_are_plain():
     assert len(phrases) <= 15, phrases
 
 
-POLITE_END = re.compile(r"(?:です|ます|ません|でした|ました|でしょう|ください|ましょう)(?:か)?(?:[）)」』\]］}]|\s|\(.*\)|（.*）)*$")
-"""End of a polite sentence, brackets after it included."""
+POLITE_END = re.compile(r"(?:です|ます|ません|でした|ました|でしょう|ください|ましょう)か?$")
+"""End of a polite sentence."""
+
+PLAIN_END = re.compile(r"(?:[うくぐすつぬぶむるただいず]|せよ)か?$")
+"""End of a predicate in the plain register; noun phrases, values and quoted names end otherwise."""
+
+BRACKETS = re.compile(r"（([^（）]*)）|\(([^()]*)\)|［([^［］]*)］|「([^「」]*)」")
+"""A pair of brackets without another one inside."""
 
 
 def japanese_sentences(text):
-    """Return the sentences of a text that end with a full stop, without values and quoted names."""
-    plain = re.sub(r"\{[^}]*\}", "…", text)
-    return [sentence for sentence in plain.split("。")[:-1] if re.search(r"[\u3040-\u30ff\u4e00-\u9fff]", sentence)]
+    """Return the sentences of a text that end with a full stop, those in brackets apart, with values replaced by an ellipsis."""
+    plain, sentences = re.sub(r"\{[^}]*\}", "…", text), []
+    while match := BRACKETS.search(plain):
+        inside = next(group for group in match.groups() if group is not None)
+        sentences += inside.split("。")[:-1]
+        plain = plain[: match.start()] + plain[match.end() :]
+    sentences += plain.split("。")[:-1]
+    return [sentence.strip() for sentence in sentences if re.search(r"[\u3040-\u30ff\u4e00-\u9fff]", sentence)]
+
+
+def is_polite(sentence):
+    """Return whether a sentence ends in です・ます or is a noun phrase, that is, has no predicate in the plain register."""
+    return bool(POLITE_END.search(sentence)) or not PLAIN_END.search(sentence)
 
 
 def test_japanese_sentences_are_polite():
-    """Sentences with a full stop end in です・ます; results and headings are noun phrases without one."""
+    """Sentences with a full stop end in です・ます, or are noun phrases that state a result."""
     plain = [
         (message_key(message), sentence)
         for message in read_catalogue("ja")
         if message.id
         for string in ([message.string] if isinstance(message.string, str) else message.string)
         for sentence in japanese_sentences(string)
-        if not POLITE_END.search(sentence)
+        if not is_polite(sentence)
     ]
     assert plain == [], "\n".join(f"{key}: {sentence}" for key, sentence in plain[:40])
 
 
-def test_polite_sentences_are_told_from_plain_ones():
-    """The rule of the register sees both kinds."""
+@pytest.mark.parametrize(
+    ("text", "polite"),
+    [
+        ("ファイルを読み込めません。", True),
+        ("もう一度指定してください。", True),
+        ("{time:.2f} 秒に {side} へ転倒。", True),
+        ("ロッキング（転倒しない）、{way}。", True),
+        ("対応する形式：{known}。", True),
+        ("滑動なし。", True),
+        ("もう一度指定する。", False),
+        ("ファイルを読み込めない（{why}）。", False),
+        ("記録が短い。", False),
+        ("ファイルは変更されていない。", False),
+        ("2 回読み込んだ。", False),
+        ("計算は収束せず。", False),
+        ("値が負である。", False),
+        ("無視する（--mu を使う。既定は 0.4）", False),
+    ],
+)
+def test_polite_sentences_are_told_from_plain_ones(text, polite):
+    """The rule of the register sees both kinds, brackets and values at the end included."""
+    (sentence,) = japanese_sentences(text)
+    assert is_polite(sentence) == polite
     assert japanese_sentences("転倒確率 36 %") == []
-    assert [bool(POLITE_END.search(s)) for s in japanese_sentences("ファイルを読み込めません。もう一度指定する。")] == [True, False]

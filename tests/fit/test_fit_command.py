@@ -141,7 +141,7 @@ def test_a_table_that_is_wrong_is_refused(what, folder):
         ("--bounds alpha", 2, "is not NAME=LOW:HIGH"),
         ("--bounds p=9:2", 3, "bounds of p must be increasing"),
         ("--width 20cm", 3, "--height missing"),
-        ("--component EW --component NS", 3, "one component is shaken"),
+        ("--component EW --component NS", 3, "the shaking is one component, found EW, NS"),
         ("--window 0:1 --window 1:2", 3, "one --window"),
         ("--csv seen.csv", 3, "seen.csv"),
     ],

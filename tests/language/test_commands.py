@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from seisblock.cli import COMMANDS, locale, main
 from seisblock.core import i18n
 from seisblock.report.text.wrap import display_width
+from tests.architecture.test_vocabulary import is_polite, japanese_sentences
 from tests.language.english import english_in
 from tests.lengths import all_but_slow
 
@@ -180,6 +181,12 @@ CLOSE_PERCENT = re.compile(r"\d[%％]")
 ANSWERING = {"measure", "respond", "slide", "rock", "jump", "uplift", "stack", "criteria", "spectrum", "overturn-rate", "infer"}
 """Commands that answer a question about shaking."""
 
+VERDICT = re.compile("計測震度|転倒|滑動|ロッキング|跳躍|浮き上がり|落下|静止|最大加速度|倍率")
+"""Terms of a result."""
+
+HEADING = re.compile(r"サンプル、|^物体：|：墓石 \d+ 基$|読み込んだまま|^補正なし")
+"""Lines that describe the record, its processing, the body or the cemetery."""
+
 QUOTING = {"cite", "samples"}
 """Commands that quote: references, licences and origins are told as they are printed elsewhere."""
 
@@ -237,7 +244,9 @@ def test_help_is_in_japanese(command, spoken):
     """Lines of commands and of options; examples are command lines."""
     answer = spoken((*command.split(), "--help"), "ja")
     assert answer.exit_code == 0 and not english_in(answer.stdout)
-    assert not re.search(r"\[既定|既定値|ます。|です。", answer.stdout), "one bracket and one style for all commands"
+    assert not re.search(r"\[既定|既定値", answer.stdout), "one bracket for all commands"
+    text = "".join(line.strip() for line in answer.stdout.partition("使用例")[0].splitlines())
+    assert [sentence for sentence in japanese_sentences(text) if not is_polite(sentence)] == [], "one register for all commands"
 
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
@@ -275,10 +284,9 @@ def test_minus_nothing_is_recognised():
 
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] in ANSWERING], ids=line_of)
 def test_the_verdict_comes_first(line, spoken):
-    """F2: an answer begins with a sentence; below it stand the line of its record and its tables."""
-    above, _, _ = spoken(line, "ja").stdout.partition("──")
-    first, _, _ = above.partition("読み込んだまま")
-    assert "。" in first or "計測震度" in first
+    """F2: an answer begins with its result; below it stand the line of its record and its tables."""
+    first, _, _ = spoken(line, "ja").stdout.partition("\n")
+    assert VERDICT.search(first) and not HEADING.search(first)
 
 
 def test_the_answers_are_of_every_command():

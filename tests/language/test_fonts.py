@@ -145,5 +145,5 @@ def test_names_that_no_font_holds_are_said_in_a_sentence(installed, monkeypatch,
     pile.write_text('kind = "pile"\n[[stone]]\nname = "竿"\nwidth = "25cm"\ndepth = "25cm"\nheight = "70cm"\n', encoding="utf-8")
     told = CliRunner().invoke(main, ["stack", "--window", "24:25", "--stones", str(pile), "--plot", str(tmp_path / "out.png")])
     assert told.exit_code == 0
-    assert "names in Japanese are boxes" in " ".join(told.stderr.split())
+    assert "Japanese names appear as boxes in the figure" in " ".join(told.stderr.split())
     assert [str(warning.message) for warning in recwarn if "Glyph" in str(warning.message)] == []

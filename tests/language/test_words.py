@@ -204,7 +204,7 @@ def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
 @pytest.mark.parametrize(
     ("text", "values", "sentence"),
     [
-        ("  both, in flight (s)", {}, "  両方同時、跳躍 (s)"),
+        ("  both, flight (s)", {}, "  滑動ロッキング、空中 (s)"),
         ("uplift {time:.2f} s", {"time": 35.46}, "浮き上がり 35.46 秒間"),
         ("uplift {time:.2f} s (first)", {"time": 35.46}, "浮き上がり 35.46 秒間（最初）"),
     ],
@@ -220,4 +220,4 @@ def test_what_another_thread_says_is_in_the_language_of_the_command():
     with use_locale("ja"):
         told = bind_locale()
     with ThreadPoolExecutor(1) as pool:
-        assert pool.submit(told, lazy_gettext("stands still")).result() == "動かない"
+        assert pool.submit(told, lazy_gettext("no motion")).result() == "静止"
