@@ -31,6 +31,9 @@ LOCALE_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
 _LIST_SEPARATORS = {"en": ", ", "ja": "、"}
 """Separator of the items of a list, by language."""
 
+_CLAUSE_SEPARATORS = {"en": "; ", "ja": "、"}
+"""Separator of the steps of a processing history, by language."""
+
 _SENTENCE_SEPARATORS = {"en": " ", "ja": ""}
 """Separator of two sentences, by language."""
 
@@ -111,6 +114,16 @@ def join_list(parts: Iterable[str]) -> str:
     parts : iterable of str
     """
     return _LIST_SEPARATORS[get_locale()].join(parts)
+
+
+def join_clauses(clauses: Iterable[str]) -> str:
+    """Join clauses, which may hold commas, with the clause separator of the active language.
+
+    Parameters
+    ----------
+    clauses : iterable of str
+    """
+    return _CLAUSE_SEPARATORS[get_locale()].join(clauses)
 
 
 def join_sentences(sentences: Iterable[str]) -> str:

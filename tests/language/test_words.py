@@ -16,7 +16,7 @@ from seisblock.cli.console import bind_locale
 from seisblock.cli.locale import requested_locale
 from seisblock.core import i18n
 from seisblock.core.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
-from seisblock.core.i18n import N_, Message, escape_control, get_locale, gettext, lazy_gettext, use_locale
+from seisblock.core.i18n import N_, Message, escape_control, get_locale, gettext, join_clauses, lazy_gettext, use_locale
 from seisblock.report.directions import direction_label
 
 PO = """
@@ -213,6 +213,13 @@ def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):
     """Sliding while it rocks is not part of the flight; how long a corner is in the air is not when it lifts."""
     with use_locale("ja"):
         assert gettext(text, **values) == sentence
+
+
+@pytest.mark.parametrize(("lang", "text"), [("en", "scaled by 0.2; window 1:2 s extracted"), ("ja", "0.2 倍、時間範囲 1:2 秒を切り出し")])
+def test_join_clauses_uses_the_separator_of_the_language(lang, text):
+    """The steps of a processing history have no semicolon in Japanese."""
+    with use_locale(lang):
+        assert join_clauses(text.replace("; ", "、").split("、")) == text
 
 
 def test_what_another_thread_says_is_in_the_language_of_the_command():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from seisblock.core.i18n import escape_control, gettext, join_list
+from seisblock.core.i18n import escape_control, gettext, join_clauses, join_list
 from seisblock.records import Motion, Record
 from seisblock.records.site import epicentral_distance_km, format_local_time, get_earthquake, get_site, source_name
 from seisblock.report.figures.fonts import can_render
@@ -42,7 +42,7 @@ def records_heading(records: Sequence[Record | None], directions: Sequence[str] 
             format_local_time(record, record.start),
             _earthquake_label(record),
             directions_text,
-            "; ".join(_short_history(record.history)),
+            join_clauses(_short_history(record.history)),
         ]
     else:
         parts = [join_list(map(record_label, unique)), directions_text]

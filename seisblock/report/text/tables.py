@@ -13,7 +13,7 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.core.i18n import escape_control, gettext, join_sentences
+from seisblock.core.i18n import escape_control, gettext, join_clauses, join_sentences
 from seisblock.records import Record
 from seisblock.records.site import format_local_time, get_site
 from seisblock.report.text.record_info import record_info
@@ -244,4 +244,4 @@ def record_line(record: Record) -> Text:
 
 def processing_text(record: Record) -> str:
     """Return the processing applied to a record."""
-    return "; ".join(map(gettext, record.history)) or gettext("no processing")
+    return join_clauses(map(gettext, record.history)) or gettext("no processing")
