@@ -109,7 +109,8 @@ def test_the_terminal_says_where_samples_come_from():
         ),
         (
             ("respond", *record, "refrigerator", "--runs", "3"),
-            "Parameter variation only (model error not included): width and height ±5 %, edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
+            "Parameter variation only (model error not included): width and height ±5 %, "
+            "edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
         ),
         (("rock", *record, "bookcase", "--perturb", "3"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
         (
