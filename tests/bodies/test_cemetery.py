@@ -115,7 +115,7 @@ def test_files_that_are_none(tmp_path, monkeypatch):
     for name, message in {
         "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled: aoyama.csv",
         "synthetic_jma.csv": "no cemetery file synthetic_jma.csv",
-        str(tmp_path): "is a directory",
+        str(tmp_path): "is a folder: give the CSV file of a cemetery",
         "binary.csv": "not a text table",
         "latin.csv": "neither UTF-8 nor Shift-JIS",
     }.items():

@@ -109,11 +109,18 @@ def test_the_terminal_says_where_samples_come_from():
         ),
         (
             ("respond", *record, "refrigerator", "--runs", "3"),
-            "alone: width and height ±5 %, edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
+            "Parameter variation only (model error not included): width and height ±5 %, "
+            "edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
         ),
         (("rock", *record, "bookcase", "--perturb", "3"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
-        (("respond", *record, "bookcase", "--runs", "3"), "alone: width and height ±5 %, sharp edges, mu 0.2 to 0.7,"),
-        (("respond", *record, "statue", "--runs", "3"), "alone: width and height ±5 %, sharp edges, mu 0.4 to 0.8,"),
+        (
+            ("respond", *record, "bookcase", "--runs", "3"),
+            "Parameter variation only (model error not included): width and height ±5 %, sharp edges, mu 0.2 to 0.7,",
+        ),
+        (
+            ("respond", *record, "statue", "--runs", "3"),
+            "Parameter variation only (model error not included): width and height ±5 %, sharp edges, mu 0.4 to 0.8,",
+        ),
         (("respond", *record, "gravestone", "--runs", "3"), "edge wear 0 to 10 % of the width, friction ±20 %,"),
         (("respond", *record, "gravestone", "--runs", "3", "--inset", "0.1"), "edge wear 9 % to 11 % of the width, friction ±20 %,"),
         (("respond", *record, "bookcase", "--runs", "3", "--vary-mu", "0.1"), "sharp edges, friction ±10 %,"),

@@ -43,10 +43,15 @@ def test_no_frequency_overturns_below_the_static_level():
     assert np.isnan(overturning_frequency(2.0, 4.0))
 
 
-@pytest.mark.parametrize(("pga", "frequency"), [(0.0, 1.0), (-1.0, 1.0), (3.0, -1.0), (3.0, np.nan)])
-def test_impossible_input_is_refused_in_one_sentence(pga, frequency):
+NOT_POSITIVE, NEGATIVE = "must be positive", "frequency must be zero or more"
+
+
+@pytest.mark.parametrize(
+    ("pga", "frequency", "message"), [(0.0, 1.0, NOT_POSITIVE), (-1.0, 1.0, NOT_POSITIVE), (3.0, -1.0, NEGATIVE), (3.0, np.nan, NEGATIVE)]
+)
+def test_impossible_input_is_refused_in_one_sentence(pga, frequency, message):
     """PGA must be positive, the frequency not negative."""
-    with pytest.raises(ParameterError, match="positive"):
+    with pytest.raises(ParameterError, match=message):
         overturning_ratio(pga, frequency)
 
 

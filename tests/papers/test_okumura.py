@@ -150,11 +150,11 @@ def test_impossible_directions_and_corners_are_refused():
     """An angle that is not a number and a fifth corner are one sentence each."""
     with pytest.raises(ParameterError, match="rho must be a finite number, found nan degrees"):
         shaking_direction(0.0, float("nan"))
-    with pytest.raises(ParameterError, match="corners 1 to 4"):
+    with pytest.raises(ParameterError, match="`corner` must be 1, 2, 3 or 4, found 5"):
         uplift_minima(SpringBlock.from_ratios(1.0, 1.0), corner=5)
-    with pytest.raises(ParameterError, match="corners 1 to 4"):
+    with pytest.raises(ParameterError, match="`corner` must be 1, 2, 3 or 4, found 0"):
         harmonic_uplift_ratio([1.0], alpha=1.0, beta=1.0, damping=0.05, corner=0)
     with pytest.raises(ParameterError, match="alpha must be positive"):
         square_base_modes(0.0, 1.0)
-    with pytest.raises(ParameterError, match="finite and not negative"):
+    with pytest.raises(ParameterError, match="must be finite and zero or more"):
         uplift_thresholds(SpringBlock.from_ratios(1.0, 1.0), [-1.0])

@@ -30,7 +30,11 @@ def test_the_direction_in_which_most_versions_fall_is_the_worst():
     for both in ([north, east], [east, north]):
         head, text = card_text(both)
         assert head.startswith("NS: overturns to +NS at 49.66 s")
-        assert text[0].startswith("92 of 200") and text[1].startswith("EW: overturns to +EW at 47.52 s") and text[2].startswith("24 of 200")
+        assert (
+            text[0].startswith("Overturning probability 46 % (")
+            and text[1].startswith("EW: overturns to +EW at 47.52 s")
+            and text[2].startswith("Overturning probability 12 % (")
+        )
         assert max(both, key=rank) is north
 
 
@@ -39,7 +43,7 @@ def test_the_share_goes_before_the_verdict_as_given():
     falls, stands, soon = effect("NS", 49.0, 0.1), effect("EW", None, 0.4), effect("UP", 40.0, 0.1)
     assert sorted([falls, soon, stands], key=rank, reverse=True) == [stands, soon, falls]
     head, text = card_text([falls, stands])
-    assert head.startswith("EW:") and text[0].startswith("80 of 200") and "NS: overturns" in " ".join(text)
+    assert head.startswith("EW:") and text[0].startswith("Overturning probability 40 % (") and "NS: overturns" in " ".join(text)
     assert "UP:" not in " ".join(card_text([falls, effect("UP", None, 0.0)])[1])
     assert severity_class([stands]) == "mild" and severity_class([stands, falls]) == "bad"
 
@@ -49,7 +53,8 @@ def test_none_and_all_are_told_with_what_they_are_worth(share, said):
     """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
     found = effect("NS", None if share == 0.0 else 40.0, share)
     assert said in "".join(share_caveat(found)) and bool(said) == any("shaking-table runs" in text for text in card_text([found])[1])
-    assert "scatter alone" in scatter_text([found]) and "fell where none of 20 versions did" in scatter_text([found])
+    assert scatter_text([found]).startswith("Parameter variation only (model error not included): ")
+    assert "3 % of those predicted 0/20 did overturn" in scatter_text([found])
 
 
 def test_a_body_that_nobody_varied_is_told_without_shares():

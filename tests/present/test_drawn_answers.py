@@ -298,7 +298,7 @@ def test_a_card_says_of_which_block_it_is():
     assert criteria_figure(cards()).heading.get_text().endswith("block 0.3 × 0.9 m")
 
 
-@pytest.mark.parametrize(("gal", "told"), [(True, "moved 5 cm"), (False, "moved 0.05 m")])
+@pytest.mark.parametrize(("gal", "told"), [(True, "displacement > 5 cm"), (False, "displacement > 0.05 m")])
 def test_a_limit_of_slip_is_told_in_the_unit_of_the_figure(gal, told):
     """F: cm, or with --si m, in the key of the figure and in the table's sentence."""
     found = fragilities()

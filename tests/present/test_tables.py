@@ -67,8 +67,8 @@ def test_many_fragilities_begin_with_a_verdict():
     first, *_, last = sorted(study.curves, key=lambda curve: curve.median)
     with use_locale("en"):
         lines = shown(*fragility_tables(study, gal=True), width=120)
-    assert lines[0].startswith(f"lowest of 9: {first.body}, overturns: median PGV {100 * first.median:.3g} kine")
-    assert lines[1].startswith(f"highest of 9: {last.body}, overturns: median PGV {100 * last.median:.3g} kine")
+    assert lines[0].startswith(f"lowest of 9: {first.body}, overturning: median PGV {100 * first.median:.3g} kine")
+    assert lines[1].startswith(f"highest of 9: {last.body}, overturning: median PGV {100 * last.median:.3g} kine")
 
 
 def test_wide_cells_stand_on_the_right_as_numbers_do():

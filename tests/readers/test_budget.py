@@ -125,7 +125,7 @@ def test_samples_have_a_limit(tmp_path, small):
 def test_a_limit_is_a_whole_number(monkeypatch, text):
     """Anything else is named."""
     monkeypatch.setenv("SEISBLOCK_READ_MIB", text)
-    with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive whole number"):
+    with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive integer, found"):
         read("synthetic_jma.csv")
 
 

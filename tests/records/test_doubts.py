@@ -196,7 +196,7 @@ def test_doubts_travel_to_every_answer(offset, command, monkeypatch):
     words = [command[0], str(offset), "--component", "NS", *command[1:]]
     shown = CliRunner().invoke(main, words)
     assert shown.exit_code == 0, shown.output
-    assert "doubtful: NS: mean " in shown.stdout
+    assert "warning: NS: mean " in shown.stdout
     assert shown.stderr.count("warning: NS: mean ") == 1
     quiet = CliRunner().invoke(main, [*words, "--quiet", "--json"])
     assert len(quiet.stderr.splitlines()) == 1

@@ -66,13 +66,21 @@ ASKED = {
         3,
         "1081200 curve points exceed the limit of 1000000",
     ),
-    "shakings": (["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"], 3, "8100000 shakings"),
+    "shakings": (
+        ["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"],
+        3,
+        "8100000 ground motions exceed the limit of 1000000",
+    ),
     "points of a joint": (
         ["stack", "--contact", "grid=1000000000"],
         2,
-        "1000000000 points along each side of a joint exceed the limit of 25",
+        "1000000000 contact points along each side of a joint exceed the limit of 25",
     ),
-    "steps of a pile": (["stack", "--step", "1e-12"], 3, "will not do for the rigid stones"),
+    "steps of a pile": (
+        ["stack", "--step", "1e-12"],
+        3,
+        "with rigid contact (swing time of the smallest stone 0.17 s): leave it out, or give",
+    ),
     "settling time": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
     "padding of a filter": (["measure", "--highpass", "1e-6"], 3, "samples of padding"),
     "stones of a cemetery": (["overturn-rate", "--cemetery", "huge.csv"], 3, "200000000 gravestones exceed the limit of 1000000"),
@@ -126,7 +134,7 @@ def test_a_limit_is_lifted_by_its_variable(monkeypatch):
     words = ["rock", "--block", "gravestone", "--perturb", "4"]
     monkeypatch.setenv("SEISBLOCK_RUNS", "3")
     done = CliRunner().invoke(main, words)
-    assert done.exit_code == 2 and "4 versions exceed the limit of 3: reduce the number or raise SEISBLOCK_RUNS" in " ".join(
+    assert done.exit_code == 2 and "4 samples exceed the limit of 3: reduce the number or raise SEISBLOCK_RUNS" in " ".join(
         done.stderr.split()
     )
     monkeypatch.setenv("SEISBLOCK_RUNS", "4")
@@ -159,7 +167,7 @@ def test_a_machine_without_the_memory_says_so(monkeypatch):
 
     monkeypatch.setattr("seisblock.readers.read_all", too_much)
     done = CliRunner().invoke(main, ["measure"])
-    assert (done.exit_code, done.stdout) == (3, "") and "cut a window out of the record" in " ".join(done.stderr.split())
+    assert (done.exit_code, done.stdout) == (3, "") and "shorten the record with --window" in " ".join(done.stderr.split())
 
 
 def test_the_coarsest_grid_of_the_criterion_study_leaves_one_height():

@@ -201,7 +201,10 @@ def test_lossless_hops_without_end_are_a_clear_error(monkeypatch):
         ({"width": 1.0, "height": 1.0, "mass": -3.0}, "mass must be positive"),
         ({"width": 1.0, "height": 1.0, "centroid_offset": 0.5}, "above the base"),
         ({"width": 1.0, "height": 1.0, "centroid_offset": math.nan}, "above the base"),
-        ({"width": 1.0, "height": 1.0, "centroid_height": 1.5}, "lies above the height"),
+        (
+            {"width": 1.0, "height": 1.0, "centroid_height": 1.5},
+            "the height of the centre of gravity, 1.5 m, exceeds the height of the block, 1.0 m",
+        ),
     ],
 )
 def test_impossible_blocks_are_refused(sizes, says):

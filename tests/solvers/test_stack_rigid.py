@@ -199,7 +199,7 @@ def test_where_the_run_pauses_changes_no_bit(monkeypatch):
         ({"law": "springs", "restitution": 0.9}, "have no effect with contact springs"),
         ({"restitution": 1.5}, "restitution of the joints"),
         ({"restitution": 0.9, "points": 5}, "requires contact at the edges"),
-        ({"mu_kinetic": 0.9}, "more than static friction"),
+        ({"mu_kinetic": 0.9}, "must not exceed static friction"),
         ({"step": 0.1}, "is out of range for the pile"),
         ({"step": 1e-9}, "is out of range for the pile"),
     ],
