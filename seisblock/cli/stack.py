@@ -235,7 +235,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     inset_given = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
     if inset_given and versions.inset and params["points"] != EDGES:
         raise ParameterError("--vary-inset has no effect with --contact grid={points}: omit one of them", points=params["points"])
-    study_options = {"samples": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
+    study_options = {"versions": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
     responses, extras = [], []
     for record in load_records(source):
         directions = list(selected_motions(record, source))
