@@ -62,7 +62,7 @@ def test_a_contact_needs_friction_alone():
     """The rest follows: kinetic as static friction, the restitutions of the paper; what cannot be is refused where it is said."""
     assert (Contact(0.18).kinetic, Contact(0.18).restitution_x, Contact(0.18).restitution_y) == (0.18, 0.95, 0.85)
     for wrong, says in (
-        ({"mu": -0.1}, "static friction coefficient, must be zero or more"),
+        ({"mu": -0.1}, "the static friction coefficient `mu` must be zero or more, found -0.1"),
         ({"mu": 0.1, "mu_kinetic": 0.2}, "kinetic friction 0.2 must not exceed static friction 0.1"),
         ({"mu": 0.1, "restitution_y": 1.1}, r"restitution y must lie in \[0, 1\], found 1.1"),
     ):

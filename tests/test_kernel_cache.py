@@ -130,7 +130,7 @@ def test_a_folder_that_cannot_be_made_is_no_reason_to_stop(tmp_path, where):
     """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
     (tmp_path / "file").touch()
     said = answers(tmp_path / where, ONE)
-    assert len(said) == 1 and "SEISBLOCK_CACHE_DIR names another folder" in said[0]
+    assert len(said) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in said[0]
     assert list(tmp_path.iterdir()) == [tmp_path / "file"]
 
 
@@ -144,7 +144,7 @@ def test_a_read_only_folder_is_no_reason_to_stop(folder):
     finally:
         for path in [folder, *folder.rglob("*")]:
             path.chmod(0o755 if path.is_dir() else 0o644)
-    assert len(said) == 1 and "SEISBLOCK_CACHE_DIR names another folder" in said[0]
+    assert len(said) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in said[0]
 
 
 RACE = """

@@ -124,7 +124,7 @@ def test_every_direction_of_rock_and_respond(stone, tmp_path):
         directions = result["directions"]
         assert len(directions) == 36 and float(result["component"]) == directions[0]["azimuth_deg"]
         assert result["overturned"] is directions[0]["overturned"]
-        assert "furthest" in figure.read_text() if words[0] == "respond" else figure.exists()
+        assert "maximum displacement (cm)" in figure.read_text() if words[0] == "respond" else figure.exists()
         table = run(*line).stdout
         assert "All azimuths" in table and f"of {len(directions)} directions; results for the worst direction." in " ".join(table.split())
 

@@ -243,7 +243,7 @@ def test_one_process_answers_many_times(tmp_path):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("slide", "bare.csv", "--mu", "0.2"), "give the sampling interval, --dt, for example 0.01 s"),
+        (("slide", "bare.csv", "--mu", "0.2"), "give the sampling interval with --dt, for example 0.01 s"),
         (("uplift", "--width", "1", "--height", "2"), "give --frequency-vertical in Hz, or --mass and --stiffness kx,ky,kz in N/m"),
     ],
 )

@@ -89,16 +89,20 @@ def test_what_is_shown(tmp_path, monkeypatch):
     ("words", "code", "says"),
     [
         (["EMPTY"], 3, "no record found in this folder"),
-        (["hanmer_springs_2016", "shafter_1989"], 3, "these records are of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
+        (["hanmer_springs_2016", "shafter_1989"], 3, "records of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
         (["shafter_1989", "--cemetery", "aoyama.csv", "--block", "gravestone"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "friction required"),
         (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--solver", "rock"], 3, "body required (--width, --height missing)"),
-        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu: leave it out"),
+        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu; remove it"),
         (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide has no samples"),
         (["shafter_1989", "--solver", "jump", "--block", "gravestone"], 3, "jump requires a two-layer body"),
         (["shafter_1989", "--solver", "uplift", "--width", "1", "--height", "3"], 3, "spring stiffness required"),
-        (["shafter_1989", "--block", "gravestone", "--frequency-vertical", "8"], 2, "is of --solver uplift"),
+        (
+            ["shafter_1989", "--block", "gravestone", "--frequency-vertical", "8"],
+            2,
+            "--frequency-vertical requires --solver uplift: omit it",
+        ),
     ],
 )
 def test_bad_input(words, code, says, tmp_path):

@@ -174,5 +174,5 @@ def test_what_is_done_to_a_record_stands_in_the_help_in_its_order(run):
     assert steps == sorted(steps)
     assert 0.1 < found["results"][0]["pga_m_s2"] < 2.9
     told = " ".join(run("--help").stdout.split())
-    assert "in the whole record, before --floor and --window" in told
+    assert "over the whole record, before --floor and --window" in told
     assert "after --demean, before --scale" in told and "before anything else" not in told

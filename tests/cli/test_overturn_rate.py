@@ -216,8 +216,8 @@ def test_the_file_holds_what_the_table_does(run, document, sines, words):
     ("words", "message"),
     [
         (("--pga", 5.5, "--frequency", 1), "check the unit (gal, not m/s^2)"),
-        (("--pga", 1400, "--frequency", 1), "1400 gal lies outside the range of the fit"),
-        (("--pga", 700, "--frequency", 4.5), "4.5 Hz lies outside the range of the fit"),
+        (("--pga", 1400, "--frequency", 1), "PGA 1400 gal is outside the range of the fit (100 to 1300 gal)"),
+        (("--pga", 700, "--frequency", 4.5), "frequency 4.5 Hz is outside the range of the fit (0.5 to 3 Hz)"),
     ],
 )
 def test_warnings(run, words, message):

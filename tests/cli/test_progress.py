@@ -44,7 +44,7 @@ WORKS = {
     "loading compiled kernels": "slide record.csv --mu 0.2 --csv slide.csv",
     "reading record.csv": "measure record.csv",
     "margin": "rock record.csv --block gravestone --margin",
-    "versions": "respond record.csv --block gravestone --runs 400",
+    "samples": "respond record.csv --block gravestone --runs 400",
     "drawing": "slide record.csv --mu 0.2 --plot slide.png",
     "writing slide.csv": "slide record.csv --mu 0.2 --csv slide.csv",
 }

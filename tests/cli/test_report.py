@@ -199,7 +199,7 @@ def test_one_card_per_body_says_what_governs(pages):
     motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
     outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
     assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][0] and outcome.overturned
-    assert "plausible versions" in cards[0][1] and "slides" in cards[1][0]
+    assert re.match("Overturning probability \\d+\xa0% \\(95\xa0% CI .*, 200 samples\\)", cards[0][1]) and "slides" in cards[1][0]
     page = pages["en"]
     assert page.index("Full response") < page.index("Idealised models") < page.index("<h3>Rocking and overturning</h3>")
     assert re.search(

@@ -86,8 +86,8 @@ def test_surfaces_are_looked_up():
 ELSEWHERE = (
     (("jump", "elcentro_1940_ns", "--tenon", "2cm", "--target-pga", "900"), "with friction and tenons: "),
     (("jump", "--component", "EW", "--width", "2", "--heights", "1,2", "--masses", "900,100", "--mu", "0.3", "--tenon", "1cm"), "tenons: "),
-    (("rock", "elcentro_1940_ns", "--width", "24cm", "--height", "80cm", "--mu", "0.2"), "slide and rock: "),
-    (("rock", "elcentro_1940_ns", "--block", "gravestone", "--mu", "0.2"), "slide and rock: "),
+    (("rock", "elcentro_1940_ns", "--width", "24cm", "--height", "80cm", "--mu", "0.2"), "sliding and rocking: "),
+    (("rock", "elcentro_1940_ns", "--block", "gravestone", "--mu", "0.2"), "sliding and rocking: "),
 )
 
 

@@ -148,7 +148,7 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
             "samples overturning did not overturn."
         )
     else:
-        text = N_("overturning probability {share} ({fallen} of {runs} samples); {low} to {high} is the 95 % interval of {of} only.")
+        text = N_("overturning probability {share} ({fallen} of {runs} samples); {low} to {high} is the 95 % interval of {of}.")
     s = perturbation.spread
     sizes = lazy_gettext("size ±{size}, slenderness ±{slenderness}", size=format_share(s.size), slenderness=format_share(s.slenderness))
     variation = gettext(
