@@ -60,7 +60,7 @@ def test_a_scale_that_leaves_no_motion(value, why):
     """Everything would stand."""
     code, answer, said = run("slide", *SHORT, "--mu", "0.2", f"--scale={value}")
     assert (code, answer) == (2, "") and why in said
-    assert "0 であってはなりません" in run("--lang", "ja", "slide", *SHORT, "--mu", "0.2", "--scale=0")[2]
+    assert "0 は指定できません" in run("--lang", "ja", "slide", *SHORT, "--mu", "0.2", "--scale=0")[2]
 
 
 def test_a_scale_that_turns_the_record_round():
