@@ -34,9 +34,6 @@ _LIST_SEPARATORS = {"en": ", ", "ja": "、"}
 _CLAUSE_SEPARATORS = {"en": "; ", "ja": "、"}
 """Separator of the steps of a processing history, by language."""
 
-_SENTENCE_SEPARATORS = {"en": " ", "ja": ""}
-"""Separator of two sentences, by language."""
-
 _VALUE_MARK = "\0"
 """Marker around each formatted value, removed after the adjustment of blanks."""
 
@@ -127,13 +124,24 @@ def join_clauses(clauses: Iterable[str]) -> str:
 
 
 def join_sentences(sentences: Iterable[str]) -> str:
-    """Join sentences with the sentence separator of the active language.
+    """Join sentences as the active language does.
+
+    Japanese results are noun phrases without a full stop; where another sentence follows, each gets one.
 
     Parameters
     ----------
     sentences : iterable of str
+
+    Examples
+    --------
+    >>> with use_locale("ja"):
+    ...     join_sentences(["転倒確率 36 %", "静止します。", "残留変位なし"])
+    '転倒確率 36 %。静止します。残留変位なし'
     """
-    return _SENTENCE_SEPARATORS[get_locale()].join(sentences)
+    if get_locale() == "en":
+        return " ".join(sentences)
+    *first, last = [*sentences] or [""]
+    return "".join([*(text if text.endswith("。") else f"{text}。" for text in first if text), last])
 
 
 def format_percent(share: float, digits: str = ".0") -> str:

@@ -99,7 +99,7 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
 def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
     """Yield sentences on JMA intensity, long-period class and peak horizontal vector."""
     if answer.jma_intensity is None:
-        yield gettext("JMA intensity: not available (requires two horizontal components and the vertical)")
+        yield gettext("JMA intensity: not available; the warnings state the reason")
     else:
         yield gettext("JMA intensity {value:.2f}, class {name}", value=answer.jma_intensity, name=gettext(answer.jma_class or ""))
     slow = answer.long_period
