@@ -33,7 +33,7 @@ def told(folder, name):
 
 @pytest.mark.slow
 def test_the_lines_lead_to_a_frequency(folder):
-    """Upstairs it falls under weaker shaking of the ground, and more often; versions lie within the ranges of bookcases."""
+    """On an upper floor the bookcase overturns under weaker ground motion, and more often; its warnings name the ground motion."""
     here, upstairs = told(folder, "bookcase"), told(folder, "upstairs")
     assert here["im"] == upstairs["im"] == "pgv" and here["records"] == 12
     assert upstairs["median"] < here["median"]
@@ -41,7 +41,6 @@ def test_the_lines_lead_to_a_frequency(folder):
     document = json.loads((folder / "upstairs.json").read_text(encoding="utf-8"))
     assert "floor motion T 0.6 s" in document["record"][0]["history"][-1]
     assert any("intensities of the ground motion" in text for text in document["warnings"])
-    assert any("drawn from the ranges of the body" in text for text in document["warnings"])
 
 
 @pytest.mark.slow

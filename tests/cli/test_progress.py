@@ -141,7 +141,7 @@ def test_silence_is_kept(said):
 def test_a_single_long_motion_says_how_far_it_is(tmp_path):
     """While the engine follows it, the line says which share of it is behind."""
     text = on_a_terminal(LONG_MOTION, [], tmp_path)
-    shares = [int(share) for share in re.findall(r"following the motion[^\r]*?(\d+) ?%", text)]
+    shares = [int(share) for share in re.findall(r"solving[^\r]*?(\d+) ?%", text)]
     assert len(set(shares)) > 2
     assert left(text) == []
 
