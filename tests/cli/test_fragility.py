@@ -120,7 +120,7 @@ def test_bodies_and_limits_have_their_names_in_japanese(folder):
     rules = FitOptions(IDA, (intensity_measure("pgv"),), 0.95, 0, 0)
     with use_locale("ja"):
         told = [gettext(note) for note in fragility_warnings([warned, own], [np.ones(3)], rules)]
-    assert any(text.startswith("墓石、移動 0.05 m：") for text in told)
+    assert any(text.startswith("墓石、変位 0.05 m：") for text in told)
     assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in told)
 
 
