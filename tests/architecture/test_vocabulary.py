@@ -204,7 +204,7 @@ def bound_names():
 
 
 def test_docstrings_begin_with_a_fact():
-    """No first line is a question in disguise, and none is a second line."""
+    """No first line of a docstring begins with an interrogative."""
     assert [place for place, text in documented_nodes() if QUESTION.match(text)] == []
 
 
@@ -301,7 +301,7 @@ def test_japanese_sentences_are_polite():
         ("無視する（--mu を使う。既定は 0.4）", False),
     ],
 )
-def test_polite_sentences_are_told_from_plain_ones(text, polite):
+def test_register_rule_separates_polite_from_plain_sentences(text, polite):
     """The rule of the register sees both kinds, brackets and values at the end included."""
     (sentence,) = japanese_sentences(text)
     assert is_polite(sentence) == polite
