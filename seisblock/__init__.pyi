@@ -46,8 +46,8 @@ from .models.respond.batch import RespondBatchResult, respond_many
 from .models.respond.outcome import RespondOutcome
 from .models.respond.params import RespondParams
 from .models.respond.solve import respond_params, solve_respond
+from .models.rock.options import RockOptions
 from .models.rock.outcome import RockOutcome
-from .models.rock.params import RockOptions
 from .models.rock.solve import solve_rock
 from .models.rock.verdicts import Verdict, rock_verdict
 from .models.slide.solve import SlideOutcome, solve_slide

@@ -15,6 +15,7 @@ import zipfile
 import numpy as np
 
 from seisblock.bodies.block import from_slenderness, scale_block
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.samples import MANIFEST, sample_directory
@@ -43,7 +44,9 @@ def fell(motion: Motion, scale: float, dice: np.random.Generator) -> bool:
     """Return what a version of the block does that differs a little from the others."""
     size, slenderness, bounce, amplitude = 1.0 + SCATTER * dice.uniform(-1.0, 1.0, 4)
     version = scale_block(from_slenderness(ALPHA, P), size=size, slenderness=slenderness)
-    return rock_verdict(version, motion, scale=scale * amplitude, restitution=min(version.restitution * bounce, 1.0)).overturned
+    return rock_verdict(
+        version, motion, scale=scale * amplitude, options=RockOptions(restitution=min(version.restitution * bounce, 1.0))
+    ).overturned
 
 
 def make() -> tuple[bytes, bytes]:

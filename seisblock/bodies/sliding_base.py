@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
+from seisblock.core.i18n import N_
+from seisblock.core.options import option
 
 
 @dataclass(frozen=True)
@@ -32,11 +34,22 @@ class SlidingBase:
         If a number lies outside its range, or the object slides without ground motion.
     """
 
-    mu: float
-    mu_kinetic: float | None = None
-    slope_deg: float = 0.0
-    slope_length: float | None = None
-    one_way: bool = False
+    mu: float = field(metadata=option(N_("Static friction coefficient."), unit="1"))
+    mu_kinetic: float | None = field(default=None, metadata=option(N_("Kinetic friction coefficient. [default: as --mu]"), unit="1"))
+    slope_deg: float = field(
+        default=0.0,
+        metadata=option(N_("Slope of the base, degrees; the component's positive direction is downhill. [default: 0]"), unit="deg"),
+    )
+    slope_length: float | None = field(
+        default=None,
+        metadata=option(
+            N_("Distance to the foot of the slope, m or with a unit; level ground beyond. [default: infinite slope]"), unit="m"
+        ),
+    )
+    one_way: bool = field(
+        default=False,
+        metadata=option(N_("Slide only downhill (on level ground: in the positive direction), as Newmark assumed.")),
+    )
 
     def __post_init__(self) -> None:
         checks.positive("the static friction coefficient `mu`", self.mu)

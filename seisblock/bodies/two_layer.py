@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from seisblock.bodies.toml import (
 from seisblock.core import checks
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.options import option
 from seisblock.core.units import STANDARD_GRAVITY, warn_large_lengths
 
 _POSITIVE_FIELDS = {
@@ -168,10 +169,32 @@ class Contact:
     0.18
     """
 
-    mu: float
-    mu_kinetic: float | None = None
-    restitution_x: float = 0.95
-    restitution_y: float = 0.85
+    mu: float = field(
+        metadata=option(
+            N_("Static friction coefficient of the foot that landed. [default: the body's own, else required]"),
+            "--mu",
+            unit="1",
+            kind="friction",
+        )
+    )
+    mu_kinetic: float | None = field(
+        default=None,
+        metadata=option(
+            N_("Kinetic friction coefficient. [default: the body's own, else as --mu]"), "--mu-kinetic", unit="1", kind="friction"
+        ),
+    )
+    restitution_x: float = field(
+        default=0.95,
+        metadata=option(
+            N_("Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]"), "--restitution-x", unit="1"
+        ),
+    )
+    restitution_y: float = field(
+        default=0.85,
+        metadata=option(
+            N_("Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]"), "--restitution-y", unit="1"
+        ),
+    )
 
     def __post_init__(self) -> None:
         checks.non_negative("the static friction coefficient `mu`", self.mu)

@@ -6,14 +6,16 @@ from typing import Any
 
 import click
 
-from seisblock.cli.bodies.options import block_options, rocking_options
+from seisblock.cli.bodies.options import azimuth_option, block_options
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.types import MU
+from seisblock.models.rock.options import RockOptions
 
 
 @click.command(
@@ -22,7 +24,8 @@ from seisblock.cli.types import MU
 )
 @record_options
 @block_options
-@rocking_options
+@solver_options(RockOptions, "restitution", "linear", "vertical")
+@azimuth_option
 @option(
     "--mu",
     type=MU,
@@ -30,7 +33,7 @@ from seisblock.cli.types import MU
     help="Static friction coefficient under the block for the simulated outcome. [default: the body's own, else no sliding]",
 )
 @option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
-@gravity_option
+@solver_options(RockOptions, "gravity")
 @output_options(histories=False, film=False)
 def criteria(
     source: Source,
@@ -68,17 +71,16 @@ def criteria(
         mu_kinetic = kinetic_default if mu_kinetic is None else mu_kinetic
     if mu is None:
         reject_without("--mu", ["mu_kinetic"])
-    options: dict[str, Any] = {"restitution": choice.restitution, "linear": linear, "vertical": vertical}
+    options = RockOptions(restitution=choice.restitution, linear=linear, vertical=vertical, gravity=gravity)
     cards = []
     for record in load_records(source):
         for name in selected_components(record, source):
             motion = motion_of(record, name)
             require_vertical(motion, vertical)
-            cards.append(
-                compare_criteria(record, motion, choice.block_for_motion(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options)
-            )
+            block = choice.block_for_motion(motion)
+            cards.append(compare_criteria(record, motion, block, mu=mu, mu_kinetic=mu_kinetic, options=options))
     write_results(
-        document(cards, options, gravity=gravity),
+        document(cards, options),
         output,
         tables=lambda: text_output.tables(cards, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, cards),

@@ -279,15 +279,16 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
     from functools import partial
 
     from seisblock.bodies.sliding_base import SlidingBase
+    from seisblock.models.jump.options import JumpOptions
+    from seisblock.models.slide.options import SlideOptions
     from seisblock.report.json.infer import jumped_document, slid_document
     from seisblock.studies.survey import scale_search as study
 
     gravity = params["gravity"]
     if params["slid"] is not None:
         base = SlidingBase(params["mu"], params["mu_kinetic"])
-        displacement_function = partial(
-            study.slide_displacement, base, vertical=params["vertical"], gravity=gravity, largest=params["largest"]
-        )
+        options = SlideOptions(vertical=params["vertical"], gravity=gravity)
+        displacement_function = partial(study.slide_displacement, base, options=options, largest=params["largest"])
         frictions = {"mu": params["mu"], "mu_kinetic": params["mu_kinetic"]}
         return displacement_function, partial(
             slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions
@@ -300,9 +301,16 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
         info("--first: only the first chain of motion in each record counts; without --first all are added, as in seisblock jump")
     body: dict[str, Any] = {"contact": choice.contact, "flight_only": params["flight_only"]}
     body |= {key: params[key] for key in ("spin", "landing", "first")}
-    displacement_function = partial(
-        study.jump_displacement, choice.block, drop=params["drop"], gravity=gravity, windows=source.window, **body
+    jump_options = JumpOptions(
+        contact=choice.contact,
+        drop=params["drop"],
+        spin=params["spin"],
+        landing=params["landing"],
+        first=params["first"],
+        windows=source.window,
+        gravity=gravity,
     )
+    displacement_function = partial(study.jump_displacement, choice.block, options=jump_options, flight_only=params["flight_only"])
     return displacement_function, partial(
         jumped_document, block=choice.block, drop_m=params["drop"], gravity_m_s2=gravity, windows_s=source.window, **body
     )

@@ -7,18 +7,20 @@ from typing import Any
 
 import click
 
-from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
+from seisblock.bodies.two_layer import Contact
+from seisblock.cli.bodies.options import side_option, two_layer_option
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import reject_with, reject_without
-from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, check_callback, output_options, record_options
 from seisblock.cli.output import OutputOptions
-from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import LENGTH, LENGTHS, MASSES, MU
+from seisblock.cli.types import LENGTH, LENGTHS, MASSES
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import gettext, lazy_gettext
+from seisblock.models.jump.options import JumpOptions
 
 DEFAULT_BLOCK = "chozusha"
 
@@ -40,27 +42,8 @@ DEFAULT_BLOCK = "chozusha"
 )
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
-@option("--mu", type=MU, help="Static friction coefficient of the foot that landed. [default: the body's own, else required]")
-@option("--mu-kinetic", type=MU, help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
-@option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]")
-@option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]")
-@option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the landing ground, m or with a unit. [default: 0]")
-@option(
-    "--spin",
-    default="momentum",
-    show_default=True,
-    metavar="momentum|printed|ratio=Q",
-    help="Angular velocity after the impact: conserved angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.",
-)
-@option(
-    "--direction",
-    type=SuggestingChoice(["+", "-", "both"]),
-    default="both",
-    show_default=True,
-    help="Sign of the ground acceleration that can start a chain of motion.",
-)
-@landing_option("Landing impulse of the foot: unlimited friction (paper), or limited by friction with further sliding (friction).")
-@option("--first", is_flag=True, help="Compute only the first chain of motion in each --window, as in the paper. [default: all]")
+@solver_options(Contact)
+@solver_options(JumpOptions, exclude=("gravity",))
 @option("--repeat", is_flag=True, hidden=True, help="All chains of motion; the default since 0.2.0.")
 @option(
     "--tenon",
@@ -69,7 +52,7 @@ DEFAULT_BLOCK = "chozusha"
     section="Output",
     help="Depth of the tenon hole, m or with a unit: reports whether the foot left the hole.",
 )
-@gravity_option
+@solver_options(JumpOptions, "gravity")
 @output_options()
 def jump(source: Source, output: OutputOptions, repeat: bool, tenon: float | None, **params: Any) -> None:
     """Rocking, impact, jump, landing and slide-rocking of a two-layer block (Sugimoto et al. 2017).

@@ -185,6 +185,7 @@ def _station_model(
     cemetery: str | None, params: dict[str, Any], solver: str | None, *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> StationModel | None:
     """Return the model at each station: cemetery, body or None."""
+    from seisblock.models.respond.options import RespondOptions
     from seisblock.studies.map.station_response import StationBody, StationCemetery
 
     has_body = solver is not None or any(params.get(name) is not None for name in SIZES)
@@ -204,9 +205,9 @@ def _station_model(
         raise click.UsageError(gettext("--frequency-vertical requires --solver uplift: omit it"))
     choice = choose_free_standing(params)
     info("body: {says}", says=choice.description)
-    options = {"mu": choice.mu, "mu_kinetic": choice.mu_kinetic, "gravity": gravity}
+    options: dict[str, Any] = {"mu": choice.mu, "mu_kinetic": choice.mu_kinetic, "gravity": gravity}
     options |= {name: params[name] for name in ("restitution", "rocking_restitution", "tenon")}
-    return StationBody(choice.body, options, vertical, DEFAULT_RUNS if runs is None else runs, seed)
+    return StationBody(choice.body, RespondOptions(**options, vertical=vertical), DEFAULT_RUNS if runs is None else runs, seed)
 
 
 def _station_body(
@@ -216,28 +217,28 @@ def _station_body(
     from dataclasses import replace
 
     from seisblock.cli.bodies.body_spec import OWN_OPTIONS, make_body_spec
-    from seisblock.studies.batch.models import batch_model
+    from seisblock.core.registry import get_solver
     from seisblock.studies.batch.run import ignored_column_notes
+    from seisblock.studies.capabilities import capabilities
     from seisblock.studies.map.station_response import StationBody
 
     context = click.get_current_context()
     given_names = [name for name in OWN_OPTIONS if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
-    model = batch_model(solver)
+    model = get_solver(solver)
     body_values = {name: params[name] for name in ("surface", "frequency_vertical") if params[name] is not None}
     vertical_option = {} if vertical is None else {"vertical": vertical}
     model.check_options({**{name: params[name] for name in (*given_names, *body_values) if name not in model.columns}, **vertical_option})
     spec = make_body_spec({**params, **{name: None for name in OWN_OPTIONS if name not in given_names}}, solver)
     spec = replace(spec, parameters={**spec.parameters, **body_values})
     options = {name: params[name] for name in given_names if name not in body_values}
-    placement = model.build_body(spec, {**options, "gravity": gravity})
+    placement = model.build_body(spec, {**options, **vertical_option, "gravity": gravity})
     for note in ignored_column_notes(model, [spec]):
         warning(note)
     info("body: {says}", says=placement.name)
-    default_runs = DEFAULT_RUNS if model.chance is not None else 0
+    default_runs = DEFAULT_RUNS if capabilities(solver).probability is not None else 0
     return StationBody(
         placement.body,
         placement.options,
-        vertical,
         default_runs if runs is None else runs,
         seed,
         solver=solver,

@@ -9,12 +9,14 @@ import click
 
 from seisblock.cli.azimuth_sweep import azimuth_figure, sweep_motions
 from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
-from seisblock.cli.command import Command, option
+from seisblock.cli.build import solver_options
+from seisblock.cli.command import Command
 from seisblock.cli.console import info
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.versions import pop_spreads, ranges_replaced, version_options
 from seisblock.cli.write_results import write_results
+from seisblock.models.respond.options import RespondOptions
 
 if TYPE_CHECKING:
     from seisblock.records import Record
@@ -32,16 +34,9 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth
 )
 @record_options
 @free_standing_options
-@option(
-    "--vertical/--no-vertical",
-    default=None,
-    help="Apply or omit the vertical component. [default: applied where the record has one]",
-)
+@solver_options(RespondOptions, "vertical")
 @version_options(*VARIED_PARAMETERS, runs=200)
-@option(
-    "--settle", type=float, default=60.0, show_default=True, metavar="S", help="Duration of the analysis after the end of the record, s."
-)
-@gravity_option
+@solver_options(RespondOptions, "settle_s", "gravity")
 @output_options()
 def respond(
     source: Source,
@@ -51,7 +46,7 @@ def respond(
     runs: int,
     moved: float,
     seed: int,
-    settle: float,
+    settle_s: float,
     **params: Any,
 ) -> None:
     """Full response of a free-standing object: rest, sliding, rocking, slide-rocking, flight, overturning.
@@ -72,23 +67,32 @@ def respond(
     replaced = ranges_replaced()
     choice = choose_free_standing({**params, "gal": output.gal})
     info("body: {says}", says=choice.description)
-    options: dict[str, Any] = {
-        "mu": choice.mu,
-        "mu_kinetic": choice.mu_kinetic,
-        **{name: params[name] for name in ("restitution", "rocking_restitution", "tenon")},
-        "gravity": gravity,
-        "settle_s": settle,
-    }
+    options = RespondOptions(
+        mu=choice.mu,
+        mu_kinetic=choice.mu_kinetic,
+        restitution=params["restitution"],
+        rocking_restitution=params["rocking_restitution"],
+        tenon=params["tenon"],
+        vertical=vertical,
+        gravity=gravity,
+        settle_s=settle_s,
+    )
     responses, extras = [], []
-    for motion, directions in sweep_motions(source, _azimuth_study(choice.body, vertical, options)):
+    for motion, directions in sweep_motions(source, _azimuth_study(choice.body, options)):
         block = choice.block_for_motion(motion)
-        responses.append(solve_respond(block, motion, vertical=vertical, **options))
+        responses.append(solve_respond(block, motion, **options.keywords()))
         extra: dict[str, Any] = choice.block_key(block)
         if runs:
-            study_options = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
             with progress("samples {name}", name=motion.name) as advance:
                 extra["probability"] = respond_probability(
-                    block.without_ranges(*replaced), motion, versions=ParameterVariation(**widths), progress=advance, **study_options
+                    block.without_ranges(*replaced),
+                    motion,
+                    options,
+                    runs=runs,
+                    moved_m=moved,
+                    versions=ParameterVariation(**widths),
+                    seed=seed,
+                    progress=advance,
                 )
         if directions:
             extra["directions"] = directions
@@ -102,12 +106,12 @@ def respond(
     )
 
 
-def _azimuth_study(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[RespondAzimuth]]:
+def _azimuth_study(body: Any, options: RespondOptions) -> Callable[[Record], Sequence[RespondAzimuth]]:
     """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[RespondAzimuth]:
         from seisblock.studies.respond.azimuths import respond_directions
 
-        return respond_directions(body, record, vertical=vertical, **options)
+        return respond_directions(body, record, options)
 
     return look

@@ -10,17 +10,19 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.cli.azimuth_sweep import azimuth_figure, sweep_motions
-from seisblock.cli.bodies.options import block_options, rocking_options
+from seisblock.cli.bodies.options import azimuth_option, block_options
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import MU, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.models.rock.options import RockOptions
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
@@ -38,7 +40,8 @@ DEFAULT_RUNS = 200
 )
 @record_options
 @block_options
-@rocking_options
+@solver_options(RockOptions, "restitution", "linear", "vertical")
+@azimuth_option
 @option(
     "--mu",
     type=MU,
@@ -62,7 +65,7 @@ DEFAULT_RUNS = 200
     "inset by 10 %, an unknown inset within the range of the body's kind.",
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")
-@gravity_option
+@solver_options(RockOptions, "gravity")
 @output_options()
 def rock(
     source: Source,
@@ -103,7 +106,7 @@ def rock(
             reject_without(lazy_gettext("--perturb or --margin"), ["spread", "seed"])
     choice = choose_block({**body, "restitution": restitution, "gal": output.gal})
     info("body: {says}", says=choice.description)
-    options: dict[str, Any] = {"restitution": choice.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
+    options = RockOptions(restitution=choice.restitution, linear=linear, vertical=vertical, gravity=gravity)
     source = with_azimuths(source, azimuth)
     if mu is not None and not 0.0 <= mu < float("inf"):
         raise ParameterError("the friction coefficient must be zero or positive, found {value}", value=mu)
@@ -111,19 +114,19 @@ def rock(
     for motion, directions in sweep_motions(source, _azimuth_study(choice.body, options)):
         require_vertical(motion, vertical)
         block = choice.block_for_motion(motion)
-        responses.append(flag_near_flip(solve_rock(block, motion, **options)))
-        extra: dict[str, Any] = {"agreement": compare_models(block, motion, **options), **choice.block_key(block)}
+        responses.append(flag_near_flip(solve_rock(block, motion, **options.keywords())))
+        extra: dict[str, Any] = {"agreement": compare_models(block, motion, options=options), **choice.block_key(block)}
         if directions:
             extra["directions"] = directions
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
             with progress("margin {name}", name=motion.name) as advance:
-                extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, **options)
+                extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, options=options)
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or DEFAULT_RUNS
             with progress("samples {name}", name=motion.name) as advance:
-                extra["perturbation"] = perturb_block(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
+                extra["perturbation"] = perturb_block(block, motion, runs, spread=widths, seed=seed, progress=advance, options=options)
         extras.append(extra)
     write_results(
         document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
@@ -137,14 +140,14 @@ def rock(
     )
 
 
-def _azimuth_study(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
+def _azimuth_study(body: Any, options: RockOptions) -> Callable[[Record], Sequence[Any]]:
     """Return a function that solves all azimuths of a record."""
 
     def look(record: Record) -> Sequence[Any]:
         from seisblock.studies.rocking.azimuths import rock_directions
 
         with progress("azimuths") as advance:
-            return rock_directions(body, record, progress=advance, **options)
+            return rock_directions(body, record, progress=advance, options=options)
 
     return look
 

@@ -121,7 +121,7 @@ def _finished_rows(out: Path, columns: Mapping[str, type], plan: Plan, files: Se
 
 def _row_information(row: Row, plan: Plan) -> int:
     """Return a score of the information in a row: 0 without result, 2 where the limit state occurred."""
-    return 0 if row.get(REASON) else 1 + bool(row[plan.model.happens])
+    return 0 if row.get(REASON) else 1 + bool(row[plan.model.event])
 
 
 def _cell_texts(rows: Iterable[Sequence[Any]]) -> list[list[str]]:

@@ -8,15 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import FLOATS, LENGTH, MUS
 from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import gettext, lazy_gettext
+from seisblock.models.slide.options import SlideOptions
 from seisblock.records.motion import ALL_AZIMUTHS
 
 if TYPE_CHECKING:
@@ -78,7 +80,7 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 )
 @option("--vertical", is_flag=True, help="Apply the vertical component.")
 @option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Scale factor on the vertical component; implies --vertical. [default: 1]")
-@gravity_option
+@solver_options(SlideOptions, "gravity")
 @output_options()
 def slide(
     source: Source,
@@ -191,7 +193,12 @@ def _run_study(
         if omitted_count
         else []
     )
-    parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
+    parameters = {
+        **{"vertical_scale" if name == "vertical" else name: values for name, values in choice.items()},
+        "slope_length_m": fixed["slope_length"],
+        "one_way": fixed["one_way"],
+        "gravity_m_s2": fixed["gravity"],
+    }
     write_results(
         study_document(parameters, pairs, warnings),
         output,

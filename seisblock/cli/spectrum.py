@@ -12,15 +12,17 @@ from click.core import ParameterSource
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.cli.azimuth_sweep import is_azimuth_sweep
-from seisblock.cli.bodies.options import rocking_options
+from seisblock.cli.bodies.options import azimuth_option
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.rock import require_vertical, with_azimuths
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.models.rock.options import RockOptions
 from seisblock.records.motion import ALL_AZIMUTHS
 
 if TYPE_CHECKING:
@@ -101,8 +103,9 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     show_default=True,
     help="Number of points on each axis left at its default.",
 )
-@rocking_options
-@gravity_option
+@solver_options(RockOptions, "restitution", "linear", "vertical")
+@azimuth_option
+@solver_options(RockOptions, "gravity")
 @output_options(histories=False, film=False, accelerations=False)
 def spectrum(
     source: Source,
@@ -170,10 +173,10 @@ def spectrum(
 
     diagonals = default_sizes(steps) if diagonals is None else diagonals
     alphas = default_slendernesses(steps) if alphas is None else alphas
-    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP_EDGES}
-    spectra = list(_spectra(source, diagonals, alphas, {**options, "gravity": gravity}))
+    options = RockOptions(restitution=restitution, linear=linear, vertical=vertical, gravity=gravity)
+    spectra = list(_spectra(source, diagonals, alphas, inset or SHARP_EDGES, options))
     write_results(
-        document(spectra, kind, options, gravity=gravity),
+        document(spectra, kind, options, inset or SHARP_EDGES),
         output,
         tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
         csv=lambda path: text_output.write_csv(path, spectra),
@@ -181,7 +184,7 @@ def spectrum(
     )
 
 
-def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -> Iterator[tuple[Motion, RockingSpectrum]]:
+def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: RockOptions) -> Iterator[tuple[Motion, RockingSpectrum]]:
     """Yield the spectrum of each selected motion; in a sweep, with the motion of the largest PGA."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
@@ -190,13 +193,13 @@ def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -
 
     if not is_azimuth_sweep(source):
         for motion in (motion for record in load_records(source) for motion in selected_motions(record, source)):
-            require_vertical(motion, options["vertical"])
+            require_vertical(motion, bool(options.vertical))
             with progress("spectrum {name}", name=motion.name) as advance:
-                yield motion, rocking_spectrum(sizes, alphas, motion, progress=advance, **options)
+                yield motion, rocking_spectrum(sizes, alphas, motion, inset=inset, progress=advance, options=options)
         return
     for record in load_records(replace(source, component=())):
         with progress("spectrum {name}", name=ALL_AZIMUTHS) as advance:
-            spectrum = rocking_spectrum_all_azimuths(sizes, alphas, record, progress=advance, **options)
+            spectrum = rocking_spectrum_all_azimuths(sizes, alphas, record, inset=inset, progress=advance, options=options)
         assert spectrum.azimuths_deg is not None
         strongest = max(
             (motion_of(record, f"{azimuth:g}") for azimuth in spectrum.azimuths_deg), key=lambda candidate: abs(candidate.horizontal).max()

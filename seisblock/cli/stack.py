@@ -9,25 +9,23 @@ import click
 from click.core import ParameterSource
 
 from seisblock.cli import shell_completion
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import INSET, MU, ContactType
 from seisblock.cli.versions import pop_spreads, version_options
 from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import lazy_gettext
+from seisblock.models.stack.options import EDGES, GRID, RIGID, SPRINGS, StackOptions
 
 if TYPE_CHECKING:
     from seisblock.bodies.edge_wear import EdgeWear
     from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
-
-RIGID, SPRINGS = "rigid", "springs"
-EDGES, GRID = 2, 5
-"""Contact points along each side of a joint: on the edges, and as in Furukawa2009."""
 
 VARIED_PARAMETERS = ("size", "inset", "mu", "amplitude", "azimuth")
 """Parameters that vary between the samples of a pile."""
@@ -81,18 +79,7 @@ MAX_GRID = 29
     "--contact edges. [default: the file's own, or 0]",
 )
 @option("--mu", type=MU, help="Static friction coefficient of every joint. [default: the file's own; wagata 0.438]")
-@option(
-    "--mu-kinetic",
-    type=MU,
-    help="Kinetic friction coefficient of every joint, at most the smallest static coefficient; --law rigid. [default: the file's "
-    "own, or as --mu]",
-)
-@option(
-    "--restitution",
-    type=float,
-    help="Coefficient of restitution: ratio of the velocity of the leaving edge of a joint to that of the striking edge; --law rigid. "
-    "[default: from conserved angular momentum]",
-)
+@solver_options(StackOptions, "mu_kinetic", "restitution")
 @option(
     "--contact",
     type=ContactType(),
@@ -100,28 +87,11 @@ MAX_GRID = 29
     help="Contact points of a joint: edges of the bases, or grid=N for N x N points, 1 (Furukawa2009: 5); a grid makes a stone act "
     "narrower. [default: edges; --criterion: grid=5]",
 )
-@option(
-    "--law",
-    type=click.Choice([RIGID, SPRINGS]),
-    help="Contact law: rigid stones, or springs and dashpots as in Furukawa2009. [default: rigid; springs with --criterion, --young "
-    "or --joint-stiffness]",
-)
+@solver_options(StackOptions, "law")
 @option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
 @option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: from --young]")
 @option("--damping", type=float, help="Damping ratio of a stone on its joint, with --young or --joint-stiffness. [default: 1]")
-@option(
-    "--vertical/--no-vertical",
-    default=None,
-    help="Apply or omit the vertical component. [default: applied where the record has one]",
-)
-@option("--across/--no-across", default=True, show_default=True, help="Apply or omit the other horizontal component.")
-@option(
-    "--step",
-    type=float,
-    metavar="S",
-    help="Time step, s. [default: 1/55 of the rocking time scale of the smallest stone; springs: 0.7 of the stability limit of the "
-    "stiffest contact]",
-)
+@solver_options(StackOptions, "vertical", "across", "step")
 @option(
     "--criterion",
     is_flag=True,
@@ -141,7 +111,7 @@ MAX_GRID = 29
     help="--criterion: file of finished sines, from which an interrupted study continues.",
 )
 @version_options(*VARIED_PARAMETERS, runs=0)
-@gravity_option
+@solver_options(StackOptions, "gravity")
 @output_options()
 def stack(
     source: Source,
@@ -222,6 +192,8 @@ def _load_pile(stones: str, reinforced: bool, mu: float | None, removed: tuple[s
 
 def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any, widths: dict[str, float], params: dict[str, Any]) -> None:
     """Solve the pile under each record."""
+    from dataclasses import replace
+
     from seisblock.cli.progress import progress
     from seisblock.core.errors import ParameterError
     from seisblock.models.stack.solve import solve_stack
@@ -236,6 +208,7 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
     if inset_given and versions.inset and params["points"] != EDGES:
         raise ParameterError("--vary-inset has no effect with --contact grid={points}: omit one of them", points=params["points"])
     study_options = {"versions": versions, **{name: params.pop(name) for name in ("runs", "seed")}, "moved_m": params.pop("moved")}
+    options = StackOptions(contact=contact, **params)
     responses, extras = [], []
     for record in load_records(source):
         directions = list(selected_motions(record, source))
@@ -243,12 +216,12 @@ def _run_records(source: Source, output: OutputOptions, body: Pile, contact: Any
         for motion in directions if source.component else directions[:1]:
             name = f"{record.station} {motion.name}".strip()
             with progress(name) as advance:
-                responses.append(solve_stack(body, motion, contact=contact, progress=advance, **params))
+                responses.append(solve_stack(body, motion, **replace(options, progress=advance).keywords()))
             trim_heap()  # memory freed by the compiler is needed for long records
             extra: dict[str, Any] = {"agreement": compare_pile_models(responses[-1])}
             if study_options["runs"]:
                 with progress("samples {name}", name=name) as advance:
-                    extra["probability"] = stack_probability(body, motion, progress=advance, contact=contact, **study_options, **params)
+                    extra["probability"] = stack_probability(body, motion, progress=advance, options=options, **study_options)
             extras.append(extra)
     write_results(
         document(responses, body, contact, extras),

@@ -6,16 +6,18 @@ from typing import Any
 
 import click
 
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
+from seisblock.models.uplift.options import UpliftOptions
 
 SHAKING = ("alpha", "gamma", "phi", "rho")
 RATIOS = (*SHAKING, "beta", "damping")
@@ -74,7 +76,7 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
     type=SuggestingChoice(["3", "4", "6", "7", "8", "9", "10", "11"]),
     help="Parameters of this figure of the paper; implies --harmonic; other options override them.",
 )
-@gravity_option
+@solver_options(UpliftOptions, "gravity")
 @output_options()
 def uplift(source: Source, output: OutputOptions, gravity: float, harmonic: bool, figure: str | None, **params: Any) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
 from functools import cached_property, partial
 from operator import eq
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
@@ -13,6 +13,7 @@ import numpy as np
 from seisblock.core._display import PlotMixin, summary_repr
 from seisblock.core.status import Status
 from seisblock.core.typing import FloatArray, IntArray
+from seisblock.core.units import unit_suffix
 
 if TYPE_CHECKING:
     from seisblock.dynamics.events import EventLog, GuardEvent
@@ -208,8 +209,8 @@ class Response(PlotMixin, Generic[Outcome]):
         Function that computes :attr:`time` and :attr:`channels` on first access; the outcome needs neither.
     phases, events : sequence
         In chronological order.
-    options : mapping
-        All other input parameters, SI.
+    options : SolverOptions
+        Options of the solver as applied: with the factor on the vertical motion and defaults resolved.
     status : Status
         Status of the integration.
     warnings : tuple of str
@@ -225,7 +226,7 @@ class Response(PlotMixin, Generic[Outcome]):
     make_histories: Callable[[], Histories] = no_histories
     phases: Sequence[Phase] = ()
     events: Sequence[Event] = ()
-    options: Mapping[str, Any] = field(default_factory=dict)
+    options: Any = None
     status: Status = Status.RECORD_ENDED
     warnings: tuple[str, ...] = ()
     citations: tuple[str, ...] = ()
@@ -285,8 +286,7 @@ class Response(PlotMixin, Generic[Outcome]):
         """Return the time axis and all channels as columns named ``name_unit``."""
         columns = {"time_s": self.time}
         for channel in self.channels:
-            suffix = "" if channel.unit == "1" else "_" + channel.unit.replace("/", "_").replace("^", "")
-            columns[channel.name + suffix] = np.asarray(channel.values)
+            columns[channel.name + unit_suffix(channel.unit)] = np.asarray(channel.values)
         return columns
 
     def to_dataframe(self) -> Any:

@@ -90,6 +90,17 @@ _QUANTITY_TERM = re.compile(r"\s*+((?<!\d)\d++(?:\.\d*+)?|\.\d++)\s*+([^\d\s.+-]
 _QUANTITY = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(.*\S|)\s*\Z")
 
 
+def unit_suffix(unit: str) -> str:
+    """Return the suffix of names of quantities in a unit: ``_m_s2`` for ``m/s^2``, empty for a dimensionless one.
+
+    Examples
+    --------
+    >>> unit_suffix("m/s^2"), unit_suffix("1")
+    ('_m_s2', '')
+    """
+    return "" if unit in ("", "1") else "_" + unit.replace("/", "_").replace("^", "")
+
+
 def acceleration_unit(name: str) -> float:
     """Return the value of an acceleration unit in m/s^2.
 

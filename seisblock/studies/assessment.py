@@ -15,6 +15,7 @@ from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
 from seisblock.models.jump.solve import solve_jump
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.slide.solve import solve_slide
 from seisblock.models.uplift.solve import solve_uplift
@@ -133,7 +134,7 @@ def _model_responses(subject: BodyModels, motion: Motion, drop: float, gravity: 
     estimate = best_estimate(subject.block, motion, mu=subject.mu, mu_kinetic=subject.mu_kinetic, gravity=gravity, runs=RUNS)
     yield ModelResponse("respond", estimate.response, None, governing=estimate)
     rock = flag_near_flip(solve_rock(subject.block, motion, restitution=subject.restitution, gravity=gravity))
-    margin = find_margin(subject.block, motion, restitution=subject.restitution, gravity=gravity)
+    margin = find_margin(subject.block, motion, options=RockOptions(restitution=subject.restitution, gravity=gravity))
     yield ModelResponse("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)
     if subject.mu is not None:
         slide = solve_slide(SlidingBase(subject.mu, subject.mu_kinetic), motion, gravity=gravity)
@@ -142,7 +143,7 @@ def _model_responses(subject: BodyModels, motion: Motion, drop: float, gravity: 
         jump = solve_jump(subject.layers, motion, contact=subject.contact, drop=drop, gravity=gravity)
         yield ModelResponse("jump", jump, _ratio(jump.outcome.rocking_threshold_m_s2, peak))
     if subject.springs is not None:
-        lift = solve_uplift(motion=motion, body=subject.springs, gravity=gravity)
+        lift = solve_uplift(subject.springs, motion, gravity=gravity)
         yield ModelResponse("uplift", lift, lift.outcome.uplift_scale)
 
 

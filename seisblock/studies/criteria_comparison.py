@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import Conventions
 from seisblock.measures.summary import ComponentPeaks, component_peaks
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Component, Motion, Record
@@ -56,10 +56,9 @@ def compare_criteria(
     motion: Motion,
     block: Block,
     *,
-    gravity: float,
     mu: float | None = None,
     mu_kinetic: float | None = None,
-    **options: Any,
+    options: RockOptions = RockOptions(),
 ) -> CriteriaComparison:
     """Return the criteria and the simulated outcome of one component.
 
@@ -69,17 +68,16 @@ def compare_criteria(
     motion : Motion
         Of that record, towards a component or an azimuth.
     block : Block
-    gravity : float, m/s^2
     mu, mu_kinetic : float or None, 1
         Friction; None if unknown: the no-slip friction is used.
-    options
-        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    options : RockOptions
     """
+    gravity = options.gravity
     conventions = Conventions(gravity_m_s2=gravity)
     peaks = component_peaks(Component(motion.name, motion.horizontal), motion.dt, conventions, motion.start_s)
-    response = flag_near_flip(solve_rock(block, motion, gravity=gravity, **options))
+    response = flag_near_flip(solve_rock(block, motion, **options.keywords()))
     rows = overturning_card(block, peaks.pga_m_s2, peaks.pgv_m_s, asdict(peaks.equivalent_frequency_hz), gravity)
-    comparison = compare_models(block, motion, gravity=gravity, **options)
+    comparison = compare_models(block, motion, options=options)
     estimate = best_estimate(block, motion, mu=mu, mu_kinetic=mu_kinetic, gravity=gravity)
     return CriteriaComparison(
         record, motion.name, block, peaks, rows, response.outcome, conventions.velocity_highpass_hz, response.warnings, comparison, estimate

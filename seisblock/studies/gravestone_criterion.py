@@ -26,8 +26,10 @@ from seisblock.core.units import GAL, STANDARD_GRAVITY
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.measures import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
-from seisblock.models.stack.solve import RIGID, SPRINGS, solve_stack
+from seisblock.models.stack.options import RIGID, SPRINGS
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records.motion import Motion
 from seisblock.studies.parallel import map_threads
 
@@ -277,7 +279,7 @@ def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: flo
     def work(threshold: Threshold) -> Threshold:
         """Return the smallest overturning ratio under the same sine."""
         motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)
-        falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=gravity).overturned)
+        falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, options=RockOptions(gravity=gravity)).overturned)
         return Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None))
 
     return fit_levels(tuple(map_threads(work, study.thresholds)))

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import wear_within
@@ -18,13 +17,13 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.core.i18n import N_
 from seisblock.core.results import Response
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
 from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
 from seisblock.criteria.pulses import half_sine_acceleration
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.measures.peaks import peak_acceleration, peak_velocity
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.models.stack.outcome import StackOutcome
 from seisblock.records import Motion
@@ -105,8 +104,7 @@ def compare_models(
     stone: Block | None = None,
     fit: GravestoneFit | None = PLAIN,
     extra_results: Sequence[ModelResult] = (),
-    gravity: float = STANDARD_GRAVITY,
-    **options: Any,
+    options: RockOptions = RockOptions(),
 ) -> ModelComparison:
     """Return the results of the models of a block under a motion, and the spread of their scale factors.
 
@@ -122,9 +120,7 @@ def compare_models(
         applied.
     extra_results : sequence of ModelResult
         Results of other models.
-    gravity : float, m/s^2
-    options
-        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.models.rock.solve.rock_verdict`.
+    options : RockOptions
 
     Examples
     --------
@@ -140,9 +136,9 @@ def compare_models(
         return ModelComparison(tuple(extra_results), 0, len(extra_results), None)
     worn_block = block if block.inset else block.with_wear(wear_within(block, DEFAULT_WEAR.share))
     results = [
-        _simulate(SHARP_BLOCK, block.with_wear(SHARP_EDGES), motion, pga, gravity, options),
-        _simulate(WORN_BLOCK, worn_block, motion, pga, gravity, options),
-        *_closed_forms(block, stone or block, motion, pga, fit, gravity),
+        _simulate(SHARP_BLOCK, block.with_wear(SHARP_EDGES), motion, pga, options),
+        _simulate(WORN_BLOCK, worn_block, motion, pga, options),
+        *_closed_forms(block, stone or block, motion, pga, fit, options.gravity),
         *extra_results,
     ]
     factors = [result.factor for result in results if result.factor is not None]
@@ -150,14 +146,14 @@ def compare_models(
     return ModelComparison(tuple(results), sum(result.falls for result in results), len(results), spread)
 
 
-def _simulate(model: str, block: Block, motion: Motion, pga: float, gravity: float, options: dict[str, Any]) -> ModelResult:
+def _simulate(model: str, block: Block, motion: Motion, pga: float, options: RockOptions) -> ModelResult:
     """Return the verdict of a rocking block, and the first overturning factor of a geometric search."""
 
     def falls(factor: float) -> bool:
-        return rock_verdict(block, motion, scale=factor, gravity=gravity, **options).overturned
+        return rock_verdict(block, motion, scale=factor, options=options).overturned
 
     # no overturning below the rocking threshold, unless a vertical motion reduces the effective gravity
-    factor = min(block.rocking_threshold(gravity) / pga, MAX_FACTOR) if not options.get("vertical") else 0.1
+    factor = min(block.rocking_threshold(options.gravity) / pga, MAX_FACTOR) if not options.vertical else 0.1
     while factor <= MAX_FACTOR and not falls(factor):
         factor *= FACTOR_STEP
     if factor > MAX_FACTOR:
@@ -204,6 +200,5 @@ def compare_pile_models(response: Response[StackOutcome]) -> ModelComparison | N
     fit = (DOWELLED if dowelled else PLAIN) if top.name == SAO else None
     pile_result = ModelResult(PILE, top.name in response.outcome.overturned, None)
     block, stone = rigid_top(pile, 2), Block(top.width, top.height)
-    return compare_models(
-        block, response.motion, stone=stone, fit=fit, extra_results=[pile_result], gravity=response.options["gravity_m_s2"]
-    )
+    options = RockOptions(gravity=response.options.gravity)
+    return compare_models(block, response.motion, stone=stone, fit=fit, extra_results=[pile_result], options=options)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
+from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import check_limit
@@ -119,11 +120,12 @@ def slide_study(
         validate_motion(motion)
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
+    checks.gravity(gravity)
     scales = tuple(float(value) for value in _values(vertical))
     combination_count = len(scales) * math.prod(len(_values(values)) for values in (mu, mu_kinetic, kappa, slope_deg))
     check_limit(N_("combinations"), len(motion_list) * combination_count, "SEISBLOCK_CELLS")
     for motion, scale in itertools.product(motion_list, scales):
-        motion_gains(motion, scale, gravity)
+        motion_gains(motion, scale)
     bases = [
         _base(m, d, k, slope, slope_length, one_way)
         for m, d, k, slope in itertools.product(_values(mu), _values(mu_kinetic), _values(kappa), _values(slope_deg))
@@ -203,7 +205,7 @@ def _run_all(
 def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: float) -> list[SlidePoint]:
     """Return the points of some rows for one motion."""
     p = [parameters(base, gravity) for base, _ in rows]
-    gains = [motion_gains(motion, scale, gravity) for _, scale in rows]
+    gains = [motion_gains(motion, scale) for _, scale in rows]
     runs = integrate_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     for row in np.flatnonzero(runs.final_mode == UNDEFINED)[:1]:
         raise_lift_off(motion, float(runs.end_time[row]))

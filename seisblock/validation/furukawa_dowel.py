@@ -16,6 +16,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.criteria.gravestones import DOWELLED, GravestoneFit, overturning_level, overturning_ratio
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.studies.gravestone_criterion import PGAS, RATIOS, Threshold, criterion_study, fit_levels, sine_base, with_top
 from seisblock.studies.parallel import map_threads
@@ -53,7 +54,11 @@ def composite_level(frequency: float, restitution: float | None) -> float:
     def work(pga: float) -> Threshold:
         """Return the threshold under a sine: the smallest H/B that overturns."""
         motion = sine_base(frequency, pga)
-        falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=GRAVITY, restitution=restitution).overturned)
+        falls = (
+            ratio
+            for ratio, block in blocks
+            if rock_verdict(block, motion, options=RockOptions(gravity=GRAVITY, restitution=restitution)).overturned
+        )
         return Threshold(frequency, pga, next(falls, None))
 
     return fit_levels(tuple(map_threads(work, PGAS)))[frequency]

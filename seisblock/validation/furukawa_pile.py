@@ -11,7 +11,8 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.core.typing import FloatArray
 from seisblock.criteria.gravestones import furukawa_fit, overturning_ratio
 from seisblock.measures import ground_history
-from seisblock.models.stack.solve import SPRINGS, solve_stack
+from seisblock.models.stack.options import SPRINGS
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records.motion import Motion
 from seisblock.studies.gravestone_criterion import RATIOS, criterion_study
 from seisblock.studies.parallel import map_threads

@@ -16,6 +16,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.core.units import SUN
 from seisblock.criteria.gravestones import overturning_level
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 from seisblock.validation.case import Case, expected_difference
@@ -40,7 +41,7 @@ def least_ratio(frequency: float, amplitude: float, inset: float) -> float | Non
     t = np.arange(round(DURATION / STEP) + 1) * STEP
     sine = Motion.from_arrays(amplitude * np.sin(2 * math.pi * frequency * t), STEP)
     for height in HEIGHTS:
-        if rock_verdict(Block(WIDTH, height).with_wear(inset), sine, gravity=GRAVITY).overturned:
+        if rock_verdict(Block(WIDTH, height).with_wear(inset), sine, options=RockOptions(gravity=GRAVITY)).overturned:
             return float(height / WIDTH)
     return None
 

@@ -11,6 +11,7 @@ from seisblock.bodies.block import from_slenderness
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.overturning import housner_acceleration, housner_acceleration_as_printed
 from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -40,7 +41,10 @@ def simulated_threshold(w: float, halves: int, low: float, high: float) -> float
     pulse = sine_pulse(1.0, w, halves)
 
     return bisect_threshold(
-        lambda x: rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned, low, high, tolerance=1e-8
+        lambda x: rock_verdict(block, pulse, scale=x, options=RockOptions(restitution=ETA, linear=True)).overturned,
+        low,
+        high,
+        tolerance=1e-8,
     )
 
 
@@ -58,7 +62,10 @@ def rectangle_threshold(duration: float) -> float:
     block = from_slenderness(ALPHA, P)
     pulse = Motion.from_arrays(STANDARD_GRAVITY * ALPHA * (np.arange(4003) <= 4000), duration / 4000.5)
     return bisect_threshold(
-        lambda x: rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned, 1.0, 10.0, tolerance=1e-8
+        lambda x: rock_verdict(block, pulse, scale=x, options=RockOptions(restitution=ETA, linear=True)).overturned,
+        1.0,
+        10.0,
+        tolerance=1e-8,
     )
 
 

@@ -17,9 +17,9 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.stack.arrays import pile_arrays
 from seisblock.models.stack.frames import L, Q, R, V, W, X
+from seisblock.models.stack.options import EDGES
 from seisblock.models.stack.outcome import SimulationResult
 from seisblock.models.stack.simulation import Simulation
-from seisblock.models.stack.solve import EDGE_POINTS
 from seisblock.records.motion import Motion
 from seisblock.validation.case import CONVERGED, Case
 
@@ -75,7 +75,7 @@ def release(
     """Return the result of a stone released in motion: axes (columns), height, m, velocity, m/s, and spin, rad/s."""
     from scipy.spatial.transform import Rotation
 
-    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGE_POINTS)
+    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGES)
     body = pile.bodies[0]
     body[X : X + 3] = 0.0, 0.0, height
     body[Q : Q + 4] = np.roll(Rotation.from_matrix(axes).as_quat(), 1)

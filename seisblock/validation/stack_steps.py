@@ -12,7 +12,8 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.models.stack.solve import RIGID, SPRINGS, solve_stack
+from seisblock.models.stack.options import RIGID, SPRINGS
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records.motion import Motion
 from seisblock.validation.case import Case
 from seisblock.validation.furukawa_pile import kobe_like

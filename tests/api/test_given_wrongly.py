@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import seisblock as sb
+from seisblock.models.jump.options import JumpOptions
+from seisblock.models.respond.options import RespondOptions
 
 RECORD = sb.read("synthetic_jma.csv")
 LEVEL = sb.read("elcentro_1940_ns.csv")
@@ -17,9 +19,9 @@ CEMETERY = sb.read_cemetery("aoyama.csv")
 OF_MOTIONS = {
     "mode_map": lambda motion: sb.mode_map([0.3], [1.0], [0.2], motion),
     "slide_study": lambda motion: sb.slide_study(0.2, motion),
-    "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2),
+    "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, options=RespondOptions(mu=0.3), runs=2),
     "stack_probability": lambda motion: sb.stack_probability(PILE, motion, runs=2),
-    "respond_many": lambda motion: sb.respond_many([sb.respond_params(BLOCK, mu=0.3)], motion),
+    "respond_many": lambda motion: sb.respond_many([sb.respond_params(BLOCK, options=RespondOptions(mu=0.3))], motion),
     "jump_many": lambda motion: sb.jump_many([LAYERS], motion, contacts=[sb.load_contact("chozusha")]),
     "uplift_many": lambda motion: sb.uplift_many([SPRINGS], motion),
     "scale_factors": lambda motion: sb.scale_factors(lambda factor: factor, 0.05, motion),
@@ -28,7 +30,7 @@ OF_MOTIONS = {
     "find_margin": lambda motion: sb.find_margin(BLOCK, motion),
     "rocking_spectrum": lambda motion: sb.rocking_spectrum([1.0], [0.2], motion),
     "slid": lambda motion: sb.slide_displacement(0.2, motion),
-    "jumped": lambda motion: sb.jump_displacement(LAYERS, motion, contact=sb.load_contact("chozusha")),
+    "jumped": lambda motion: sb.jump_displacement(LAYERS, motion, options=JumpOptions(contact=sb.load_contact("chozusha"))),
 }
 OF_RECORDS = {
     "demean": sb.demean,
@@ -42,13 +44,13 @@ OF_RECORDS = {
     "jma_intensity": sb.jma_intensity,
     "motion_of": lambda record: sb.motion_of(record, "EW"),
     "Preparation": lambda record: sb.Preparation(window=(1.0, 2.0)).apply(record),
-    "respond_directions": lambda record: sb.respond_directions(BLOCK, record, mu=0.3),
+    "respond_directions": lambda record: sb.respond_directions(BLOCK, record, options=RespondOptions(mu=0.3)),
 }
 OF_BODIES = {
-    "make_setting": (lambda body: sb.respond_params(body, mu=0.3), "Block"),
-    "respond_probability": (lambda body: sb.respond_probability(body, MOTION, mu=0.3, runs=2), "Block"),
+    "make_setting": (lambda body: sb.respond_params(body, options=RespondOptions(mu=0.3)), "Block"),
+    "respond_probability": (lambda body: sb.respond_probability(body, MOTION, options=RespondOptions(mu=0.3), runs=2), "Block"),
     "stack_probability": (lambda body: sb.stack_probability(body, MOTION, runs=2), "Pile"),
-    "respond_directions": (lambda body: sb.respond_directions(body, RECORD, mu=0.3), "Block"),
+    "respond_directions": (lambda body: sb.respond_directions(body, RECORD, options=RespondOptions(mu=0.3)), "Block"),
     "overturning_card": (lambda body: sb.overturning_card(body, 3.0, 0.4, {}), "Block"),
     "natural_modes": (sb.natural_modes, "SpringBlock"),
     "uplift_thresholds": (lambda body: sb.uplift_thresholds(body, [1.0]), "SpringBlock"),
@@ -108,7 +110,10 @@ def test_a_body_is_needed(name):
         (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers with 0 <= fallen <= stones and at least one stone, found 3.5/10"),
         (lambda: sb.solve_slide(0.2, MOTION, vertical="yes"), "the vertical gain must be a number, found 'yes'"),
         (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
-        (lambda: sb.respond_directions(BLOCK, RECORD, mu=0.3, step_deg=0.0), "the step between directions must be positive"),
+        (
+            lambda: sb.respond_directions(BLOCK, RECORD, options=RespondOptions(mu=0.3), step_deg=0.0),
+            "the step between directions must be positive",
+        ),
         (lambda: sb.rotate(RECORD, "NS"), "azimuth must be a finite number of degrees, found NS"),
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; available: NS, EW, UD"),
         (lambda: sb.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
@@ -129,7 +134,7 @@ def test_a_body_is_needed(name):
         (lambda: sb.scale_factors(lambda factor: factor, 0.05, MOTION, steps=2.5), "the number of steps must be an integer"),
         (lambda: sb.perturb(BLOCK, MOTION, runs=2.5), "the number of runs must be an integer of at least 1, found 2.5"),
         (lambda: sb.perturb(BLOCK, MOTION, runs=True), "the number of runs must be an integer of at least 1, found True"),
-        (lambda: sb.respond_probability(BLOCK, MOTION, mu=0.3, runs="2"), "the number of runs must be an integer"),
+        (lambda: sb.respond_probability(BLOCK, MOTION, options=RespondOptions(mu=0.3), runs="2"), "the number of runs must be an integer"),
         (
             lambda: sb.solve_stack(PILE, MOTION, points=2.5),
             "the number of points along each side of a joint must be an integer of at least 2",
@@ -158,9 +163,13 @@ VERTICAL = {
     "uplift": lambda motion, vertical: sb.solve_uplift(SPRINGS, motion, vertical=vertical),
     "respond": lambda motion, vertical: sb.solve_respond(BLOCK, motion, mu=0.3, vertical=vertical, sensitivity=False),
     "stack": lambda motion, vertical: sb.solve_stack(PILE, motion, points=2, vertical=vertical),
-    "respond_probability": lambda motion, vertical: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2, vertical=vertical),
+    "respond_probability": lambda motion, vertical: sb.respond_probability(
+        BLOCK, motion, options=RespondOptions(mu=0.3, vertical=vertical), runs=2
+    ),
     "mode_map": lambda motion, vertical: sb.mode_map([0.3], [1.0], [0.2], motion, vertical=vertical),
-    "respond_directions": lambda motion, vertical: sb.respond_directions(BLOCK, motion.record, mu=0.3, step_deg=90.0, vertical=vertical),
+    "respond_directions": lambda motion, vertical: sb.respond_directions(
+        BLOCK, motion.record, options=RespondOptions(mu=0.3, vertical=vertical), step_deg=90.0
+    ),
 }
 
 

@@ -8,6 +8,7 @@ import pytest
 
 import seisblock
 from seisblock.core.errors import KindError, ParameterError
+from seisblock.models.respond.options import RespondOptions
 from tests.batch.conftest import document, run, write_record
 
 
@@ -113,7 +114,7 @@ def test_chances_are_those_of_the_single_study(folder):
     """Perturbed runs under the same seed."""
     found = seisblock.run_batch("records/r2.csv", {"a": seisblock.Block(0.2, 1.0)}, "respond", mu=0.6, runs=30, seed=4)
     motion = seisblock.motion_of(seisblock.read("records/r2.csv"), "EW")
-    alone = seisblock.respond_probability(seisblock.Block(0.2, 1.0), motion, mu=0.6, runs=30, seed=4)
+    alone = seisblock.respond_probability(seisblock.Block(0.2, 1.0), motion, options=RespondOptions(mu=0.6), runs=30, seed=4)
     row = found.rows[found["component"].index("EW")]
     assert (row["probability_overturned"], row["probability_moved"]) == (alone.overturned, alone.moved)
     assert (row["probability_low"], row["probability_high"]) == alone.interval

@@ -15,6 +15,7 @@ from seisblock.bodies.block import Block, from_slenderness
 from seisblock.dynamics import integrate
 from seisblock.models.respond import constants, respond_many, respond_params, solve_respond
 from seisblock.models.respond.model import RESPOND
+from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import strong_motion
 from tests.solvers.respond.cases import leaning
@@ -36,7 +37,7 @@ def bound(benchmark, seconds):
 
 def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     """Time a run that stays almost wholly in some modes; hold its time per sample against a bound."""
-    setting = respond_params(block, **friction)
+    setting = respond_params(block, RespondOptions(**friction))
     p, y = setting.parameters(motion.dt), setting.state(initial)
 
     def work(keep=False):
@@ -87,7 +88,7 @@ def versions(block, n=200):
     size, width = np.exp(rng.normal(0.0, 0.05, (2, n)))
     mu, e = 0.35 * np.exp(rng.normal(0.0, 0.2, n)), rng.uniform(0.0, 0.3, n)
     return [
-        respond_params(Block(block.width * w * s, block.height * s), mu=m, restitution=r)
+        respond_params(Block(block.width * w * s, block.height * s), options=RespondOptions(mu=m, restitution=r))
         for w, s, m, r in zip(width, size, mu, e, strict=True)
     ]
 

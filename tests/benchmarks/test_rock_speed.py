@@ -8,6 +8,7 @@ from seisblock.bodies.block import Block, from_slenderness
 from seisblock.bodies.block_array import rectangular_blocks
 from seisblock.dynamics import integrate, integrate_many
 from seisblock.models.rock.model import REST, ROCKING, TO_RIGHT, parameters
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params, rock_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.models.rock.solve import solve_rock
@@ -29,7 +30,7 @@ def test_a_sample_of_rocking(benchmark):
     """At most 500 ns per sample while rocking, at round-off accuracy."""
     block = from_slenderness(0.25, 2.14)
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
-    p = parameters(rock_params(block, motion, restitution=0.9999), motion.dt)
+    p = parameters(rock_params(block, motion, options=RockOptions(restitution=0.9999)), motion.dt)
     answer = benchmark(integrate, ROCKING, motion, p, (0.15, 0.0), TO_RIGHT, keep_path=False, keep_events=False)
     assert answer.final_mode != REST
     bound(benchmark, 500e-9 * SAMPLES)
@@ -39,7 +40,7 @@ def test_a_sample_of_many_that_rock(benchmark):
     """At most 60 ns per sample of each of 64 blocks side by side on one core, impacts included: the same bits as alone."""
     blocks = rectangular_blocks(np.linspace(0.9, 1.1, 64), np.linspace(3.4, 4.4, 64))
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
-    p = parameters(rock_batch_params(blocks, motion, restitution=0.9999), motion.dt)
+    p = parameters(rock_batch_params(blocks, motion, options=RockOptions(restitution=0.9999)), motion.dt)
 
     def work():
         return integrate_many(ROCKING_SIMD_MODEL, motion, p, [0.15, 0.0], TO_RIGHT, gains=(1.0, 0.0, 0.0))

@@ -13,6 +13,7 @@ from seisblock.bodies.factory import load_block
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.cli import main
 from seisblock.core.errors import BodyError
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -48,7 +49,7 @@ def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_size
     """Width and height of this body are known, vary by 5 % independently of each other, and are the medians."""
     body = load_block("refrigerator")
     draws = draw_samples(4000, 1)
-    some = perturbed_respond_params(body, ParameterVariation(), draws, mu=0.3)
+    some = perturbed_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=0.3))
     heights = 2 * some.blocks.centre
     widths = np.sqrt(12 * some.blocks.gyration_squared - heights**2)
     insets = (widths / 2 - some.blocks.right) / widths * body.width
@@ -74,7 +75,7 @@ def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
         found = perturb(same, motion, 5, spread=still)
         assert found.overturned == 5 * rock_verdict(block, motion).overturned
         nothing = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-        one = respond_probability(same, motion, mu=0.5, runs=3, versions=nothing)
+        one = respond_probability(same, motion, options=RespondOptions(mu=0.5), runs=3, versions=nothing)
         assert one.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and one.ranges == same.ranges
 
 

@@ -7,8 +7,8 @@ from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.table import read_bodies
 from seisblock.core.errors import BodyError
+from seisblock.core.registry import get_solver
 from seisblock.core.units import SUN
-from seisblock.studies.batch.models import batch_model
 from seisblock.studies.report.models import body_models
 
 
@@ -84,7 +84,7 @@ def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
     """As `--kind` does for one body, in both languages of the heading; beside a file, or misspelt, it is refused with its line."""
     path = tmp_path / "stones.csv"
     path.write_text("名前,幅,高さ,種類,mu\n墓,0.24,0.72,gravestone,0.6\n棚,0.3,1.8,furniture,0.6\n")
-    grave, shelf = (batch_model("respond").build_body(listed, {}).body for listed in read_bodies(path))
+    grave, shelf = (get_solver("respond").build_body(listed, {}).body for listed in read_bodies(path))
     assert (grave.inset, grave.ranges.inset_m) == (of_kind(Block(0.24, 0.72), "gravestone").inset, (0.0, pytest.approx(0.024)))
     assert (shelf.inset, shelf.ranges) == (0.0, None)
     assert body_models("24cmx72cm", kind="gravestone").block.inset == grave.inset
@@ -92,4 +92,4 @@ def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
         path.write_text(f"name,width,height,kind,mu,body\n{row}\n")
         (listed,) = read_bodies(path)
         with pytest.raises(BodyError, match=rf"line 2: .*{says}"):
-            batch_model("respond").build_body(listed, {})
+            get_solver("respond").build_body(listed, {})

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from seisblock import Motion, Observation, from_slenderness, rock_verdict
+from seisblock.models.rock.options import RockOptions
 from seisblock.studies.fit.fit import fit_block
 
 TRUTH = from_slenderness(0.25, 4.0)
@@ -25,7 +26,7 @@ def shaken(count, seed, block=TRUTH, scatter=0.05):
         motion = pulse(float(np.exp(dice.uniform(np.log(2.0), np.log(12.0)))), float(np.exp(dice.uniform(np.log(0.5), np.log(4.0)))))
         size, slenderness, bounce, amplitude = 1.0 + scatter * dice.uniform(-1.0, 1.0, 4)
         version = from_slenderness(np.arctan(np.tan(block.slenderness) * slenderness), block.frequency_parameter() / np.sqrt(size))
-        verdict = rock_verdict(version, motion, scale=amplitude, restitution=min(version.restitution * bounce, 1.0))
+        verdict = rock_verdict(version, motion, scale=amplitude, options=RockOptions(restitution=min(version.restitution * bounce, 1.0)))
         seen.append(Observation(motion, verdict.overturned, record=f"pulse {k}"))
     return seen
 

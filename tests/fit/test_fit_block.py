@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock import Block, KindError, Observation, ParameterError, fit_block, from_slenderness
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.studies.fit.block_family import BlockFamily
 from seisblock.studies.fit.cross_validation import calibration, score_predictions
@@ -197,7 +198,9 @@ def test_a_share_without_scatter_is_the_single_verdict():
     values = made.values(places)
     for k, each in enumerate(seen.outcomes):
         falls = [
-            rock_verdict(from_slenderness(a, p).with_wear(0.1), each.motion, scale=each.scale, restitution=0.85).overturned
+            rock_verdict(
+                from_slenderness(a, p).with_wear(0.1), each.motion, scale=each.scale, options=RockOptions(restitution=0.85)
+            ).overturned
             for a, p in zip(values["alpha"], values["p"], strict=True)
         ]
         assert (shares[k] == SHARE_DENOMINATOR * np.array(falls)).all()

@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block, from_slenderness
 from seisblock.core.errors import ParameterError
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -104,10 +105,10 @@ def sine(x, w, cycles, samples=2000):
 def threshold(pulse, low, high, e=0.9):
     """Bisect the amplitude at which the verdict of the linear solver changes."""
     block = from_slenderness(ALPHA, P)
-    above = rock_verdict(block, pulse(high), restitution=e, linear=True).overturned
+    above = rock_verdict(block, pulse(high), options=RockOptions(restitution=e, linear=True)).overturned
     for _ in range(30):
         middle = (low + high) / 2
-        if rock_verdict(block, pulse(middle), restitution=e, linear=True).overturned == above:
+        if rock_verdict(block, pulse(middle), options=RockOptions(restitution=e, linear=True)).overturned == above:
             high = middle
         else:
             low = middle
@@ -133,7 +134,9 @@ def test_zhang_and_makris_safe_window():
     found = [threshold(lambda a: sine(a, 5.0, 2), low, high) for low, high in ((2, 4), (5, 6.6), (6.8, 8))]
     np.testing.assert_allclose(found, [3.019, 6.318, 7.168], atol=5e-4)
     block = from_slenderness(ALPHA, P)
-    verdicts = [rock_verdict(block, sine(x, 5.0, 2), restitution=0.9, linear=True).overturned for x in (2.9, 5, 6.7, 7.5)]
+    verdicts = [
+        rock_verdict(block, sine(x, 5.0, 2), options=RockOptions(restitution=0.9, linear=True)).overturned for x in (2.9, 5, 6.7, 7.5)
+    ]
     assert verdicts == [False, True, False, True]
 
 

@@ -31,6 +31,8 @@ from seisblock import (
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.scan.scan import scan_body
 from seisblock.measures import measure, response_spectrum
+from seisblock.models.respond.options import RespondOptions
+from seisblock.models.rock.options import RockOptions
 from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.records.process import scale
 from seisblock.records.site import Earthquake
@@ -122,7 +124,7 @@ def response(model, component="NS"):
 def every_azimuth(model):
     if model == "rock":
         return rock_directions(Block(0.3, 0.9), record(), step_deg=15.0)
-    return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), mu=0.3, step_deg=15.0)
+    return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), options=RespondOptions(mu=0.3), step_deg=15.0)
 
 
 AOYAMA = read_cemetery("aoyama.csv")
@@ -136,7 +138,7 @@ def prepared():
 
 @functools.cache
 def cards():
-    return [compare_criteria(record(), motion(name), Block(0.3, 0.9), gravity=9.81) for name in BOTH]
+    return [compare_criteria(record(), motion(name), Block(0.3, 0.9), options=RockOptions(gravity=9.81)) for name in BOTH]
 
 
 @functools.cache

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.factory import load_block
+from seisblock.models.respond.options import RespondOptions
 from seisblock.records.site import great_circle_km
 from seisblock.report.figures.label_placement import overlap_area
 from seisblock.report.figures.stations import figure
@@ -94,7 +95,7 @@ def test_the_worst_station_has_its_name_however_near_the_epicentre(west, south):
 
 def test_where_it_falls_as_given_the_rim_is_thick():
     """A station at which no version falls, and the body itself does, is told from one at which it stands; the label says how."""
-    subject = StationBody(load_block("gravestone"), {"mu": 0.6}, runs=20)
+    subject = StationBody(load_block("gravestone"), RespondOptions(mu=0.6), runs=20)
     found, _ = stations()
     effects = [StationResult(0.0, happened=fell, overturned=fell, probability=0.0) for fell in (True, False)]
     two = [replace(answer, effect=effect) for answer, effect in zip(found.answers, effects, strict=False)]

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block, scale_block
 from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -95,7 +96,10 @@ def test_ensembles_agree_with_single_runs(a, block, scale, vertical):
     """The short way gives the verdict and the ratio of the long one."""
     motion = Motion.from_arrays(a, 0.03, vertical=0.5 * a[::-1])
     scaled = Motion.from_arrays(scale * a, 0.03, vertical=scale * 0.5 * a[::-1])
-    short, long = rock_verdict(block, motion, scale=scale, vertical=vertical), solve_rock(block, scaled, vertical=vertical).outcome
+    short, long = (
+        rock_verdict(block, motion, scale=scale, options=RockOptions(vertical=vertical)),
+        solve_rock(block, scaled, vertical=vertical).outcome,
+    )
     assert short.overturned == long.overturned
     assert short.max_rotation_ratio == pytest.approx(long.max_rotation_ratio, rel=1e-9, abs=1e-15)
 

@@ -21,6 +21,7 @@ from seisblock.cli.stack import MAX_GRID
 from seisblock.cli.types import Count
 from seisblock.core.errors import InputError, ParameterError
 from seisblock.core.io.checkpoint_lines import read_complete_lines
+from seisblock.models.respond.options import RespondOptions
 from seisblock.readers.discover import iter_records
 from seisblock.readers.dispatch import ReadOptions
 from seisblock.studies.fit.outcome_table import read_outcomes
@@ -144,11 +145,13 @@ def test_a_limit_is_lifted_by_its_variable(monkeypatch):
 PULSE = Motion.from_arrays([0.0, 1.0, 0.0], 0.01)
 TOO_MUCH = {
     "versions of a stone": lambda: seisblock.perturb(Block(0.2, 0.8), PULSE, 10**9),
-    "versions of a body": lambda: seisblock.respond_probability(Block(0.2, 0.8), PULSE, mu=0.5, runs=10**9),
+    "versions of a body": lambda: seisblock.respond_probability(Block(0.2, 0.8), PULSE, options=RespondOptions(mu=0.5), runs=10**9),
     "factors of a margin": lambda: seisblock.find_margin(Block(0.2, 0.8), PULSE, step=1e-9),
     "factors of a scan": lambda: scale_factors(abs, 1.0, PULSE, steps=10**9),
     "points of a joint": lambda: seisblock.solve_stack(seisblock.load_pile("wagata"), PULSE, points=10**9),
-    "directions": lambda: respond_directions(Block(0.2, 0.8), seisblock.read("synthetic_jma.csv"), mu=0.5, step_deg=1e-9),
+    "directions": lambda: respond_directions(
+        Block(0.2, 0.8), seisblock.read("synthetic_jma.csv"), options=RespondOptions(mu=0.5), step_deg=1e-9
+    ),
 }
 
 

@@ -18,6 +18,7 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.results import Response
 from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model as rocking
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
 from seisblock.studies.criteria_comparison import compare_criteria
 from seisblock.studies.model_comparison import compare_pile_models
@@ -215,7 +216,7 @@ def beside_a_pile(record, motion):
 
 
 STUDIES = {
-    "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, gravity=9.81).agreement,
+    "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, options=RockOptions(gravity=9.81)).agreement,
     "stack": beside_a_pile,
 }
 

@@ -13,6 +13,7 @@ from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.dynamics import integrate, integration
 from seisblock.models.rock import model as rock_model
 from seisblock.models.rock.free_rocking import free_rocking_outcome
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -140,7 +141,9 @@ def test_fate_agrees_with_integrating_on(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
     found = free_rocking_outcome(
-        rock_params(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G), theta, omega
+        rock_params(block, Motion.from_arrays(np.zeros(2), 0.01), options=RockOptions(restitution=0.95, linear=linear, gravity=G)),
+        theta,
+        omega,
     )
     long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
     assert found.overturns == long.overturned

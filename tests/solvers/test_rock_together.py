@@ -10,6 +10,7 @@ from seisblock.bodies.block_array import rectangular_blocks
 from seisblock.dynamics import Ensemble, integrate_many
 from seisblock.models.rock.expansion import COSINE, OMEGA, SINE, THETA, expand_series, omega_coefficients, sine_cosine
 from seisblock.models.rock.model import REST, ROCKING, TO_LEFT, TO_RIGHT, parameters
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
@@ -51,7 +52,7 @@ def test_a_few_lanes_through_a_short_motion():
 
 def test_lanes_begin_anywhere_and_go_on_where_they_paused(monkeypatch):
     """From a lean, in slices of a few steps, and through a motion that is given stretch by stretch: the same bits."""
-    p = parameters(rock_batch_params(BLOCKS, MOTION, restitution=0.97), 0.01)
+    p = parameters(rock_batch_params(BLOCKS, MOTION, options=RockOptions(restitution=0.97)), 0.01)
     start = np.column_stack([-0.5 * p[:, 4], np.linspace(-0.3, 0.3, len(p))])
     alone = integrate_many(ROCKING, MOTION, p, start, TO_LEFT, gains=GAINS)
     monkeypatch.setattr("seisblock.dynamics.ensemble.STEPS_PER_SLICE", 40)
@@ -63,7 +64,7 @@ def test_lanes_begin_anywhere_and_go_on_where_they_paused(monkeypatch):
 
 def test_the_linear_option_is_left_to_the_engine():
     """Slender blocks by the linear equation: the same bits, too."""
-    p = parameters(rock_batch_params(BLOCKS, MOTION, linear=True), 0.01)
+    p = parameters(rock_batch_params(BLOCKS, MOTION, options=RockOptions(linear=True)), 0.01)
     assert_same(*(integrate_many(model, MOTION, p, np.zeros(2), REST, gains=GAINS) for model in (ROCKING_SIMD_MODEL, ROCKING)))
 
 

@@ -9,6 +9,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.core.errors import ComponentError, KindError, ParameterError
 from seisblock.models.rock import rock_params, rock_verdict, rock_verdicts, solve_rock
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.studies.rocking.verdicts import overturns_at, parallel_verdicts
@@ -29,7 +30,7 @@ OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravit
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
 def test_many_runs_are_one_run_after_another(options):
     """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
-    rockers = [rock_params(block, MOTION, **options) for block in BLOCKS]
+    rockers = [rock_params(block, MOTION, RockOptions(**options)) for block in BLOCKS]
     alone = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
     assert {outcome.overturned for outcome in alone} == {False, True}
     together = rock_verdicts(rockers, MOTION, rockers[0].gains())
@@ -38,7 +39,7 @@ def test_many_runs_are_one_run_after_another(options):
     one = rockers[4]
     scaled = rock_verdicts([one], MOTION, [one.gains(scale) for scale in SCALES])
     for scale, overturned, ratio in zip(SCALES, scaled.overturned, scaled.max_rotation_ratio, strict=True):
-        found = rock_verdict(one.block, MOTION, scale=scale, **options)
+        found = rock_verdict(one.block, MOTION, scale=scale, options=RockOptions(**options))
         assert (found.overturned, found.max_rotation_ratio) == (overturned, ratio)
     np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
 
@@ -46,7 +47,7 @@ def test_many_runs_are_one_run_after_another(options):
 def test_arrays_of_blocks_are_the_blocks():
     """Blocks that were never objects have the verdicts of those that were, on a record that ends while some of them still rock."""
     motion = motion_of(Record(tuple(Component(c.code, c.acceleration[:530]) for c in RECORD.components), 0.01), "NS")
-    arrays = rock_batch_params(to_block_array(BLOCKS), motion, vertical=True)
+    arrays = rock_batch_params(to_block_array(BLOCKS), motion, options=RockOptions(vertical=True))
     found = rock_verdicts(arrays, motion, arrays.gains(1.2))
     scaled = Motion(1.2 * motion.acceleration, 0.01)
     alone = [solve_rock(block, scaled, vertical=True).outcome for block in BLOCKS]
@@ -71,7 +72,7 @@ def test_a_motion_is_turned_by_its_gains(azimuth):
     """Cos and -sin on the rows along and across are the record turned clockwise, also while the block is at rest."""
     angle = math.radians(azimuth)
     for options in ({}, {"vertical": True}):
-        one = rock_params(BLOCKS[1], MOTION, **options)
+        one = rock_params(BLOCKS[1], MOTION, RockOptions(**options))
         turned = rock_verdicts([one], MOTION, (math.cos(angle), -math.sin(angle), one.vertical))
         there = solve_rock(one.block, motion_of(RECORD, f"{azimuth:g}"), **options).outcome
         assert turned.overturned[0] == there.overturned
@@ -83,9 +84,9 @@ def test_what_cannot_be_asked_is_refused_once_for_all_studies():
     level = Motion(MOTION.acceleration, 0.01, record=Record(RECORD.components[:2], 0.01))
     for call, error in (
         (lambda: rock_params(BLOCKS[0], RECORD), KindError),
-        (lambda: rock_params(BLOCKS[0], level, vertical=True), ComponentError),
-        (lambda: rock_params(BLOCKS[0], MOTION, restitution=1.1), ParameterError),
-        (lambda: rock_params(BLOCKS[0], MOTION, gravity=0.0), ParameterError),
+        (lambda: rock_params(BLOCKS[0], level, options=RockOptions(vertical=True)), ComponentError),
+        (lambda: rock_params(BLOCKS[0], MOTION, options=RockOptions(restitution=1.1)), ParameterError),
+        (lambda: rock_params(BLOCKS[0], MOTION, options=RockOptions(gravity=0.0)), ParameterError),
     ):
         with pytest.raises(error):
             call()

@@ -11,9 +11,10 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
 from seisblock.models.stack.frames import Q, R, V, X
+from seisblock.models.stack.options import EDGES
 from seisblock.models.stack.recorder import CREATED, DISSIPATED
 from seisblock.models.stack.simulation import Simulation
-from seisblock.validation.stack_round import EDGE_POINTS, tilted_axes
+from seisblock.validation.stack_round import tilted_axes
 from tests.solvers.test_stack_rigid import still
 
 RADIUS, LONG, SHORT, SPEED = 0.25, 0.7, 0.3, 1.0
@@ -27,7 +28,7 @@ def roll_against(along, turned, restitution):
         PileStone("low", 2.0 * RADIUS, 2.0 * RADIUS, LONG, shape="round"),
         PileStone("high", 2.0 * RADIUS, 2.0 * RADIUS, SHORT, on="low", shape="round"),
     )
-    pile = pile_arrays(Pile("two", stones, mu=0.5), None, EDGE_POINTS, restitution)
+    pile = pile_arrays(Pile("two", stones, mu=0.5), None, EDGES, restitution)
     places = [((0.0, 0.0, RADIUS), 0.0), ((along, 2.4 * RADIUS, RADIUS), turned)]
     for body, (centre, turn) in zip(pile.bodies[:2], places, strict=True):
         lies = Rotation.from_rotvec([0.0, 0.0, turn]) * Rotation.from_matrix(tilted_axes(math.pi / 2.0))

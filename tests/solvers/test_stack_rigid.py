@@ -240,7 +240,7 @@ def test_two_hundred_piles_create_no_energy():
 def test_a_stone_that_falls_off_a_wide_base_creates_no_energy(component, factor):
     """Falls that rigid stones left to springs, with a warning: they are followed to the end now."""
     found = solve_stack(STONES, motion(component, factor))
-    assert (found.options["law"], found.warnings) == ("rigid", ())
+    assert (found.options.law, found.warnings) == ("rigid", ())
     assert found.outcome.overturned == ("sao",)
     assert found.outcome.created_j < 5e-4 * found.outcome.lost_j
 
@@ -258,7 +258,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
     refused[:] = [1e-3]
     for more in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
         found = solve_stack(block(), cycle(3.0, 1.0), **more)
-        assert found.options["law"] == "rigid"
+        assert found.options.law == "rigid"
         assert found.outcome.step_s < 1e-3
         assert "solved with a finer step of" in found.warnings[0]
     with pytest.raises(SolverError, match="created"):
@@ -267,7 +267,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
     with pytest.raises(SolverError, match="created"):
         solve_stack(block(), cycle(3.0, 1.0), law="rigid")
     found = solve_stack(block(), cycle(3.0, 1.0))
-    assert found.options["law"] == "springs"
+    assert found.options.law == "springs"
     assert "solved with contact springs, since rigid contact failed" in found.warnings[0]
 
 

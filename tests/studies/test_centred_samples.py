@@ -16,6 +16,7 @@ from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core.errors import BodyError
 from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.constants import ROCKING_RESTITUTION
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import RespondParams, rigid_body
 from seisblock.models.respond.solve import solve_respond
 from seisblock.models.rock.verdicts import rock_verdict
@@ -39,7 +40,8 @@ def test_probability_is_continuous_in_a_given_inset():
     """It rises with the inset, and 1e-4 of the width change the fate of few samples: also at the ends and the median of gravestones."""
     motion = shaking("hanmer_springs_2016", "1", 1.7)
     shares = {
-        x: respond_probability(Block(0.2424, 0.72).with_wear(x), motion, mu=0.6).overturned for x in (*INSETS, 0.0001, 0.0501, 0.1201)
+        x: respond_probability(Block(0.2424, 0.72).with_wear(x), motion, options=RespondOptions(mu=0.6)).overturned
+        for x in (*INSETS, 0.0001, 0.0501, 0.1201)
     }
     assert shares[0.0] < shares[0.02] < shares[0.05] and 0.1 < shares[0.05] < 0.9 and 0.1 < shares[0.1] < 0.9
     for x in (0.0, 0.05, 0.1, 0.12):
@@ -67,7 +69,7 @@ def test_nominal_body_is_the_median_of_its_samples(name):
     body, mu = load_block(name), 0.42
     draws = np.random.default_rng(3).uniform(-1.0, 1.0, (20_001, 7))
     motion = shaking("synthetic_jma.csv", "NS")
-    some = perturbed_respond_params(body, ParameterVariation(), draws, mu=mu, restitution=0.05)
+    some = perturbed_respond_params(body, ParameterVariation(), draws, options=RespondOptions(mu=mu, restitution=0.05))
     gains = _gains(motion, ParameterVariation(), draws, None)
     right, left, centre, _ = some.blocks.columns
     across = 0.5 * (right + left)
@@ -93,7 +95,7 @@ def test_samples_drawn_at_the_middle_are_the_body_itself():
     """Zero draws give the nominal body, contact and shaking, whatever its ranges."""
     body = load_block("refrigerator")
     one = perturbed_respond_params(
-        body, ParameterVariation(), np.zeros((1, 7)), mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8
+        body, ParameterVariation(), np.zeros((1, 7)), options=RespondOptions(mu=0.3, mu_kinetic=0.25, rocking_restitution=0.8)
     ).row_params(0)
     assert (one.rigid_body.right, one.rigid_body.left, one.rigid_body.height) == pytest.approx((*body.arms, body.centre), rel=1e-14)
     assert (one.mu, one.mu_kinetic, one.restitution, one.rocking_restitution) == pytest.approx((0.3, 0.25, 0.0, 0.8))
@@ -105,7 +107,7 @@ def test_probability_is_the_verdict_where_nothing_varies(name, factor):
     """0 or 1, also of a body whose kind has ranges; `respond` and `rock`."""
     body, motion = load_block(name), shaking("hanmer_springs_2016", "1", factor)
     falls = solve_respond(body, motion, mu=0.5).outcome.overturned
-    assert respond_probability(body, motion, mu=0.5, runs=2, versions=NOTHING_VARIES).overturned == float(falls)
+    assert respond_probability(body, motion, options=RespondOptions(mu=0.5), runs=2, versions=NOTHING_VARIES).overturned == float(falls)
     still = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0, inset=0.0)
     assert perturb(body, motion, 2, spread=still).overturned == 2 * rock_verdict(body, motion).overturned
 
@@ -120,11 +122,11 @@ def test_verdict_and_probability_agree_near_the_threshold():
             low, high = 0.1, 40.0
             for _ in range(6):
                 middle = (low * high) ** 0.5
-                falls = respond_probability(body, shaking(name, code, middle), mu=mu, runs=30).overturned >= 0.5
+                falls = respond_probability(body, shaking(name, code, middle), options=RespondOptions(mu=mu), runs=30).overturned >= 0.5
                 low, high = (low, middle) if falls else (middle, high)
             for factor in (0.8, 0.9, 1.0, 1.1, 1.25):
                 motion = shaking(name, code, high * factor)
-                share = respond_probability(body, motion, mu=mu, runs=100).overturned
+                share = respond_probability(body, motion, options=RespondOptions(mu=mu), runs=100).overturned
                 falls = solve_respond(body, motion, mu=mu).outcome.overturned
                 agree.append((share >= 0.5) == falls)
                 differences.append(share - falls)
@@ -135,13 +137,15 @@ def test_verdict_and_probability_agree_near_the_threshold():
 def test_restitution_varies_to_both_sides_of_a_plastic_impact():
     """The lossier half keeps a share of Housner's ratio, at least 0.9; a given rocking restitution varies about itself, up to 1."""
     draws = draw_samples(400, 0)
-    some = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, mu=0.5)
+    some = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5))
     lossy = draws[:, 3] < 0.0
     assert 0.9 < some.rocking.min() < 0.905 and (some.rocking[~lossy] == 1.0).all() and (some.restitution[lossy] == 0.0).all()
     assert 0.095 < some.restitution.max() <= 0.1
     table = some.parameters(0.01)
     assert (table[lossy, ROCKING_RESTITUTION] == -some.rocking[lossy]).all() and (table[~lossy, ROCKING_RESTITUTION] == -1.0).all()
-    ratio = perturbed_respond_params(Block(0.24, 0.8), ParameterVariation(), draws, mu=0.5, rocking_restitution=0.95)
+    ratio = perturbed_respond_params(
+        Block(0.24, 0.8), ParameterVariation(), draws, options=RespondOptions(mu=0.5, rocking_restitution=0.95)
+    )
     assert ratio.rocking_given and ratio.rocking.min() < 0.86 and ratio.rocking.max() == 1.0
     assert np.median(ratio.rocking) == pytest.approx(0.95, abs=0.01)
 

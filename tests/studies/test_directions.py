@@ -19,6 +19,7 @@ from seisblock import (
 from seisblock.bodies.block_array import wear_within
 from seisblock.bodies.scan.toml import load_scan
 from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.models.respond.options import RespondOptions
 from seisblock.records.process import crop, scale
 from seisblock.studies.azimuths import make_azimuth_sweep
 from seisblock.studies.model_comparison import compare_models
@@ -46,7 +47,7 @@ def test_rocking_in_every_direction_is_that_of_single_runs(body):
 
 def test_a_free_standing_scan_in_every_direction_is_that_of_single_runs():
     """Verdict, largest lean, displacements and end as one motion after the other, each with its own arms."""
-    for each in respond_directions(BOULDER, RECORD, mu=0.35, step_deg=45.0):
+    for each in respond_directions(BOULDER, RECORD, options=RespondOptions(mu=0.35), step_deg=45.0):
         motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
         block = BOULDER.block_for_motion(motion)
         one = solve_respond(block, motion, mu=0.35, sensitivity=False).outcome
@@ -117,5 +118,5 @@ def test_versions_of_a_body_that_stands_keep_something_to_stand_on(offset):
     block, motion = Block(0.2, 0.6, centroid_offset=offset), motion_of(RECORD, "NS")
     assert wear_within(block, 0.1) == pytest.approx(0.04 if offset else 0.1)
     assert wear_within(block.with_wear(0.045), 0.1) == pytest.approx(0.045 if offset else 0.1)
-    assert perturb(block, motion, 10).runs == respond_probability(block, motion, mu=0.5, runs=10).runs == 10
+    assert perturb(block, motion, 10).runs == respond_probability(block, motion, options=RespondOptions(mu=0.5), runs=10).runs == 10
     assert compare_models(block, motion).models >= 3

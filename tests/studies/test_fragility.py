@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import ndtr
@@ -21,6 +23,7 @@ from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Component, Motion, Preparation, Record, Storey, motion_of, process
 from seisblock.records.floor_motion import floor_motion
 from seisblock.report.exports.pelicun import pelicun_rows
+from seisblock.studies.capabilities import _CAPABILITIES, capabilities
 from seisblock.studies.fragility.capacities import capacities, moments
 from seisblock.studies.fragility.damage_states import EndStates, limit_state, limit_states
 from seisblock.studies.fragility.efficiency import efficiency_of_capacities, efficiency_of_cloud
@@ -29,7 +32,7 @@ from seisblock.studies.fragility.goodness_of_fit import goodness_of_capacities, 
 from seisblock.studies.fragility.intensity import factors_for, intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_lognormals, fit_lognormals_shared_beta
 from seisblock.studies.fragility.run import prepare_bodies, run_fragility
-from seisblock.studies.fragility.runners import RUNNERS, version_draws
+from seisblock.studies.fragility.runners import version_draws
 from seisblock.studies.fragility.suite import make_suite
 from tests.batch.conftest import shaking
 from tests.motions import synthetic_suite
@@ -200,7 +203,7 @@ class TestIntensity:
     def test_what_is_no_limit_is_refused(self, text, solver):
         """An unknown name, a threshold that is missing or too many, and what a solver does not answer."""
         with pytest.raises(ParameterError):
-            limit_states(text, solver)
+            limit_states(text, solver, capabilities(solver).limits)
 
 
 class TestRuns:
@@ -218,7 +221,7 @@ class TestRuns:
         ends = {}
         for solver, body, options in (("rock", SHELF, {}), ("respond", SHELF, {"mu": 0.3}), ("slide", 0.2, {})):
             (placed,) = prepare_bodies([body], solver, options)
-            ends[solver] = RUNNERS[solver](placed, motion, factors, None)
+            ends[solver] = capabilities(solver).end_states(placed, motion, factors, None)
         alone = [solve_rock(SHELF, each).outcome for each in scaled]
         assert ends["rock"].overturned.tolist() == [each.overturned for each in alone]
         assert ends["rock"].tilt_ratio == pytest.approx([each.max_rotation_ratio for each in alone], rel=1e-9)
@@ -249,7 +252,7 @@ class TestRuns:
         assert bouncy.min() < 0.0 < bouncy.max()
         for solver, options in (("rock", {"restitution": 0.9}), ("respond", {"mu": 0.5})):
             (placed,) = prepare_bodies([shelf], solver, options)
-            ends = RUNNERS[solver](placed, motion, factors, draws)
+            ends = capabilities(solver).end_states(placed, motion, factors, draws)
             alone = []
             for factor in factors:
                 each = Motion(motion.acceleration * factor, motion.dt)
@@ -272,7 +275,7 @@ class TestRuns:
         (placed,) = prepare_bodies("lantern", "stack", {"points": 2})
         record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
         motion = motion_of(record, "EW")
-        ends = RUNNERS["stack"](placed, motion, np.array([0.1]), None)
+        ends = capabilities("stack").end_states(placed, motion, np.array([0.1]), None)
         outcome = solve_stack(placed.body, Motion(0.1 * motion.acceleration, motion.dt, record=record), points=2).outcome
         assert ends.overturned.tolist() == [outcome.overturned_any]
         assert ends.slip_m[0] == max(outcome.residual_slip_m.values())
@@ -413,7 +416,7 @@ class TestScatter:
         motion = motion_of(records[4], "EW")
         (placed,) = prepare_bodies([SHELF], "rock", {})
         factor = 1.4
-        ends = RUNNERS["rock"](placed, motion, np.array([factor]), version_draws(60, 7))
+        ends = capabilities("rock").end_states(placed, motion, np.array([factor]), version_draws(60, 7))
         scaled = Motion(motion.acceleration * factor, motion.dt)
         same = seisblock.perturb(SHELF, scaled, 60, spread=seisblock.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
         assert int(ends.overturned.sum()) == same.overturned
@@ -517,7 +520,7 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
         return run_fragility(records, SHELF, "respond", mu=0.7, im="pgv", levels=levels, method=method, bootstrap=20)
 
     whole = study()
-    follow, calls = RUNNERS["respond"], []
+    follow, calls = capabilities("respond").end_states, []
 
     def lossy(placed, motion, factors, draws):
         ends = follow(placed, motion, factors, draws)
@@ -526,7 +529,7 @@ def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch,
         gave_up[1] = len(calls) == 1
         return EndStates(ends.overturned & ~gave_up, ends.tilt_ratio, ends.slip_m, gave_up)
 
-    monkeypatch.setitem(RUNNERS, "respond", lossy)
+    monkeypatch.setitem(_CAPABILITIES, "respond", replace(_CAPABILITIES["respond"], end_states=lossy))
     partial = study()
     curve = partial.curves[0]
     assert (whole.curves[0].no_answer, curve.no_answer) == (0, 1)

@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block, from_slenderness, scale_block
 from seisblock.bodies.kinds import of_kind
 from seisblock.core.errors import ParameterError
 from seisblock.core.units import STANDARD_GRAVITY as G
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.solve import solve_rock
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
@@ -31,7 +32,7 @@ def one_sine(x, samples=400):
 
 def test_every_window_of_one_sine_is_found():
     """[Zhang2001]_: safe to 3.019, unsafe to 6.318, safe to 7.168, unsafe above; scaled from X = 4."""
-    margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
+    margin = find_margin(BLOCK, one_sine(4.0), options=RockOptions(restitution=0.9, linear=True))
     assert [window.overturned for window in margin.windows] == [False, True, False, True]
     np.testing.assert_allclose(np.array(margin.flips) * 4, [3.019, 6.318, 7.168], atol=1e-3)
     assert margin.overturned is True
@@ -44,14 +45,16 @@ def test_every_window_of_one_sine_is_found():
 def test_verdicts_on_both_sides_of_each_flip():
     """Just below and just above each factor the verdicts differ."""
     motion = one_sine(4.0)
-    for flip in find_margin(BLOCK, motion, restitution=0.9).flips:
-        below, above = (rock_verdict(BLOCK, motion, scale=flip * (1 + e), restitution=0.9).overturned for e in (-1e-5, 1e-5))
+    for flip in find_margin(BLOCK, motion, options=RockOptions(restitution=0.9)).flips:
+        below, above = (
+            rock_verdict(BLOCK, motion, scale=flip * (1 + e), options=RockOptions(restitution=0.9)).overturned for e in (-1e-5, 1e-5)
+        )
         assert below != above
 
 
 def test_the_first_fall_found_and_how_often_it_falls_above():
     """The boundary is fractal: the margin names the first fall that it found, and the share of factors above at which it falls (N11)."""
-    margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
+    margin = find_margin(BLOCK, one_sine(4.0), options=RockOptions(restitution=0.9, linear=True))
     assert margin.first_fall == margin.flips[0]
     assert margin.first_fall * 4 == pytest.approx(3.019, abs=1e-3)
     falls = (6.318 - 3.019 + 12.0 - 7.168) / (12.0 - 3.019)
@@ -73,7 +76,11 @@ def test_fragile_verdicts_are_flagged():
         response = solve_rock(BLOCK, motion, restitution=0.9, linear=True)
         assert response.outcome.verdict_flips_within_2_percent is None
         told = flag_near_flip(response)
-        assert told.outcome.verdict_flips_within_2_percent is has_nearby_flip(BLOCK, motion, restitution=0.9, linear=True) is fragile
+        assert (
+            told.outcome.verdict_flips_within_2_percent
+            is has_nearby_flip(BLOCK, motion, options=RockOptions(restitution=0.9, linear=True))
+            is fragile
+        )
         assert any("2 %" in text for text in told.warnings) is fragile
         factor = told.outcome.flips_at_factor
         assert (factor is not None) is fragile
@@ -87,8 +94,8 @@ def test_fragile_verdicts_are_flagged():
 def test_a_margin_knows_the_flips_near_the_record():
     """However coarse the scan, what a look at 2 % finds is among its windows, and the share is that of the even factors."""
     x = 3.019 * 0.985
-    near = nearest_flip(BLOCK, one_sine(x), restitution=0.9, linear=True)
-    margin = find_margin(BLOCK, one_sine(x), step=0.75, limit=1.5, restitution=0.9, linear=True)
+    near = nearest_flip(BLOCK, one_sine(x), options=RockOptions(restitution=0.9, linear=True))
+    margin = find_margin(BLOCK, one_sine(x), step=0.75, limit=1.5, options=RockOptions(restitution=0.9, linear=True))
     assert near is not None and any(window.overturned and window.first <= near <= window.last for window in margin.windows)
     assert margin.first_fall == pytest.approx(near, abs=0.001)
     assert margin.falls_above_first == 1.0
@@ -103,27 +110,27 @@ def test_impossible_scans_are_refused(limit, step):
 
 def test_probability_far_from_any_flip_is_certain():
     """All or none of the runs overturn, and the interval says what so few runs can tell."""
-    sure = perturb(BLOCK, one_sine(4.5), 60, restitution=0.9)
+    sure = perturb(BLOCK, one_sine(4.5), 60, options=RockOptions(restitution=0.9))
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
     assert 0.9 < sure.probability_interval[0] < 1.0
-    never = perturb(BLOCK, one_sine(1.5), 60, restitution=0.9)
+    never = perturb(BLOCK, one_sine(1.5), 60, options=RockOptions(restitution=0.9))
     assert (never.overturned, never.probability_interval[0]) == (0, 0.0)
 
 
 def test_probability_at_a_flip_is_a_half():
     """With the amplitude alone changing, half of the runs lie on each side of a flip."""
-    flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
+    flip = find_margin(BLOCK, one_sine(3.0), options=RockOptions(restitution=0.9)).flips[0]
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
-    found = perturb(BLOCK, one_sine(3.0 * flip), 400, restitution=0.9, spread=only)
+    found = perturb(BLOCK, one_sine(3.0 * flip), 400, options=RockOptions(restitution=0.9), spread=only)
     assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
 
 
 @pytest.mark.parametrize(("above", "share"), [(0.01, 0.25), (-0.01, 0.75), (0.021, 0.0), (-0.021, 1.0)])
 def test_changes_are_uniform_within_their_half_width(above, share):
     """Amplitudes within 2 % lie evenly: a quarter of them beyond a flip 1 % above the middle, none beyond one at 2.1 %."""
-    flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
+    flip = find_margin(BLOCK, one_sine(3.0), options=RockOptions(restitution=0.9)).flips[0]
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
-    found = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, restitution=0.9, spread=only)
+    found = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, options=RockOptions(restitution=0.9), spread=only)
     # 2000 draws scatter by 0.0097 about a quarter; normal ones would leave 0.31 there, and 0.16 beyond the half width
     assert found.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
 
@@ -137,24 +144,37 @@ def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():
     """With nothing else changing, a stone that falls only when it is worn by more than half of that falls in half of the runs."""
     motion, stone = one_sine(2.8), of_kind(BLOCK, "gravestone")
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-    share = next(x for x in np.linspace(0.0, 0.1, 401) if rock_verdict(BLOCK.with_wear(float(x)), motion, restitution=0.9).overturned)
+    share = next(
+        x
+        for x in np.linspace(0.0, 0.1, 401)
+        if rock_verdict(BLOCK.with_wear(float(x)), motion, options=RockOptions(restitution=0.9)).overturned
+    )
     assert 0.01 < share < 0.09
-    found = perturb(stone, motion, 400, restitution=0.9, spread=only)
+    found = perturb(stone, motion, 400, options=RockOptions(restitution=0.9), spread=only)
     low, high = found.probability_interval
     assert low < 1.0 - share / 0.1 < high and found.ranges == stone.ranges
     exact = replace(only, inset=0.0)
-    assert perturb(stone, motion, 5, restitution=0.9, spread=exact).overturned == 5 * (share < 0.05)
+    assert perturb(stone, motion, 5, options=RockOptions(restitution=0.9), spread=exact).overturned == 5 * (share < 0.05)
 
 
 def test_perturb_varies_a_known_inset_by_a_share_of_itself():
     """Sharp edges stay sharp; an inset just beyond that at which the stone falls falls in half of the runs."""
     motion = one_sine(2.8)
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
-    assert perturb(BLOCK, motion, 5, restitution=0.9, spread=only).overturned == 0
-    share = next(x for x in np.linspace(0.0, 0.1, 4001) if rock_verdict(BLOCK.with_wear(float(x)), motion, restitution=0.9).overturned)
-    low, high = perturb(BLOCK.with_wear(float(share)), motion, 400, restitution=0.9, spread=only).probability_interval
+    assert perturb(BLOCK, motion, 5, options=RockOptions(restitution=0.9), spread=only).overturned == 0
+    share = next(
+        x
+        for x in np.linspace(0.0, 0.1, 4001)
+        if rock_verdict(BLOCK.with_wear(float(x)), motion, options=RockOptions(restitution=0.9)).overturned
+    )
+    low, high = perturb(BLOCK.with_wear(float(share)), motion, 400, options=RockOptions(restitution=0.9), spread=only).probability_interval
     assert low < 0.5 < high
-    assert perturb(BLOCK.with_wear(1.11 * share), motion, 50, restitution=0.9, spread=replace(only, inset=0.05)).overturned == 50
+    assert (
+        perturb(
+            BLOCK.with_wear(1.11 * share), motion, 50, options=RockOptions(restitution=0.9), spread=replace(only, inset=0.05)
+        ).overturned
+        == 50
+    )
 
 
 def test_same_seed_same_runs():

@@ -10,6 +10,7 @@ from seisblock.bodies.pile.edge_wear import widest_wear, worn_to
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.errors import BodyError, ParameterError, SolverError
+from seisblock.models.stack.options import StackOptions
 from seisblock.models.stack.solve import solve_stack
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -129,7 +130,7 @@ def test_worn_stones_fall_sooner():
 
 def test_a_grid_of_points_has_no_worn_edges():
     """Its points stand inside by themselves: the answer says that no inset was varied."""
-    asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVariation(inset=0.3))
+    asked = stack_probability(PILE, PULSE, runs=4, options=StackOptions(points=5), versions=PileVariation(inset=0.3))
     assert asked.versions.inset == 0.0
 
 
@@ -179,5 +180,5 @@ def test_kinetic_friction_of_versions_stays_in_proportion():
         for stone, static in zip(changed.stones, (0.6, 0.5), strict=True):
             clings, slides = changed.friction(stone)
             assert slides / clings == pytest.approx(0.45 / static)
-    found = stack_probability(PILE, PULSE, runs=4, mu_kinetic=0.2)
+    found = stack_probability(PILE, PULSE, runs=4, options=StackOptions(mu_kinetic=0.2))
     assert found == stack_probability(PILE.with_kinetic_friction(0.2), PULSE, runs=4)

@@ -8,7 +8,9 @@ import pytest
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.cli.bodies.two_layer import two_layer_choice
 from seisblock.core.errors import ComponentError, ParameterError
+from seisblock.models.jump.options import JumpOptions
 from seisblock.models.jump.solve import solve_jump
+from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import solve_slide
 from seisblock.readers import read
 from seisblock.records import Motion, Record, motion_of
@@ -50,7 +52,11 @@ def test_the_jump_of_a_record_gives_its_factor_back(first):
     chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, first=first).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
     found = scale_factors(
-        jump_displacement(chosen.block, MOTION, contact=chosen.contact, first=first), observed, MOTION, limit=1.5, steps=60
+        jump_displacement(chosen.block, MOTION, options=JumpOptions(contact=chosen.contact, first=first)),
+        observed,
+        MOTION,
+        limit=1.5,
+        steps=60,
     )
     assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
     assert found.displacement_at_1_m == pytest.approx(observed)
@@ -87,7 +93,7 @@ def test_impossible_questions_are_refused():
         slide_displacement(-0.1, PULSE)
     north = read("synthetic_jma.csv").component("NS")
     with pytest.raises(ComponentError, match="no vertical component"):
-        slide_displacement(0.3, motion_of(Record((north,), 0.01), "NS"), vertical=1.0)
+        slide_displacement(0.3, motion_of(Record((north,), 0.01), "NS"), options=SlideOptions(vertical=1.0))
 
 
 @pytest.mark.parametrize("factor", [0.3, 1.0, 1.7])
@@ -96,5 +102,9 @@ def test_the_slip_at_a_factor_is_that_of_the_scaled_record(factor):
     base = SlidingBase(0.15, 0.1, 4.0)
     outcome = solve_slide(base, scale_motion(MOTION, factor), vertical=0.5).outcome
     assert outcome.max_slip_m > 0.0
-    assert slide_displacement(base, MOTION, vertical=0.5)(factor) == pytest.approx(abs(outcome.residual_slip_m), rel=1e-10)
-    assert slide_displacement(base, MOTION, largest=True, vertical=0.5)(factor) == pytest.approx(outcome.max_slip_m, rel=1e-10)
+    assert slide_displacement(base, MOTION, options=SlideOptions(vertical=0.5))(factor) == pytest.approx(
+        abs(outcome.residual_slip_m), rel=1e-10
+    )
+    assert slide_displacement(base, MOTION, largest=True, options=SlideOptions(vertical=0.5))(factor) == pytest.approx(
+        outcome.max_slip_m, rel=1e-10
+    )

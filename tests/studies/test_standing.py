@@ -8,6 +8,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -20,9 +21,10 @@ PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005
 NOTHING_VARIES = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
-def share(block, motion, **options):
-    """Return the probability of 40 versions."""
-    return respond_probability(block, motion, runs=options.pop("runs", 40), settle_s=20.0, **options)
+def share(block, motion, *, runs=40, versions=ParameterVariation(), seed=0, moved_m=0.01, progress=None, **options):
+    """Return the probability of 40 samples."""
+    study = {"runs": runs, "versions": versions, "seed": seed, "moved_m": moved_m, "progress": progress}
+    return respond_probability(block, motion, RespondOptions(**{"settle_s": 20.0, **options}), **study)
 
 
 @pytest.mark.parametrize(("width", "height", "mu"), [(0.24, 0.8, 0.6), (0.24, 0.8, 0.1), (0.5, 0.5, 0.3)])
@@ -116,7 +118,7 @@ def test_directions_are_those_of_single_runs():
     """Each azimuth is what `--component` of that azimuth gives, and the worst comes first."""
     record = read("synthetic_jma.csv")
     block, options = Block(0.45, 1.8), {"mu": 0.3, "settle_s": 20.0}
-    found = respond_directions(block, record, step_deg=45.0, **options)
+    found = respond_directions(block, record, RespondOptions(**options), step_deg=45.0)
     assert {each.azimuth_deg for each in found} == {0.0, 45.0, 90.0, 135.0}
     for each in found:
         outcome = solve_respond(block, motion_of(record, f"{each.azimuth_deg:g}"), **options).outcome

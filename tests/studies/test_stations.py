@@ -13,7 +13,13 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, load_two_layer
 from seisblock.core.errors import ParameterError
 from seisblock.measures import measure
+from seisblock.models.jump.options import JumpOptions
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import solve_respond
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.slide.options import SlideOptions
+from seisblock.models.stack.options import StackOptions
+from seisblock.models.uplift.options import UpliftOptions
 from seisblock.readers import read, read_all
 from seisblock.readers.discover import iter_records
 from seisblock.readers.dispatch import ReadOptions
@@ -27,7 +33,7 @@ from seisblock.studies.survey.shaking import component_shakings
 from tests.stations import bundle, station_files
 
 STONE = of_kind(Block(0.24, 0.8), "gravestone")
-BODY = StationBody(STONE, {"mu": 0.6}, runs=20)
+BODY = StationBody(STONE, RespondOptions(mu=0.6), runs=20)
 
 
 @pytest.fixture(scope="module")
@@ -81,17 +87,17 @@ def test_each_station_is_that_of_the_commands_of_one_record(event, found):
     assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
     assert answer.pgv_m_s == pytest.approx(max(m.pgv_m_s for m in horizontal), rel=1e-12)
     assert answer.jma_intensity == told.jma_intensity
-    worst = respond_directions(STONE, record, mu=0.6)[0]
+    worst = respond_directions(STONE, record, options=RespondOptions(mu=0.6))[0]
     assert (answer.effect.azimuth_deg, answer.effect.max_slip_m) == (worst.azimuth_deg, worst.max_displacement_m)
     alone = solve_respond(STONE, motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
     assert alone.overturned == answer.effect.overturned
 
 
 FOLLOWED = {
-    "rock": StationBody(Block(0.24, 0.8), {}, runs=5, solver="rock"),
-    "slide": StationBody(SlidingBase(0.2), {}, solver="slide"),
-    "jump": StationBody(load_two_layer("chozusha"), {"contact": Contact(0.18)}, solver="jump"),
-    "uplift": StationBody(SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), {}, solver="uplift"),
+    "rock": StationBody(Block(0.24, 0.8), RockOptions(), runs=5, solver="rock"),
+    "slide": StationBody(SlidingBase(0.2), SlideOptions(), solver="slide"),
+    "jump": StationBody(load_two_layer("chozusha"), JumpOptions(contact=Contact(0.18)), solver="jump"),
+    "uplift": StationBody(SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), UpliftOptions(), solver="uplift"),
 }
 """A body for each solver."""
 
@@ -125,9 +131,9 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
 def test_what_no_solver_follows_is_refused():
     """A solver that follows no body, and versions where there are none, in one sentence."""
     with pytest.raises(ParameterError, match="'stack' is not available for stations"):
-        StationBody(Block(0.24, 0.8), {}, solver="stack")
+        StationBody(Block(0.24, 0.8), StackOptions(), solver="stack")
     with pytest.raises(ParameterError, match="slide has no samples"):
-        StationBody(0.2, {}, runs=5, solver="slide")
+        StationBody(0.2, SlideOptions(), runs=5, solver="slide")
 
 
 def test_a_cemetery_is_judged_in_every_direction(event):

@@ -9,6 +9,7 @@ import seisblock
 from seisblock.bodies.block import Block
 from seisblock.core.errors import SolverError
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.readers import read
 from seisblock.records import Motion
 from seisblock.studies.batch.run import run_batch
@@ -40,7 +41,7 @@ def lossy(monkeypatch):
 def test_respond_probability_counts_only_versions_with_an_answer(lossy):
     """All 20 versions fall; two that are given up do not count as standing."""
     lossy(probability, [2, 16])
-    found = probability.respond_probability(BLOCK, PULSE, mu=0.5, runs=20)
+    found = probability.respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
     assert (found.runs, found.overturned, found.no_answer) == (18, 1.0, (3, 17))
     assert found.interval == pytest.approx((0.025 ** (1 / 18), 1.0))
 
@@ -49,7 +50,7 @@ def test_respond_probability_refuses_where_no_version_has_an_answer(lossy):
     """Without any answer there is no share."""
     lossy(probability, None)
     with pytest.raises(SolverError, match="20 of 20 runs have no result"):
-        probability.respond_probability(BLOCK, PULSE, mu=0.5, runs=20)
+        probability.respond_probability(BLOCK, PULSE, options=RespondOptions(mu=0.5), runs=20)
 
 
 def test_run_batch_names_versions_without_an_answer(lossy):
@@ -63,9 +64,9 @@ def test_run_batch_names_versions_without_an_answer(lossy):
 
 def test_survey_stations_leaves_out_a_direction_without_an_answer(lossy):
     """The worst direction is one with an answer; the station's doubts name the other."""
-    subject = StationBody(BLOCK, {"mu": 0.5}, step_deg=45.0)
+    subject = StationBody(BLOCK, RespondOptions(mu=0.5), step_deg=45.0)
     record = read("synthetic_jma.csv")
-    worst = azimuths.respond_directions(BLOCK, record, mu=0.5, step_deg=45.0)[0].azimuth_deg
+    worst = azimuths.respond_directions(BLOCK, record, options=RespondOptions(mu=0.5), step_deg=45.0)[0].azimuth_deg
     lossy(azimuths, [round(worst / 45.0)])
     answer = survey_stations(record, subject).answers[0]
     assert answer.failure is None
@@ -83,7 +84,7 @@ def test_mode_map_marks_a_cell_without_an_answer(lossy):
 
 def test_respond_many_answers_the_other_rows():
     """A row that hops without end is marked; the others are those of runs of their own."""
-    settings = [seisblock.respond_params(BLOCK, mu=0.5, restitution=e) for e in (0.0, 0.9999999, 0.3)]
+    settings = [seisblock.respond_params(BLOCK, options=RespondOptions(mu=0.5, restitution=e)) for e in (0.0, 0.9999999, 0.3)]
     start = leaning(BLOCK, 1e-8)
     still = Motion.from_arrays(np.zeros(101), 0.01)
     fates = respond_many(settings, still, initial=start)

@@ -39,9 +39,9 @@ def make_body_spec(params: Mapping[str, Any], solver: str) -> BodySpec:
     >>> make_body_spec({"width": 0.3, "height": 1.2}, "rock").name
     'block 0.3 x 1.2 m'
     """
-    from seisblock.studies.batch.models import batch_model
+    from seisblock.core.registry import get_solver
 
-    names = (*SIZES, *(name for name in OWN_OPTIONS if name in batch_model(solver).columns))
+    names = (*SIZES, *(name for name in OWN_OPTIONS if name in get_solver(solver).columns))
     values = {key: params[key] for key in names if params.get(key) is not None}
     if params.get("block"):
         sizes = [key for key in values if key not in ("inset", "kind") and key in SIZES]

@@ -13,10 +13,11 @@ from seisblock.bodies.toml import read_body_toml
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.block import BodyChoice, choose_block
 from seisblock.cli.bodies.options import block_options
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import option
-from seisblock.cli.types import LENGTH, MU
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.models.respond.options import RespondOptions
 
 
 @dataclass(frozen=True)
@@ -28,47 +29,21 @@ class FreeStandingChoice(BodyChoice):
     description: str
 
 
-_FRICTION = (
-    option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient. [default: the body's own; else required]"),
-    option("--mu-kinetic", type=MU, section="Body", metavar="MU", help="Kinetic friction coefficient, at most --mu. [default: as --mu]"),
-    option(
+def surface_option(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Add ``--surface`` to a command."""
+    return option(
         "--surface",
         section="Body",
         metavar="A/B",
         shell_complete=shell_completion.complete_surfaces,
         help=f"Surface pair that gives the friction coefficient, instead of --mu: {', '.join(SURFACES)}.",
-    ),
-    option(
-        "--restitution",
-        type=float,
-        default=0.0,
-        show_default=True,
-        metavar="E",
-        section="Body",
-        help="Coefficient of restitution of a corner impact (Poisson), ratio of impulses, [0, 1).",
-    ),
-    option(
-        "--rocking-restitution",
-        type=float,
-        metavar="E",
-        section="Body",
-        help="Ratio of angular velocities after and before the impact of the other corner, [0, 1]. [default: from the impact equations]",
-    ),
-    option(
-        "--tenon",
-        type=LENGTH,
-        default=0.0,
-        section="Body",
-        help="Depth of tenons, which hold the feet until they leave the holes in flight, m or with a unit (2cm). [default: none]",
-    ),
-)
+    )(function)
 
 
 def free_standing_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options of a free-standing body to a command, for :func:`choose_free_standing`."""
-    for declare in reversed(_FRICTION):
-        function = declare(function)
-    return block_options(function)
+    function = solver_options(RespondOptions, "restitution", "rocking_restitution", "tenon")(function)
+    return block_options(solver_options(RespondOptions, "mu", "mu_kinetic")(surface_option(function)))
 
 
 def choose_free_standing(params: Mapping[str, Any]) -> FreeStandingChoice:

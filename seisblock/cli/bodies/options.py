@@ -97,27 +97,11 @@ def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
-def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth`` to a command."""
-    for declare in reversed(
-        (
-            option(
-                "--restitution",
-                type=float,
-                metavar="E",
-                help="Coefficient of restitution, ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
-                "sin^2(alpha), or the body's own]",
-            ),
-            option("--linear", is_flag=True, help="Use the linearised equation of slender blocks. [default: exact equation]"),
-            option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]"),
-            option(
-                "--azimuth",
-                multiple=True,
-                metavar="DEG[,DEG...]",
-                section="Record",
-                help="Azimuth of +x, degrees clockwise from north; same as --component DEG.",
-            ),
-        )
-    ):
-        function = declare(function)
-    return function
+azimuth_option = option(
+    "--azimuth",
+    multiple=True,
+    metavar="DEG[,DEG...]",
+    section="Record",
+    help="Azimuth of +x, degrees clockwise from north; same as --component DEG.",
+)
+"""Option ``--azimuth``."""

@@ -13,10 +13,9 @@ from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import N_
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Response
 from seisblock.core.status import STOPPED
-from seisblock.core.typing import TimeWindow
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import Instant, integrate
 from seisblock.models.jump import modes as flying
 from seisblock.models.jump import rocking
@@ -26,11 +25,11 @@ from seisblock.models.jump.flight import FLIGHT_MODEL
 from seisblock.models.jump.free_response import continue_after_record
 from seisblock.models.jump.impact import launch, spin_ratio
 from seisblock.models.jump.landing import LANDING_RULES
+from seisblock.models.jump.options import DIRECTIONS, JumpOptions
 from seisblock.records import Motion
 from seisblock.records._validation import validate_inputs
 from seisblock.references import papers
 
-DIRECTIONS = ("+", "-", "both")
 DID_NOT_ROCK = N_("did not rock")
 
 
@@ -84,19 +83,8 @@ class _RunContext:
     landing: str
 
 
-def solve_jump(
-    block: TwoLayerBlock,
-    motion: Motion,
-    *,
-    contact: Contact,
-    drop: float = 0.0,
-    spin: str = "momentum",
-    direction: str = "both",
-    landing: str = "paper",
-    first: bool = False,
-    windows: Sequence[TimeWindow] = (),
-    gravity: float = STANDARD_GRAVITY,
-) -> Response[JumpOutcome]:
+@keywords_of(JumpOptions)
+def solve_jump(block: TwoLayerBlock, motion: Motion, options: JumpOptions) -> Response[JumpOutcome]:
     """Solve rocking, impact, jump and landing of a two-layer block ([Sugimoto2017]_ eqs. (1)-(15), corrected).
 
     Rocking starts where the piecewise linear horizontal acceleration exceeds g x_G/y_G, without slip of the foot before the impact;
@@ -108,22 +96,11 @@ def solve_jump(
     block : TwoLayerBlock
     motion : Motion
         Only the horizontal row acts.
-    contact : Contact
-        Friction of the landed foot and restitution of the impact.
-    drop : float, m
-        Height of the supporting level above the ground on which the block lands ([Sugimoto2017]_ eq. (11)).
-    spin : str
-        ``momentum``, ``printed`` or ``ratio=Q``, see :func:`seisblock.models.jump.impact.spin_ratio`.
-    direction : "+", "-" or "both"
-        Sign of the ground acceleration that may start a chain; the mirror image is exact.
-    landing : "paper" or "friction"
-        Landing rule, see :mod:`seisblock.models.jump.landing`.
-    first : bool
-        Solve only the first chain of each window, as the paper does. After a landing the block stands on the ground, without a
-        further drop.
-    windows : sequence of (float or None, float or None), s
-        Intervals in which rocking may start, on the record's time axis; motion continues beyond them. Default: the whole record.
-    gravity : float, m/s^2
+    options
+        Fields of :class:`~seisblock.models.jump.options.JumpOptions`, as keyword arguments. The drop is that of [Sugimoto2017]_ eq. (11);
+        spin and landing: see :func:`seisblock.models.jump.impact.spin_ratio` and :mod:`seisblock.models.jump.landing`. Of both
+        directions, the mirror image is exact. After a landing the block stands on the ground, without a further drop; motion continues
+        beyond the windows.
 
     Returns
     -------
@@ -152,24 +129,13 @@ def solve_jump(
     'jumped'
     """
     validate_inputs(block, TwoLayerBlock, motion)
-    checks.instance(contact, Contact)
-    check_options(drop, direction, landing, gravity)
-    ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
+    contact: Contact = checks.instance(options.contact, Contact)
+    check_options(options.drop, options.direction, options.landing, options.gravity)
+    gravity, landing = options.gravity, options.landing
+    ratio = spin_ratio(block, options.spin, contact.restitution_x, contact.restitution_y)
     run = _RunContext(motion, block, contact, ratio, gravity, landing)
-    paths = _run_chains(run, direction, drop, first, [_window_instants(motion, *window) for window in windows or ((None, None),)])
-    options = {
-        "mu": contact.mu,
-        "mu_kinetic": contact.kinetic,
-        "restitution_x": contact.restitution_x,
-        "restitution_y": contact.restitution_y,
-        "drop_m": drop,
-        "spin": spin,
-        "direction": direction,
-        "landing": landing,
-        "first": first,
-        "windows_s": [list(window) for window in windows],
-        "gravity_m_s2": gravity,
-    }
+    windows = [_window_instants(motion, *window) for window in options.windows or ((None, None),)]
+    paths = _run_chains(run, options.direction, options.drop, options.first, windows)
     chains = tuple(summarise_chain(path) for path in paths)
     frictions = [chain.friction_needed_at_landing for chain in chains if chain.friction_needed_at_landing is not None]
     parts = split_segments(motion, paths)

@@ -2,44 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core import checks
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, make_events
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.respond import constants
 from seisblock.models.respond.curves import curves
 from seisblock.models.respond.describe import event_name, run_warnings
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome, build_outcome, motion_modes, phases, run_status
 from seisblock.models.respond.params import Body, Initial, RespondParams, motion_gains, rigid_body
 from seisblock.models.respond.run import Run, check_settling, run
 from seisblock.records import Motion
-from seisblock.records._validation import Gain, validate_inputs
+from seisblock.records._validation import validate_inputs
 from seisblock.references import papers
 
 PERTURBATION = 1e-6
 """Relative change of the input for the sensitivity test."""
 
 
-def solve_respond(
-    block: Body,
-    motion: Motion,
-    *,
-    mu: float,
-    mu_kinetic: float | None = None,
-    restitution: float = 0.0,
-    rocking_restitution: float | None = None,
-    vertical: Gain | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    initial: Initial = None,
-    settle_s: float = 60.0,
-    tenon: float = 0.0,
-    further_points: Sequence[tuple[float, float]] = (),
-    sensitivity: bool = True,
-) -> Response[RespondOutcome]:
+@keywords_of(RespondOptions)
+def solve_respond(block: Body, motion: Motion, options: RespondOptions) -> Response[RespondOutcome]:
     """Solve the full response of a free-standing rigid block: rest, sliding, rocking, slide-rocking, flight, overturning.
 
     Plane motion of a rigid body on rigid ground with Coulomb friction and exactly located mode changes; the model is described in
@@ -52,29 +39,11 @@ def solve_respond(
         A two-layer block is treated as one rigid body.
     motion : Motion
         Ground acceleration, m/s^2.
-    mu : float
-        Static friction coefficient, 0 or more.
-    mu_kinetic : float or None
-        Kinetic friction coefficient, 0 to `mu`, also inside impacts; None: equal to `mu`.
-    restitution : float
-        Poisson's coefficient of restitution of an impact at one corner, in [0, 1).
-    rocking_restitution : float or None
-        Ratio of angular velocities in a rocking impact, in [0, 1], instead of the impact law, reduced where it would create energy;
-        landings use `restitution`.
-    vertical : bool, float or None
-        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
-    gravity : float, m/s^2
-    initial : six floats or None
-        x and y of the centre of gravity relative to the ground, m, tilt, rad, and their rates at the first sample; None: upright, at rest.
-    settle_s : float, s
-        Longest simulated time after the record.
-    tenon : float, m
-        Depth of the tenons that hold the feet against sliding until, in flight, the lower foot has risen by this depth; 0: none.
-        Extension of this package. A tenon under lateral load also holds a foot down as long as the released foot would not rise.
-    further_points : sequence of (float, float), m
-        Points of the body, to +x of the centre of gravity and above it, that end the motion on contact with the ground.
-    sensitivity : bool
-        Test with two more runs if a change of the input by 1e-6 changes the verdict.
+    options
+        Fields of :class:`~seisblock.models.respond.options.RespondOptions`, as keyword arguments. Kinetic friction also acts inside
+        impacts. A given rocking restitution replaces the impact law, reduced where it would create energy; landings use `restitution`.
+        Tenons hold the feet against sliding until, in flight, the lower foot has risen by their depth (extension of this package); a
+        tenon under lateral load also holds a foot down as long as the released foot would not rise.
 
     Returns
     -------
@@ -111,34 +80,13 @@ def solve_respond(
     overturns -x 0.01 m
     """
     validate_inputs(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block, motion)
-    params = respond_params(
-        block,
-        mu=mu,
-        mu_kinetic=mu_kinetic,
-        restitution=restitution,
-        rocking_restitution=rocking_restitution,
-        gravity=gravity,
-        tenon=tenon,
-        further_points=further_points,
-    )
-    check_settling(settle_s)
+    params = respond_params(block, options)
+    check_settling(options.settle_s)
     citations = papers("all modes", *(("two-layer body",) if isinstance(block, TwoLayerBlock) else ()))
-    factors = motion_gains(motion, vertical)
+    factors, initial, settle_s = motion_gains(motion, options.vertical), options.initial, options.settle_s
     result = run(params, motion, factors, initial, settle_s)
-    sensitive = is_sensitive(result, params, motion, factors, initial, settle_s) if sensitivity else None
+    sensitive = is_sensitive(result, params, motion, factors, initial, settle_s) if options.sensitivity else None
     outcome = build_outcome(result, params, motion.start_s, sensitive)
-    options = {
-        "mu": params.mu,
-        "mu_kinetic": params.mu_kinetic,
-        "restitution": restitution,
-        "rocking_restitution": rocking_restitution,
-        "vertical": factors[2],
-        "gravity_m_s2": gravity,
-        "initial": None if initial is None else list(initial),
-        "settle_s": settle_s,
-        "tenon_m": tenon,
-        "further_points_m": [list(point) for point in params.further_points],
-    }
     return Response(
         "respond",
         outcome,
@@ -147,31 +95,15 @@ def solve_respond(
         partial(_curves, result, params, motion, factors),
         phases(outcome.events, outcome.end_s),
         make_events(result.events, motion.start_s, event_name),
-        options,
+        replace(options, mu_kinetic=params.mu_kinetic, vertical=factors[2], further_points=params.further_points),
         run_status(result),
         run_warnings(result, params, outcome.end_s, settle_s),
         citations,
     )
 
 
-def respond_params(
-    block: Body,
-    *,
-    mu: float,
-    mu_kinetic: float | None = None,
-    restitution: float = 0.0,
-    rocking_restitution: float | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    tenon: float = 0.0,
-    further_points: Sequence[tuple[float, float]] = (),
-) -> RespondParams:
+def respond_params(block: Body, options: RespondOptions) -> RespondParams:
     """Return the validated parameters of a run, for :func:`~seisblock.models.respond.batch.respond_many`.
-
-    Parameters
-    ----------
-    block : Block or TwoLayerBlock
-    mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon, further_points
-        As in :func:`solve_respond`.
 
     Raises
     ------
@@ -182,19 +114,19 @@ def respond_params(
 
     Examples
     --------
-    >>> respond_params(Block(0.24, 0.8), mu=0.5).mu_kinetic
+    >>> respond_params(Block(0.24, 0.8), RespondOptions(mu=0.5)).mu_kinetic
     0.5
     """
     checks.instance(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block)
     return RespondParams(
         rigid_body(block),
-        mu,
-        mu if mu_kinetic is None else mu_kinetic,
-        restitution,
-        rocking_restitution,
-        gravity,
-        tenon,
-        tuple((float(point_x), float(point_y)) for point_x, point_y in further_points),
+        options.mu,
+        options.mu if options.mu_kinetic is None else options.mu_kinetic,
+        options.restitution,
+        options.rocking_restitution,
+        options.gravity,
+        options.tenon,
+        tuple((float(point_x), float(point_y)) for point_x, point_y in options.further_points),
     )
 
 

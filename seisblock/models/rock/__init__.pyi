@@ -1,5 +1,6 @@
+from .options import RockOptions
 from .outcome import RockOutcome
-from .params import RockOptions, RockParams, rock_params
+from .params import RockParams, rock_params
 from .solve import solve_rock
 from .verdicts import Verdict, Verdicts, rock_verdict, rock_verdicts
 

@@ -4,30 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TypedDict, Unpack
 
 import numpy as np
 
 from seisblock.bodies.block import Block, Restitution, resolve_restitutions
 from seisblock.bodies.block_array import BlockArray, elementwise
-from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.typing import FloatArray, IntArray
-from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.records._validation import Gain, validate_inputs, validate_motion, vertical_gain
+from seisblock.models.rock.options import RockOptions
+from seisblock.records._validation import validate_inputs, validate_motion, vertical_gain
 from seisblock.records.motion import Motion
 
 CornerPair = tuple[float, float]
 """Values of the right and of the left corner."""
-
-
-class RockOptions(TypedDict, total=False):
-    """Options of a rocking run, see :func:`~seisblock.models.rock.solve.solve_rock`."""
-
-    restitution: Restitution
-    linear: bool
-    vertical: Gain | None
-    gravity: float
 
 
 @dataclass(frozen=True)
@@ -110,21 +99,8 @@ class RockBatchParams:
         return scale, 0.0, scale * self.vertical
 
 
-def rock_params(
-    block: Block,
-    motion: Motion,
-    *,
-    restitution: Restitution = None,
-    linear: bool = False,
-    vertical: Gain | None = False,
-    gravity: float = STANDARD_GRAVITY,
-) -> RockParams:
+def rock_params(block: Block, motion: Motion, options: RockOptions = RockOptions()) -> RockParams:
     """Return the validated parameters of a rocking run.
-
-    Parameters
-    ----------
-    block, motion, restitution, linear, vertical, gravity
-        See :func:`~seisblock.models.rock.solve.solve_rock`.
 
     Raises
     ------
@@ -132,32 +108,27 @@ def rock_params(
         See :func:`~seisblock.models.rock.solve.solve_rock`.
     """
     validate_inputs(block, Block, motion)
-    ratios = _check_restitution(resolve_restitutions(block, restitution), restitution)
+    ratios = _check_restitution(resolve_restitutions(block, options.restitution), options.restitution)
     return RockParams(
         block,
         block.slendernesses,
         block.radii,
         block.lever_ratios,
         ratios,
-        linear,
-        vertical_gain(motion, vertical),
-        checks.gravity(gravity),
+        options.linear,
+        vertical_gain(motion, options.vertical),
+        options.gravity,
     )
 
 
-def rock_batch_params(blocks: BlockArray, motion: Motion, **options: Unpack[RockOptions]) -> RockBatchParams:
+def rock_batch_params(blocks: BlockArray, motion: Motion, options: RockOptions = RockOptions()) -> RockBatchParams:
     """Return the validated parameters of many rocking blocks; options and errors as for :func:`rock_params`."""
     validate_motion(motion)
-    restitution = options.get("restitution")
+    restitution = options.restitution
     pair = restitution if isinstance(restitution, tuple) or restitution is None else (restitution, restitution)
     ratios = blocks.restitutions if pair is None else np.tile(_check_restitution(pair, restitution), (len(blocks), 1))
     return RockBatchParams(
-        blocks.slendernesses,
-        blocks.lever_ratios,
-        ratios,
-        options.get("linear", False),
-        vertical_gain(motion, options.get("vertical", False)),
-        checks.gravity(options.get("gravity", STANDARD_GRAVITY)),
+        blocks.slendernesses, blocks.lever_ratios, ratios, options.linear, vertical_gain(motion, options.vertical), options.gravity
     )
 
 

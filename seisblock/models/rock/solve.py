@@ -3,32 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 
-from seisblock.bodies.block import Block, Restitution
+from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status, make_events
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.rock import model
 from seisblock.models.rock.free_rocking import FreeRockingOutcome, free_rocking_outcome
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome, build_outcome, event_name, phases, warnings
 from seisblock.models.rock.params import RockParams, rock_params
 from seisblock.records import Motion
-from seisblock.records._validation import Gain
 from seisblock.references import papers
 
 
-def solve_rock(
-    block: Block,
-    motion: Motion,
-    *,
-    restitution: Restitution = None,
-    linear: bool = False,
-    vertical: Gain | None = False,
-    gravity: float = STANDARD_GRAVITY,
-    initial: tuple[float, float] = (0.0, 0.0),
-) -> Response[RockOutcome]:
+@keywords_of(RockOptions)
+def solve_rock(block: Block, motion: Motion, options: RockOptions) -> Response[RockOutcome]:
     """Solve rocking and overturning of a rigid block under a ground motion.
 
     Plane rocking about the two lower corners without slip; equations, rest condition and signs (rotation positive for a tilt to +x) are
@@ -39,16 +32,10 @@ def solve_rock(
     block : Block
     motion : Motion
         Ground acceleration, m/s^2.
-    restitution : float, or a pair
-        Ratio of angular velocities at an impact, in [0, 1], or the ratios onto the right and the left corner; default: from conservation of
-        angular momentum about the struck corner, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
-    linear : bool
-        Use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
-    vertical : bool, float or None
-        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
-    gravity : float, m/s^2
-    initial : (float, float), rad, rad/s
-        Tilt and angular velocity at the first sample.
+    options
+        Fields of :class:`~seisblock.models.rock.options.RockOptions`, as keyword arguments. Restitution: one ratio, or those onto the
+        right and the left corner; default: from conservation of angular momentum about the struck corner, 1 - 1.5 sin^2(alpha) for a
+        rectangle ([Housner1963]_). The linear equation is that of [Zhang2001]_ eqs. (4), (5).
 
     Returns
     -------
@@ -76,9 +63,9 @@ def solve_rock(
     >>> outcome.overturned, outcome.overturned_towards, outcome.decided_after_record
     (True, '-x', True)
     """
-    params = rock_params(block, motion, restitution=restitution, linear=linear, vertical=vertical, gravity=gravity)
+    params = rock_params(block, motion, options)
     p = model.parameters(params, motion.dt)
-    trajectory = integrate(model.ROCKING, motion, p, initial, initial_mode(params, initial), gains=params.gains())
+    trajectory = integrate(model.ROCKING, motion, p, options.initial, initial_mode(params, options.initial), gains=params.gains())
     outcome = build_outcome(params, motion, trajectory, outcome_after_record(trajectory, params))
     return Response(
         "rock",
@@ -88,7 +75,7 @@ def solve_rock(
         partial(_curves, params, motion, trajectory),
         phases(trajectory, motion.start_s),
         make_events(trajectory.events, motion.start_s, event_name),
-        {"restitution": restitution, "linear": linear, "vertical": params.vertical, "gravity_m_s2": gravity},
+        replace(options, vertical=params.vertical),
         Status(trajectory.status),
         warnings(params, outcome),
         papers("rocking"),

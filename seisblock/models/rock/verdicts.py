@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Unpack
 
 import numpy as np
 
@@ -14,7 +13,8 @@ from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model
 from seisblock.models.rock.free_rocking import ENDLESS, STANDS, raise_if_endless, trace_free_rocking_batch
-from seisblock.models.rock.params import RockBatchParams, RockOptions, RockParams, rock_params
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
 from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
 
@@ -63,7 +63,7 @@ class Verdicts:
         return self
 
 
-def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options: Unpack[RockOptions]) -> Verdict:
+def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, options: RockOptions = RockOptions()) -> Verdict:
     """Return overturning and peak tilt of a block, without time histories.
 
     Parameters
@@ -72,8 +72,7 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
         See :func:`~seisblock.models.rock.solve.solve_rock`.
     scale : float
         Factor on the ground acceleration.
-    options
-        ``restitution``, ``linear``, ``vertical`` and ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    options : RockOptions
 
     Returns
     -------
@@ -88,7 +87,7 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     [False, True]
     """
     checks.finite("the scale factor", scale)
-    params = rock_params(block, motion, **options)
+    params = rock_params(block, motion, options)
     verdicts = rock_verdicts([params], motion, params.gains(scale)).require_complete()
     return Verdict(bool(verdicts.overturned[0]), float(verdicts.max_rotation_ratio[0]))
 

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NoReturn
 
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, Message, lazy_gettext
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Phase, Response, Status, make_events, make_phases
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import GuardEvent, Trajectory, integrate
 from seisblock.models.slide.final_slip import slip_at_rest
 from seisblock.models.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
+from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.path_length import path_length
 from seisblock.records._validation import Gain, validate_inputs, vertical_gain
 from seisblock.records.motion import UP, Motion
@@ -79,9 +79,8 @@ class SlideOutcome:
     slides_at_end: bool
 
 
-def solve_slide(
-    base: SlidingBase | float, motion: Motion, *, vertical: Gain | None = False, gravity: float = STANDARD_GRAVITY
-) -> Response[SlideOutcome]:
+@keywords_of(SlideOptions)
+def solve_slide(base: SlidingBase | float, motion: Motion, options: SlideOptions) -> Response[SlideOutcome]:
     """Solve the sliding of an object on a base, exactly for the piecewise linear record.
 
     Rigid object and base, Coulomb friction, no rocking. [Fujino1978]_ eqs. (1)-(13), corrected; equality sticks, and static friction is
@@ -94,9 +93,9 @@ def solve_slide(
         Friction and slope; a number is the friction coefficient of a level base, static and kinetic.
     motion : Motion
         The horizontal row acts in the direction of the slope.
-    vertical : bool, float or None
-        Vertical ground motion on or off, or a factor on it (gamma of the paper); None: on if the record has a vertical component.
-    gravity : float, m/s^2
+    options
+        Fields of :class:`~seisblock.models.slide.options.SlideOptions`, as keyword arguments; the factor on the vertical component is
+        gamma of the paper.
 
     Returns
     -------
@@ -131,22 +130,12 @@ def solve_slide(
     if isinstance(base, (int, float)):
         base = SlidingBase(base)
     validate_inputs(base, SlidingBase, motion)
-    gains = motion_gains(motion, vertical, gravity)
+    gravity, gains = options.gravity, motion_gains(motion, options.vertical)
     p = parameters(base, gravity)
     trajectory = integrate(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     if trajectory.final_mode == UNDEFINED:
         raise_lift_off(motion, trajectory.end_time)
     outcome = _outcome(trajectory, motion, p)
-    options = {
-        "mu": base.mu,
-        "mu_kinetic": base.kinetic,
-        "kappa": base.kappa,
-        "vertical": gains[UP],
-        "slope_deg": base.slope_deg,
-        "slope_length_m": base.slope_length,
-        "one_way": base.one_way,
-        "gravity_m_s2": gravity,
-    }
     return Response(
         "slide",
         outcome,
@@ -155,16 +144,15 @@ def solve_slide(
         partial(_curves, motion, base, gains[UP], gravity, trajectory),
         _phases(trajectory, motion),
         make_events(trajectory.events, motion.start_s, _event_name),
-        options,
+        replace(options, vertical=gains[UP]),
         Status(trajectory.status),
         tuple(_warnings(outcome, motion)),
         papers("sliding", *(("one-way sliding",) if base.one_way else ())),
     )
 
 
-def motion_gains(motion: Motion, vertical: Gain | None, gravity: float) -> tuple[float, float, float]:
-    """Return the gains of the motion's three rows, after validation of `vertical` and `gravity`."""
-    checks.gravity(gravity)
+def motion_gains(motion: Motion, vertical: Gain | None) -> tuple[float, float, float]:
+    """Return the gains of the motion's three rows."""
     return 1.0, 0.0, vertical_gain(motion, vertical)
 
 

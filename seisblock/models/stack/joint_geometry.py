@@ -67,10 +67,10 @@ def effective_base(response: Response[StackOutcome]) -> EffectiveBase:
     stone = response.body.stones[-1]
     return compute_effective_base(
         stone,
-        response.options["points"],
-        None if response.options["contact"] is None else PileContact(**response.options["contact"]),
-        response.options["restitution"],
-        response.options["gravity_m_s2"],
+        response.options.points,
+        response.options.contact,
+        response.options.restitution,
+        response.options.gravity,
     )
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -14,20 +12,18 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import N_, Message, lazy_gettext
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Event, Histories, Phase, Response, Status
 from seisblock.core.typing import FloatArray
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
+from seisblock.models.stack.options import EDGES, RIGID, SPRINGS, StackOptions
 from seisblock.models.stack.outcome import SimulationResult, StackOutcome, stack_outcome, stone_channels
 from seisblock.models.stack.recorder import SOLVED, UNCONVERGED
 from seisblock.models.stack.simulation import Simulation
 from seisblock.models.stack.static_equilibrium import rigid_steps_per_sample, steps_per_sample
-from seisblock.records._validation import Gain, validate_inputs, vertical_gain
+from seisblock.records._validation import validate_inputs, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
-
-RIGID, SPRINGS = "rigid", "springs"
-"""Contact laws."""
 
 REFINEMENT_FACTOR = 5
 """Refinement of the step after a run with rigid contacts that created energy."""
@@ -35,27 +31,9 @@ REFINEMENT_FACTOR = 5
 MAX_UNCONVERGED_SHARE, MIN_STEPS_FOR_WARNING = 0.5, 100
 """Share of unconverged steps, and smallest number of steps, above which a warning is issued."""
 
-EDGE_POINTS = 2
-"""Points along each side of a joint for contact at its edges."""
 
-
-def solve_stack(
-    body: Pile,
-    motion: Motion,
-    *,
-    law: str | None = None,
-    points: int = 2,
-    contact: PileContact | None = None,
-    mu_kinetic: float | None = None,
-    restitution: float | None = None,
-    vertical: Gain | None = None,
-    across: Gain = True,
-    gravity: float = STANDARD_GRAVITY,
-    step: float | None = None,
-    stop_at_fall: bool = False,
-    tilts: Mapping[str, float] | None = None,
-    progress: Callable[[int, int], None] | None = None,
-) -> Response[StackOutcome]:
+@keywords_of(StackOptions)
+def solve_stack(body: Pile, motion: Motion, options: StackOptions) -> Response[StackOutcome]:
     """Solve the response of a pile of stones to a ground motion ([Furukawa2009]_ section 3(1)).
 
     Stones are rigid, with quaternions for rotations. They touch at the points of each joint, and at corners and edges once they have tilted
@@ -67,31 +45,12 @@ def solve_stack(
     body : Pile
     motion : Motion
         Ground acceleration; +x is its first row.
-    law : str
-        ``rigid`` or ``springs``; default: springs if `contact` is given, else rigid. If rigid contacts create energy at the default step,
-        the run is repeated with a step five times finer, with a warning; if that fails too, with springs, unless an option excludes them.
-    points : int
-        Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
-    contact : PileContact
-        Springs and dashpots; default: [Furukawa2009]_ table 2.
-    mu_kinetic : float, 1
-        Kinetic friction coefficient of every joint, at most the static one; default: that of the body. Rigid contacts only.
-    restitution : float, 1
-        Of the joints: velocity of the leaving edge over that of the striking edge. Default: conservation of angular momentum about the
-        striking edge, Housner's restitution for one block. Rigid contacts on edges only.
-    vertical : bool, float or None
-        Whether the vertical ground motion acts, or a factor on it; None: if the record has one.
-    across : bool or float
-        Whether the transverse component acts, or a factor on it.
-    gravity : float, m/s^2
-    step : float, s
-        Fixed step; default: 1/55 of the swing time of the smallest stone; with springs, 0.7 of the stability limit.
-    stop_at_fall : bool
-        Whether to end at the first fall.
-    tilts : mapping of str to float, rad
-        Stones released from a tilt about y, over the edge of their base.
-    progress : callable
-        Called with the number of samples done and the total.
+    options
+        Fields of :class:`~seisblock.models.stack.options.StackOptions`, as keyword arguments. Default law: springs if `contact` is given,
+        else rigid. If rigid contacts create energy at the default step, the run is repeated with a step five times finer, with a
+        warning; if that fails too, with springs, unless an option excludes them. Kinetic friction and restitution: rigid contacts
+        only, restitution also on edges only; its default, conservation of angular momentum about the striking edge, is Housner's for
+        one block.
 
     Returns
     -------
@@ -117,15 +76,15 @@ def solve_stack(
     ()
     """
     validate_inputs(body, Pile, motion)
-    checks.gravity(gravity)
-    rigid = _is_rigid(law, contact)
+    points, contact, restitution, gravity, step = options.points, options.contact, options.restitution, options.gravity, options.step
+    rigid = _is_rigid(options.law, contact)
     springs = None if rigid else PileContact() if contact is None else checks.instance(contact, PileContact)
-    body = _with_kinetic_friction(body, rigid, mu_kinetic, restitution)
+    body = _with_kinetic_friction(body, rigid, options.mu_kinetic, restitution)
     pile = pile_arrays(body, springs, points, _joint_restitution(points, restitution))
     steps = rigid_steps_per_sample(pile, motion.dt, step, gravity) if rigid else steps_per_sample(pile, motion.dt, step)
-    vertical_factor = vertical_gain(motion, vertical)
-    simulation = Simulation(pile, motion, (float(across), vertical_factor), gravity, steps, rigid, stop_at_fall, tilts or {})
-    end = simulation.run(progress=progress)
+    gains = (float(options.across), vertical_gain(motion, options.vertical))
+    simulation = Simulation(pile, motion, gains, gravity, steps, rigid, options.stop_at_fall, options.tilts or {})
+    end = simulation.run(progress=options.progress)
     if end.status == Status.NOT_FINITE:
         raise SolverError(
             "the integration of the pile {name} diverged at {ended:.3f} s: give a finer `step`", name=body.name, ended=end.time
@@ -136,10 +95,7 @@ def solve_stack(
         # a step chosen by the caller is not changed silently
         if not rigid or step is not None:
             raise
-        contact_options: dict[str, Any] = {"law": law, "mu_kinetic": mu_kinetic, "restitution": restitution}
-        run_options: dict[str, Any] = {"points": points, "vertical": vertical, "across": across, "gravity": gravity}
-        run_options |= {"stop_at_fall": stop_at_fall, "tilts": tilts, "progress": progress}
-        return _retry_finer(error, body, motion, motion.dt / steps / REFINEMENT_FACTOR, contact_options, run_options)
+        return _retry_finer(error, body, motion, options, motion.dt / steps / REFINEMENT_FACTOR)
     return Response(
         model="stack",
         outcome=outcome,
@@ -148,18 +104,15 @@ def solve_stack(
         make_histories=partial(_curves, simulation, end),
         phases=_phases(outcome, motion.start_s, motion.start_s + end.time),
         events=_events(outcome),
-        options={
-            "law": RIGID if rigid else SPRINGS,
-            "points": points,
-            "mu": body.mu,
-            "mu_kinetic": body.friction()[1],
-            "restitution": restitution,
-            "vertical": vertical_factor,
-            "across": float(across),
-            "gravity_m_s2": gravity,
-            "step_s": motion.dt / steps,
-            "contact": None if springs is None else asdict(springs),
-        },
+        options=replace(
+            options,
+            law=RIGID if rigid else SPRINGS,
+            contact=springs,
+            across=gains[0],
+            vertical=gains[1],
+            step=motion.dt / steps,
+            progress=None,
+        ),
         status=end.status,
         citations=papers("rigid pile" if rigid else "pile"),
         warnings=_convergence_warnings(end.output.energy_ledger, motion),
@@ -181,13 +134,11 @@ def _convergence_warnings(ledger: FloatArray, motion: Motion) -> tuple[Message, 
     )
 
 
-def _retry_finer(
-    error: SolverError, body: Pile, motion: Motion, step: float, contact_options: dict[str, Any], run_options: dict[str, Any]
-) -> Response[StackOutcome]:
+def _retry_finer(error: SolverError, body: Pile, motion: Motion, options: StackOptions, step: float) -> Response[StackOutcome]:
     """Return the response with finer steps after rigid contacts created energy, or with springs if these steps fail too."""
     label = motion.name or "x"
     try:
-        response = solve_stack(body, motion, step=step, **contact_options, **run_options)
+        response = solve_stack(body, motion, **replace(options, step=step).keywords())
         message = lazy_gettext(
             "{name}: solved with a finer step of {step:.2g} s, since the default step failed: {why}",
             name=label,
@@ -197,9 +148,9 @@ def _retry_finer(
     except SolverError as second_error:
         # springs have one friction coefficient and no cylinders
         needs_rigid = body.has_lower_kinetic_friction or any(stone.is_round for stone in body.stones)
-        if needs_rigid or any(value is not None for value in contact_options.values()):
+        if needs_rigid or any(value is not None for value in (options.law, options.mu_kinetic, options.restitution)):
             raise
-        response = solve_stack(body, motion, law=SPRINGS, **run_options)
+        response = solve_stack(body, motion, **replace(options, law=SPRINGS).keywords())
         message = lazy_gettext(
             "{name}: solved with contact springs, since rigid contact failed: {why}", name=label, why=second_error.message
         )
@@ -233,7 +184,7 @@ def _joint_restitution(points: int, restitution: float | None) -> float:
     """Return the restitution of the joints, negative for plastic impacts."""
     if restitution is not None:
         checks.fraction(N_("the restitution of the joints"), restitution)
-        if points != EDGE_POINTS:
+        if points != EDGES:
             raise ParameterError(
                 "`restitution` requires contact at the edges: leave out `points` ({points} along each side of a joint)", points=points
             )

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.core import checks
+from seisblock.core.options import keywords_of
 from seisblock.core.results import Channel, Histories, Response, Status
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import Trajectory, integrate
 from seisblock.models.uplift.batch_results import batch_result, end_states
 from seisblock.models.uplift.model import ALL_CORNERS, GLUED, UPLIFT, UPLIFT_REPEAT, F, U, X, Y, parameters, rotations, static_state
+from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome, build_outcome, events, phases, warnings
-from seisblock.records._validation import Gain, validate_inputs, vertical_gain
+from seisblock.records._validation import validate_inputs, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
 
 
-def solve_uplift(
-    body: SpringBlock, motion: Motion, *, vertical: Gain | None = None, gravity: float = STANDARD_GRAVITY
-) -> Response[UpliftOutcome]:
+@keywords_of(UpliftOptions)
+def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> Response[UpliftOutcome]:
     """Solve the response of a block on corner springs to a three-component motion, from static equilibrium.
 
     Extends [Okumura1987]_ eq. (1) to records: the vertical spring and dashpot of a corner act only in compression, horizontal ones stay
@@ -33,9 +33,8 @@ def solve_uplift(
         Its damping is the ratio zeta of the corner dashpots, c = 2 zeta k / omega by direction.
     motion : Motion
         Ground acceleration along +x, across (+y) and up.
-    vertical : bool, float or None
-        Vertical ground motion on or off, or a factor on it; None: on if the record has a vertical component.
-    gravity : float, m/s^2
+    options
+        Fields of :class:`~seisblock.models.uplift.options.UpliftOptions`, as keyword arguments.
 
     Returns
     -------
@@ -58,8 +57,7 @@ def solve_uplift(
     True
     """
     validate_inputs(body, SpringBlock, motion)
-    checks.gravity(gravity)
-    gains = (1.0, 1.0, vertical_gain(motion, vertical))
+    gravity, gains = options.gravity, (1.0, 1.0, vertical_gain(motion, options.vertical))
     p, start = parameters(body, gravity), static_state(body, gravity)
     trajectory = integrate(UPLIFT, motion, p, start, ALL_CORNERS, gains=gains)
     linear = integrate(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
@@ -73,7 +71,7 @@ def solve_uplift(
         make_histories=partial(_curves, body, motion, trajectory),
         phases=phases(motion, trajectory),
         events=events(motion, trajectory.events),
-        options={"vertical": gains[2], "gravity_m_s2": gravity},
+        options=replace(options, vertical=gains[2]),
         status=Status(trajectory.status),
         warnings=warnings(motion, results, 0),
         citations=papers("uplift"),

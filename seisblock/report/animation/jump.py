@@ -36,7 +36,7 @@ def animate_jump(response: Response[JumpOutcome], path: Path | str, options: Ani
 def jump_animation(response: Response[JumpOutcome], times: FloatArray, *, gal: bool = True) -> Animation:
     """Return the animation of a jump for the times of its frames, (n,), s."""
     block: TwoLayerBlock = response.body
-    motion, drop = response.motion, float(response.options["drop_m"])
+    motion, drop = response.motion, float(response.options.drop)
     time, curves = interpolate_phases(response)
     leaning, tilt = interpolate_phases(response, [ROCKING])
     x, z, turn = (sample_at(times, time, curves[name]) for name in ("displacement", "height", "rotation"))

@@ -35,7 +35,7 @@ def respond_animation(response: Response[RespondOutcome], times: FloatArray, *, 
     centre = np.array([block.centroid_offset, block.centre])
     outline = corners(block, 0.0) - centre
     x, z, tilt = (sample_at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
-    level = options["gravity_m_s2"] * min(effective_friction(options), min(block.arms) / block.centre)
+    level = options.gravity * min(effective_friction(options), min(block.arms) / block.centre)
     alpha = math.degrees(block.slenderness)
     half_width = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     disp_unit = length_unit([outcome.max_displacement_m], gal=gal)

@@ -77,10 +77,10 @@ def extend_to_fall(response: Response[RockOutcome]) -> Response[RockOutcome]:
     return solve_rock(
         response.body,
         longer,
-        restitution=options["restitution"],
-        linear=options["linear"],
-        vertical=options["vertical"],
-        gravity=options["gravity_m_s2"],
+        restitution=options.restitution,
+        linear=options.linear,
+        vertical=options.vertical,
+        gravity=options.gravity,
         initial=(float(response["rotation"][0]), float(response["angular_velocity"][0])),
     )
 

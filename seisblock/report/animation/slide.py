@@ -40,9 +40,9 @@ def slide_animation(response: Response[SlideOutcome], times: FloatArray, *, gal:
     path = position_on_base(base, response["displacement"])[:2]
     size = max(0.5 * float(np.ptp(slip)), MIN_HALF_WIDTH)
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
-    limit = base.mu * float(response.options["gravity_m_s2"])
+    limit = base.mu * float(response.options.gravity)
     disp_unit = length_unit([response.outcome.max_slip_m], gal=gal)
-    level = not base.slope_deg and not response.options["vertical"]
+    level = not base.slope_deg and not response.options.vertical
     return Animation(
         title=animation_title(describe_base(response), _outcome_text(response.outcome, disp_unit)),
         heading=motions_heading([motion]),

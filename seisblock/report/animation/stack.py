@@ -43,7 +43,7 @@ def stack_animation(response: Response[StackOutcome], times: FloatArray, *, gal:
         direction=motion.name,
         note=f"+x = {motion.name or 'x'}",
         time=times,
-        scene=Scene3D(ground_path(motion, (True, bool(options["across"]), bool(options["vertical"])), times), solids, 1.1 * size),
+        scene=Scene3D(ground_path(motion, (True, bool(options.across), bool(options.vertical)), times), solids, 1.1 * size),
         strips=(
             ground_strip(motion, gal=gal),
             Strip(gettext("tilt θ (deg)"), _lines(response, "tilt", math.degrees(1.0))),

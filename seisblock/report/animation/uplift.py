@@ -94,7 +94,7 @@ def _scene(response: Response[UpliftOutcome], times: FloatArray, factor: float) 
     springs = tuple(Spring(corner * [1.0, 1.0, 0.0], top, free) for corner, top in zip(corners, tops, strict=True))
     solid = Solid((body.width, body.depth, body.height), centre, np.roll(turns.as_quat(), 1, axis=1))
     motion = response.motion
-    ground = ground_path(motion, (True, True, bool(response.options["vertical"])), times)
+    ground = ground_path(motion, (True, True, bool(response.options.vertical)), times)
     return Scene3D(ground, (solid,), 1.1 * max(body.width, body.depth), springs)
 
 

@@ -60,7 +60,7 @@ def _phase_gaps(time: FloatArray, phase: Phase) -> tuple[IntArray, FloatArray]:
 
 def _flight_points(response: Response[JumpOutcome], gaps: IntArray, share: FloatArray) -> dict[str, FloatArray]:
     """Return the inserted points of a flight, (m, k) per channel."""
-    gravity = float(response.options["gravity_m_s2"])
+    gravity = float(response.options.gravity)
     fall, ground = np.full(response.time.size, -gravity), -response["ground_acceleration"]
     even = np.zeros(response.time.size)
     pulls = {"rotation": even, "displacement": ground, "height": fall}
@@ -69,7 +69,7 @@ def _flight_points(response: Response[JumpOutcome], gaps: IntArray, share: Float
 
 def _rocking_points(response: Response[JumpOutcome], gaps: IntArray, share: FloatArray) -> dict[str, FloatArray]:
     """Return the inserted points of rocking, (m, k) per channel."""
-    block, gravity, rotation = response.body, float(response.options["gravity_m_s2"]), response["rotation"]
+    block, gravity, rotation = response.body, float(response.options.gravity), response["rotation"]
     # z'' > 0 tilts the block to -x: the tilt is positive in the forward frame of the solver
     sign = -1.0 if rotation[gaps].sum() > 0.0 else 1.0
     tilt, push = -sign * rotation, sign * response["ground_acceleration"]

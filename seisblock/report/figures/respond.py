@@ -100,7 +100,7 @@ def _draw_ground(axis: Axes, panel_name: str, response: Response[RespondOutcome]
     unit, name = acceleration_unit(gal=gal)
     block, options = response.body, response.options
     right, left = block.arms
-    gravity = options["gravity_m_s2"] / unit
+    gravity = options.gravity / unit
     draw_curve(axis, response.time, response["ground_acceleration"] / unit, color=style.INPUT)
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
     friction, dashes = effective_friction(options), ((0, (6, 2)), (0, (1.5, 1.5)))

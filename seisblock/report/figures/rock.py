@@ -78,18 +78,18 @@ def draw_ground(axis: Any, response: Response[RockOutcome], panel_name: str, *, 
     """Draw the ground acceleration over the band of rest."""
     unit, name = acceleration_unit(gal=gal)
     outcome, options = response.outcome, response.options
-    weight = 1.0 + response["vertical_acceleration"] / options["gravity_m_s2"]
+    weight = 1.0 + response["vertical_acceleration"] / options.gravity
     right, left = (
-        arm / response.body.centre if not options["linear"] else alpha
+        arm / response.body.centre if not options.linear else alpha
         for arm, alpha in zip(response.body.arms, response.body.slendernesses, strict=True)
     )
-    g = options["gravity_m_s2"] / unit
-    band = gettext("rest: |a| < {g} tan α", g="(g + a_v)" if options["vertical"] else "g")
+    g = options.gravity / unit
+    band = gettext("rest: |a| < {g} tan α", g="(g + a_v)" if options.vertical else "g")
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
     (band_visible,) = style.fit_ylim(axis, peak, [(-g * right, g * left, gettext("rocking threshold"))], name)
     if band_visible:
         axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
-        if not options["vertical"]:
+        if not options.vertical:
             style.draw_thresholds(axis, [-g * right, g * left])
     draw_curve(axis, response.time, response["ground_acceleration"] / unit, color=style.INPUT)
     style.label_axes(axis, y=gettext("a ({unit})", unit=name))
@@ -145,7 +145,7 @@ def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
     tilt_limit = min(float(np.abs(lean).max()) * 1.1, 1.8)
     rate_limit = float(np.abs(rate[np.abs(lean) <= tilt_limit]).max()) * 1.1
     u = np.linspace(0.0, 2.0, 201)
-    edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
+    edge = np.abs(1 - u) if response.options.linear else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
     if np.any((u <= tilt_limit) & (edge <= rate_limit)):
         for sign in (1, -1):
             inward = np.where(u < 1, edge, -edge)

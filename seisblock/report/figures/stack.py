@@ -59,7 +59,7 @@ def _draw_column(panels: Sequence[Any], panel_name: str, response: Response[Stac
     )
     for name, row, colour in rows:
         values = motion.acceleration[row]
-        acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])
+        acts = row == 0 or (row == 1 and response.options.across) or (row == 2 and response.options.vertical)
         if acts and values.any():
             draw_curve(panels[0], motion.time, values / unit, color=colour, linewidth=0.7, label=name)
     for index, name in enumerate(reversed(response.body.names)):

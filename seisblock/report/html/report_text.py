@@ -119,7 +119,7 @@ def governing_text(effect: ModelResponse) -> Iterator[str]:
         yield capitalize(probability_sentence(run.probability))
     options = effect.response.options
     if not run.friction_known:
-        yield gettext("Friction not given; assumed coefficient {mu:.2f} (almost no sliding).", mu=options["mu"])
+        yield gettext("Friction not given; assumed coefficient {mu:.2f} (almost no sliding).", mu=options.mu)
 
 
 def card_text(effects: Sequence[ModelResponse]) -> tuple[str, list[str]]:

@@ -2,46 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from seisblock.bodies.block import Restitution
 from seisblock.criteria.compare import CriterionResult, unique_criteria
 from seisblock.measures.frequency import EquivalentFrequency
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.references import find_citations, papers
 from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import entry_type, to_entry
+from seisblock.report.json.entries import entry_type, parameters_type, to_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.model_comparison import ModelComparison
 
-
-class CriteriaParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    restitution : float, two of them, or None
-        Ratio of angular velocities at an impact, onto the right and onto the left corner; null: from the angular momentum.
-    linear, vertical : bool
-        Whether the equation is linear, and whether the vertical component acts.
-    gravity_m_s2 : float
-    block : BlockEntry
-    velocity_highpass_hz : float or None
-        Filter behind the PGV.
-    """
-
-    restitution: Restitution
-    linear: bool
-    vertical: bool
-    gravity_m_s2: float
-    block: BlockEntry
-    velocity_highpass_hz: float | None
-
-
+CRITERIA_PARAMETERS = parameters_type(
+    "CriteriaParameters",
+    RockOptions,
+    exclude=("initial",),
+    extra={
+        "block": BlockEntry,
+        "velocity_highpass_hz": Annotated[float | None, Meta(description="Filter behind the PGV.")],
+    },
+)
 AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="Results of other models of the same block.")]
 SIMULATED: Any = entry_type("Simulated", RockOutcome, extra={"agreement": AGREEMENT_KEY})
 
@@ -85,7 +70,7 @@ def _respond_entry(card: CriteriaComparison) -> RespondEntry | None:
         return None
     outcome, rows = card.governing.response.outcome, unique_criteria(card.rows)
     return RespondEntry(
-        mu=card.governing.response.options["mu"],
+        mu=card.governing.response.options.mu,
         friction_known=card.governing.friction_known,
         outcome=outcome.outcome,
         overturned=outcome.overturned,
@@ -124,14 +109,14 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     respond: RespondEntry | None
 
 
-CRITERIA = DocumentSchema("criteria", CriteriaParameters, CriteriaResult)
+CRITERIA = DocumentSchema("criteria", CRITERIA_PARAMETERS, CriteriaResult)
 
 
-def document(cards: Sequence[CriteriaComparison], options: Mapping[str, Any], *, gravity: float) -> Document:
+def document(cards: Sequence[CriteriaComparison], options: RockOptions) -> Document:
     """Return the document of the criteria comparisons of each direction."""
     first = cards[0]
-    parameters = CriteriaParameters(
-        **options, gravity_m_s2=gravity, block=block_entry(first.block), velocity_highpass_hz=first.velocity_highpass_hz
+    parameters = to_parameters(
+        CRITERIA_PARAMETERS, options, block=block_entry(first.block), velocity_highpass_hz=first.velocity_highpass_hz
     )
     entries = (
         (

@@ -7,8 +7,9 @@ from dataclasses import fields
 from typing import Annotated, Any, get_type_hints
 
 import msgspec
-from msgspec import Meta
+from msgspec import Meta, Struct
 
+from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.results import Response
 from seisblock.report.json.schema import Result, is_optional
 
@@ -47,6 +48,43 @@ def entry_type(
     ]
     result_type: Any = msgspec.defstruct(name, declared, bases=(Result,), frozen=True, kw_only=True, namespace={"__doc__": source.__doc__})
     return result_type  # type: ignore[no-any-return]
+
+
+def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = None, exclude: tuple[str, ...] = ()) -> type[Struct]:
+    """Return the struct type of the parameters of a command: one key per option of its body and its solver, then the extra keys.
+
+    Parameters
+    ----------
+    name : str
+        Of the type, in the schema.
+    kinds : type
+        Dataclasses of options.
+    extra : mapping of str to type
+        Keys after those of the options.
+    exclude : tuple of str
+        Options that are no keys.
+    """
+    keys: dict[str, Any] = {}
+    for kind in kinds:
+        hints = get_type_hints(kind)
+        for field, described, _ in option_fields(kind):
+            if field not in exclude:
+                shape = described.document or hints[field]
+                keys[document_key(field, described)] = Annotated[shape, Meta(description=plain_help(described))]
+    result_type: Any = msgspec.defstruct(
+        name, [*keys.items(), *(extra or {}).items()], frozen=True, kw_only=True, namespace={"__doc__": "Parameters of the command."}
+    )
+    return result_type  # type: ignore[no-any-return]
+
+
+def to_parameters(kind: type[Struct], /, *sources: Any, **extra: Any) -> Struct:
+    """Return the parameters of a command from objects with options and extra keys, which take precedence."""
+    values: dict[str, Any] = {}
+    for source in sources:
+        for field, described, _ in option_fields(type(source)):
+            value = getattr(source, field)
+            values[document_key(field, described)] = described.document(value) if described.document and value is not None else value
+    return kind(**{key: value for key, value in (values | extra).items() if key in kind.__struct_fields__})
 
 
 def to_entry(kind: type[Result], source: Any, **extra: Any) -> Result:

@@ -8,12 +8,12 @@ from typing import Any
 from msgspec import Struct
 
 from seisblock.bodies.block import Block
+from seisblock.core.registry import SolverBody
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.references import papers
 from seisblock.report.json.bodies import BlockEntry, block_entry
 from seisblock.report.json.entries import entry_type, to_entry
 from seisblock.report.json.schema import Document, DocumentSchema
-from seisblock.studies.batch.models import SolverBody
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
 
@@ -151,5 +151,5 @@ def document(
 
 def _body_entry(body: SolverBody) -> FragilityBody:
     block = block_entry(body.body) if isinstance(body.body, Block) else None
-    mu, kinetic = (body.options.get(key, getattr(body.body, key, None)) for key in ("mu", "mu_kinetic"))
+    mu, kinetic = (getattr(body.options, key, getattr(body.body, key, None)) for key in ("mu", "mu_kinetic"))
     return FragilityBody(name=body.name, block=block, mu=mu, mu_kinetic=kinetic)

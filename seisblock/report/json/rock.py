@@ -5,47 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
-from msgspec import Meta, Struct, UnsetType
+from msgspec import Meta, UnsetType
 
-from seisblock.bodies.block import Block, Restitution
+from seisblock.bodies.block import Block
 from seisblock.core.results import Response
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_outcome_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin
 from seisblock.studies.rocking.perturb import Perturbation
 
-
-class RockParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    restitution : float, two of them, or None
-        Ratio of angular velocities at an impact, onto the right and onto the left corner; null: from the angular momentum.
-    linear, vertical : bool
-        Whether the equation is linear, and whether the vertical component acts.
-    gravity_m_s2 : float
-    block : BlockEntry
-        Block of the first result.
-    margin_limit : float or None
-        Largest factor of the search for margins; null without one.
-    mu : float or None
-        Available friction; null if not given.
-    """
-
-    restitution: Restitution
-    linear: bool
-    vertical: bool
-    gravity_m_s2: float
-    block: BlockEntry
-    margin_limit: float | None
-    mu: float | None
-
-
+ROCK_PARAMETERS = parameters_type(
+    "RockParameters",
+    RockOptions,
+    exclude=("initial",),
+    extra={
+        "block": Annotated[BlockEntry, Meta(description="Block of the first result.")],
+        "margin_limit": Annotated[float | None, Meta(description="Largest factor of the search for margins; null without one.")],
+        "mu": Annotated[float | None, Meta(description="Available friction; null if not given.")],
+    },
+)
 ROCK_RESULT = entry_type(
     "RockResult",
     RockOutcome,
@@ -59,7 +42,7 @@ ROCK_RESULT = entry_type(
         "perturbation": Annotated[Perturbation, Meta(description="With --perturb, or --margin.")] | UnsetType,
     },
 )
-ROCK = DocumentSchema("rock", RockParameters, ROCK_RESULT)
+ROCK = DocumentSchema("rock", ROCK_PARAMETERS, ROCK_RESULT)
 
 
 def document(
@@ -71,9 +54,8 @@ def document(
     mu: float | None = None,
 ) -> Document:
     """Return the document of one run per direction, with margin and perturbation."""
-    options = responses[0].options
     return ROCK.document(
-        RockParameters(**{**options, "vertical": bool(options["vertical"])}, block=block_entry(block), margin_limit=margin_limit, mu=mu),
+        to_parameters(ROCK_PARAMETERS, responses[0].options, block=block_entry(block), margin_limit=margin_limit, mu=mu),
         (to_outcome_entry(ROCK_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],

@@ -7,43 +7,24 @@ from typing import Annotated, Any
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.results import Response
+from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import SlideOutcome
 from seisblock.records import Record
 from seisblock.references import papers
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_entry, to_outcome_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_entry, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.sliding import SlidePoint
 
 FloatTuple = tuple[float, ...]
 
-SCALE_KEY = "vertical_scale"
-"""Key of the factor on the vertical component."""
-
-
-class SlideParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    mu, mu_kinetic, kappa : float
-        Static and kinetic friction, and the kinetic over the static.
-    vertical_scale : float
-        Factor on the vertical component, 0 if ignored.
-    slope_deg, slope_length_m : float
-        Angle of the base, and the distance to its foot; null without an end.
-    one_way : bool
-    gravity_m_s2 : float
-    """
-
-    mu: float
-    mu_kinetic: float
-    kappa: float
-    vertical_scale: float
-    slope_deg: float
-    slope_length_m: float | None
-    one_way: bool
-    gravity_m_s2: float
+SLIDE_PARAMETERS = parameters_type(
+    "SlideParameters",
+    SlidingBase,
+    SlideOptions,
+    extra={"kappa": Annotated[float, Meta(description="Kinetic over static friction.")]},
+)
 
 
 class SlideStudyParameters(Struct, frozen=True, kw_only=True):
@@ -72,18 +53,19 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
 
 
 SLIDE_RESULT = entry_type("SlideResult", SlideOutcome, leading=COMPONENT_KEY)
-SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": SCALE_KEY})
+SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": "vertical_scale"})
 AZIMUTHS_KEY: dict[str, Any] = {
     "azimuths": Annotated[list[SLIDE_POINT], Meta(description="All directions of a sweep.")] | UnsetType  # type: ignore[valid-type]
 }
-SLIDE = DocumentSchema("slide", SlideParameters, SLIDE_RESULT, AZIMUTHS_KEY)
+SLIDE = DocumentSchema("slide", SLIDE_PARAMETERS, SLIDE_RESULT, AZIMUTHS_KEY)
 STUDY = DocumentSchema("slide", SlideStudyParameters, SLIDE_POINT, name="study")
 
 
 def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlidePoint] = ()) -> Document:
     """Return the document of one run per direction, and of the azimuth sweep."""
+    base: SlidingBase = responses[0].body
     return SLIDE.document(
-        SlideParameters(**_with_scale_key(responses[0].options)),
+        to_parameters(SLIDE_PARAMETERS, base, responses[0].options, mu_kinetic=base.kinetic, kappa=base.kappa),
         (to_outcome_entry(SLIDE_RESULT, response) for response in responses),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
@@ -94,14 +76,9 @@ def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlideP
 def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record, SlidePoint]], warnings: Sequence[str]) -> Document:
     """Return the document of a parameter study, point by point."""
     entries = ((record, point_entry(point)) for record, point in points)
-    return STUDY.document(SlideStudyParameters(**_with_scale_key(parameters)), entries, citations=papers("sliding"), warnings=warnings)
+    return STUDY.document(SlideStudyParameters(**parameters), entries, citations=papers("sliding"), warnings=warnings)
 
 
 def point_entry(point: SlidePoint) -> Result:
     """Return the entry of one point of a study."""
     return to_entry(SLIDE_POINT, point, vertical_scale=point.vertical)
-
-
-def _with_scale_key(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return options with the vertical factor under its document key."""
-    return {SCALE_KEY if key == "vertical" else key: value for key, value in options.items()}

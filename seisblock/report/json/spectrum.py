@@ -3,45 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Annotated, Any
 
 import numpy as np
-from msgspec import UNSET, Struct, UnsetType
+from msgspec import UNSET, Meta, Struct, UnsetType
 
-from seisblock.bodies.block import Restitution
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core.typing import FloatArray
+from seisblock.models.rock.options import RockOptions
 from seisblock.records import Motion
 from seisblock.references import papers
+from seisblock.report.json.entries import parameters_type, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, ModeMap
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 from seisblock.studies.sliding import SlidePoint
 
-
-class RockingParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    kind : str
-        ``rocking`` or ``overturning``.
-    gravity_m_s2 : float
-    restitution : float, two of them, or None
-        Ratio of angular velocities at an impact; null: from the angular momentum.
-    linear, vertical : bool
-        Whether the equation is linear, and whether the vertical component acts.
-    inset : Inset
-        Edge wear.
-    """
-
-    kind: str
-    gravity_m_s2: float
-    restitution: Restitution
-    linear: bool
-    vertical: bool
-    inset: EdgeWear
+ROCKING_PARAMETERS = parameters_type(
+    "RockingParameters",
+    RockOptions,
+    exclude=("initial",),
+    extra={
+        "kind": Annotated[str, Meta(description="``rocking`` or ``overturning``.")],
+        "inset": Annotated[EdgeWear, Meta(description="Edge wear.")],
+    },
+)
 
 
 class SlidingParameters(Struct, frozen=True, kw_only=True):
@@ -185,11 +172,11 @@ class ModesResult(Result, frozen=True, kw_only=True):
 
 
 MODES = DocumentSchema("spectrum", ModesParameters, ModesResult, name="modes")
-ROCKING = DocumentSchema("spectrum", RockingParameters, RockingResult, name="rocking")
+ROCKING = DocumentSchema("spectrum", ROCKING_PARAMETERS, RockingResult, name="rocking")
 SLIDING = DocumentSchema("spectrum", SlidingParameters, SlidingResult, name="sliding")
 
 
-def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, options: Mapping[str, Any], *, gravity: float) -> Document:
+def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, options: RockOptions, inset: EdgeWear) -> Document:
     """Return the document of rocking spectra, one per direction."""
     entries = (
         (
@@ -209,7 +196,7 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
         )
         for motion, spectrum in spectra
     )
-    return ROCKING.document(RockingParameters(kind=kind, gravity_m_s2=gravity, **options), entries, citations=papers("rocking"))
+    return ROCKING.document(to_parameters(ROCKING_PARAMETERS, options, kind=kind, inset=inset), entries, citations=papers("rocking"))
 
 
 def _to_list(values: FloatArray | None) -> Any:

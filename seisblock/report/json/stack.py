@@ -12,53 +12,28 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.core.results import Response
 from seisblock.criteria.gravestones import GravestoneFit, furukawa_fit, overturning_level
 from seisblock.models.stack.joint_geometry import EffectiveBase, effective_base
+from seisblock.models.stack.options import SPRINGS, StackOptions
 from seisblock.models.stack.outcome import StackOutcome
-from seisblock.models.stack.solve import SPRINGS
 from seisblock.records import Record
 from seisblock.references import papers
 from seisblock.report.json.bodies import PileContactEntry, PileEntry, pile_contact_entry, pile_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_outcome_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.respond.pile_probability import PileProbability
 
-
-class StackParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    law : str
-        Of contact: rigid or springs.
-    points : int
-        Contact points along each side of a joint; 2: its edges.
-    mu, mu_kinetic : float
-        Default static and kinetic friction of the joints.
-    restitution : float or None
-        Velocity ratio of the joints; null: from angular momentum.
-    base : Base
-        Effective base of the top stone.
-    vertical, across : bool
-        Whether the vertical and the other horizontal component act.
-    gravity_m_s2, step_s : float
-    contact : PileContactEntry or None
-        Null for rigid contact.
-    pile : PileEntry
-    """
-
-    law: str
-    points: int
-    mu: float
-    mu_kinetic: float
-    restitution: float | None
-    base: EffectiveBase
-    vertical: bool
-    across: bool
-    gravity_m_s2: float
-    step_s: float
-    contact: PileContactEntry | None
-    pile: PileEntry
+STACK_PARAMETERS = parameters_type(
+    "StackParameters",
+    StackOptions,
+    exclude=("contact", "stop_at_fall", "tilts"),
+    extra={
+        "mu": Annotated[float, Meta(description="Default static friction of the joints.")],
+        "base": Annotated[EffectiveBase, Meta(description="Effective base of the top stone.")],
+        "contact": Annotated[PileContactEntry | None, Meta(description="Null for rigid contact.")],
+        "pile": PileEntry,
+    },
+)
 
 
 class StudyParameters(Struct, frozen=True, kw_only=True):
@@ -147,7 +122,7 @@ PROBABILITY_KEY = Annotated[PileProbability, Meta(description="Probabilities of 
 STACK_RESULT = entry_type(
     "StackResult", StackOutcome, leading=COMPONENT_KEY, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY}
 )
-STACK = DocumentSchema("stack", StackParameters, STACK_RESULT)
+STACK = DocumentSchema("stack", STACK_PARAMETERS, STACK_RESULT)
 STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion")
 
 
@@ -155,14 +130,21 @@ def document(
     responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, extras: Sequence[Mapping[str, Any]]
 ) -> Document:
     """Return the document of one run per direction, with model comparison and probability; a contact of None is rigid."""
-    options: dict[str, Any] = {**responses[0].options, "base": effective_base(responses[0])}
-    if contact is None and options["law"] == SPRINGS:
+    options: StackOptions = responses[0].options
+    if contact is None and options.law == SPRINGS:
         # rigid contact was replaced by springs because it created energy
         contact = PileContact()
-    options["contact"] = None if contact is None else pile_contact_entry(contact)
-    options |= {name: bool(options[name]) for name in ("vertical", "across")}
+    parameters = to_parameters(
+        STACK_PARAMETERS,
+        options,
+        mu=responses[0].body.mu,
+        mu_kinetic=responses[0].body.friction()[1],
+        base=effective_base(responses[0]),
+        contact=None if contact is None else pile_contact_entry(contact),
+        pile=pile_entry(pile),
+    )
     return STACK.document(
-        StackParameters(**options, pile=pile_entry(pile)),
+        parameters,
         (to_outcome_entry(STACK_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],

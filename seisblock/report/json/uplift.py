@@ -11,10 +11,11 @@ from msgspec import Struct
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.core.results import Response
 from seisblock.models.uplift.minima import UpliftMinimum
+from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome
 from seisblock.references import papers
 from seisblock.report.json.bodies import SpringBlockEntry, spring_block_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, to_outcome_entry
+from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.uplift_regions import UpliftRegion
 
@@ -24,20 +25,7 @@ RATIO_KEYS = {"alpha": "alpha", "gamma": "gamma", "beta": "beta", "damping": "da
 ScalarOrTuple = float | tuple[float, ...]
 
 
-class UpliftParameters(Struct, frozen=True, kw_only=True):
-    """Parameters of the command.
-
-    Parameters
-    ----------
-    vertical : bool
-        Whether the vertical component acts.
-    gravity_m_s2 : float
-    block : SpringBlockEntry
-    """
-
-    vertical: bool
-    gravity_m_s2: float
-    block: SpringBlockEntry
+UPLIFT_PARAMETERS = parameters_type("UpliftParameters", UpliftOptions, extra={"block": SpringBlockEntry})
 
 
 class HarmonicParameters(Struct, frozen=True, kw_only=True):
@@ -125,14 +113,14 @@ class HarmonicResult(Result, frozen=True, kw_only=True):
 
 
 UPLIFT_RESULT = entry_type("UpliftResult", UpliftOutcome, leading=COMPONENT_KEY)
-UPLIFT = DocumentSchema("uplift", UpliftParameters, UPLIFT_RESULT)
+UPLIFT = DocumentSchema("uplift", UPLIFT_PARAMETERS, UPLIFT_RESULT)
 HARMONIC = DocumentSchema("uplift", HarmonicParameters, HarmonicResult, name="harmonic")
 
 
 def document(responses: Sequence[Response[UpliftOutcome]], body: SpringBlock) -> Document:
     """Return the document of one run per direction."""
     return UPLIFT.document(
-        UpliftParameters(**{**responses[0].options, "vertical": bool(responses[0].options["vertical"])}, block=spring_block_entry(body)),
+        to_parameters(UPLIFT_PARAMETERS, responses[0].options, block=spring_block_entry(body)),
         (to_outcome_entry(UPLIFT_RESULT, response) for response in responses),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],

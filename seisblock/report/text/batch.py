@@ -42,7 +42,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     messages : mapping of str to str
         Translatable messages by their English text.
     """
-    solver = tally.model.name
+    solver = tally.solver.name
     total = gettext(_EVENT_COUNT_TEXTS[solver], happened=tally.event_count, answers=tally.answers)
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"

@@ -60,7 +60,7 @@ def simulated_text(card: CriteriaComparison) -> str:
 def respond_text(card: CriteriaComparison, best_estimate: BestEstimate, *, gal: bool) -> str:
     """Return the outcome of the full response and the number of criteria that agree, each counted once."""
     rows = unique_criteria(card.rows)
-    outcome, mu = best_estimate.response.outcome, best_estimate.response.options["mu"]
+    outcome, mu = best_estimate.response.outcome, best_estimate.response.options.mu
     right = sum(row.overturns == outcome.overturned for row in rows)
     if best_estimate.friction_known:
         text = N_("Full response (respond) with friction {mu:g}: {verdict} {right} of {all} criteria agree.")

@@ -104,7 +104,7 @@ def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     """Return the final outcome and the friction required for it."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
-        gravity = response.options["gravity_m_s2"]
+        gravity = response.options.gravity
         share = outcome.rocking_threshold_m_s2 / gravity
         onset_text = threshold_text(ROCKS, (share, share), response.motion, gravity=gravity, gal=gal)
         return gettext("{name}: remains at rest; {onset}.", name=name, onset=onset_text)
@@ -124,7 +124,7 @@ def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
 
 def _friction_caveats(response: Response[JumpOutcome]) -> Iterator[str]:
     """Yield a note where the result requires more friction than given."""
-    mu, friction = response.options["mu"], response.outcome.friction_needed_at_landing
+    mu, friction = response.options.contact.mu, response.outcome.friction_needed_at_landing
     ratio = response.body.width / 2 / response.body.centroid_height
     if mu < ratio:
         text = N_(

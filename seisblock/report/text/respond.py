@@ -87,7 +87,7 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         ratio, mu = min(response.body.arms) / response.body.centre, effective_friction(response.options)
         template = SLIDES if mu <= ratio else ROCKS
         shares = tuple(min(mu, arm / response.body.centre) for arm in response.body.arms)
-        gravity, vertical = response.options["gravity_m_s2"], response.options["vertical"]
+        gravity, vertical = response.options.gravity, response.options.vertical
         onset_text = threshold_text(template, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
         words = gettext("{verdict}; {onset}", verdict=gettext("remains at rest"), onset=onset_text)
     elif outcome.outcome == ENDLESS_HOPS:
@@ -231,13 +231,13 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
     varies = any(response.body != block for response in responses)
     ratio = min(block.arms) / block.centre
     friction, level = effective_friction(options), acceleration_unit(gal=gal)
-    onset = min(friction, ratio) * options["gravity_m_s2"] / level.size
+    onset = min(friction, ratio) * options.gravity / level.size
     unit = length_unit((length for o in outcomes for length in (o.max_displacement_m, o.slip_path_m)), gal=gal)
-    values = {"name": gettext(block.name), "mu": options["mu"], "kinetic": options["mu_kinetic"]}
+    values = {"name": gettext(block.name), "mu": options.mu, "kinetic": options.mu_kinetic}
     frictions = N_("{name}: mu {mu:g}, kinetic {kinetic:g}")
     title = N_("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
-    if options["tenon_m"]:
-        values["tenon"] = format_length(options["tenon_m"], gal=gal)
+    if options.tenon:
+        values["tenon"] = format_length(options.tenon, gal=gal)
         frictions = N_("{name}: tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}")
         title = N_("{name}: b/h {ratio:.3f}, tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
     if not varies:

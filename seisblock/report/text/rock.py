@@ -137,9 +137,9 @@ def _fall_cells(result: RockAzimuth) -> tuple[str, str]:
 def _onset_text(response: Response[RockOutcome], *, gal: bool) -> str:
     """Return the rocking threshold of a block at rest."""
     options, arms = response.options, response.body.arms
-    weakest = response.outcome.threshold_m_s2 / options["gravity_m_s2"] / min(arms)
+    weakest = response.outcome.threshold_m_s2 / options.gravity / min(arms)
     towards = (arms[0] * weakest, arms[1] * weakest)
-    return threshold_text(ROCKS, towards, response.motion, gravity=options["gravity_m_s2"], vertical=options["vertical"], gal=gal)
+    return threshold_text(ROCKS, towards, response.motion, gravity=options.gravity, vertical=options.vertical, gal=gal)
 
 
 def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
@@ -149,9 +149,9 @@ def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal:
     if not outcome.rocks:
         verdict_text = gettext("{verdict}; {onset}", verdict=verdict_text, onset=_onset_text(response, gal=gal))
     sentence = gettext("{name}: {verdict}.", name=name, verdict=verdict_text)
-    if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
+    if mu is None or friction_suffices(outcome, mu, response.options.gravity):
         return sentence
-    ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
+    ratio = outcome.threshold_m_s2 / response.options.gravity
     if mu < ratio:
         text = N_("With a friction of {mu:g} < b/h = {ratio:.3f} the block slides instead of rocking; this result does not apply.")
         return with_notes(sentence, [gettext(text, mu=mu, ratio=ratio)])

@@ -53,8 +53,8 @@ def describe_base(response: Response[SlideOutcome]) -> str:
         parts.append(gettext("slope {slope:g} deg", slope=base.slope_deg))
     if base.one_way:
         parts.append(gettext("one way"))
-    if options["vertical"]:
-        parts.append(gettext("vertical motion x {factor:g}", factor=options["vertical"]))
+    if options.vertical:
+        parts.append(gettext("vertical motion x {factor:g}", factor=options.vertical))
     return join_list(parts)
 
 
@@ -71,7 +71,7 @@ def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
         base, options = response.body, response.options
         if base.slope_deg:
             return gettext("{name}: remains at rest; static friction is not exceeded.", name=name)
-        gravity, vertical = options["gravity_m_s2"], options["vertical"]
+        gravity, vertical = options.gravity, options.vertical
         onset_text = threshold_text(
             SLIDES, (base.mu, math.inf if base.one_way else base.mu), response.motion, gravity=gravity, vertical=vertical, gal=gal
         )

@@ -13,8 +13,8 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.core.i18n import Message, format_share, gettext, lazy_gettext
 from seisblock.core.results import Response
 from seisblock.models.stack.joint_geometry import effective_base
+from seisblock.models.stack.options import EDGES, RIGID
 from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
-from seisblock.models.stack.solve import EDGE_POINTS, RIGID
 from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
 from seisblock.report.text.model_comparison import agreement_line
@@ -172,10 +172,10 @@ def _wear_text(pile: Pile, tolerance: float) -> Message:
 
 def base_text(response: Response[StackOutcome]) -> str:
     """Return the contact model and its effect on the top stone."""
-    base, points = effective_base(response), response.options["points"]
+    base, points = effective_base(response), response.options.points
     values = {"stone": gettext(base.stone), "kept": base.restitution, "sharp": base.housner_ratio}
-    law = gettext("Rigid contact") if response.options["law"] == RIGID else gettext("Spring contact")
-    if points == EDGE_POINTS and base.width_ratio < 1.0:
+    law = gettext("Rigid contact") if response.options.law == RIGID else gettext("Spring contact")
+    if points == EDGES and base.width_ratio < 1.0:
         return gettext(
             "{law}, worn edges: {stone} rotates about lines at {share:.2f} of its half width; on rigid ground an "
             "impact retains {kept:.2f} of the angular velocity ({sharp:.2f} for sharp edges).",
@@ -183,9 +183,9 @@ def base_text(response: Response[StackOutcome]) -> str:
             share=base.width_ratio,
             **values,
         )
-    if points == EDGE_POINTS and base.restitution <= 0.0:
+    if points == EDGES and base.restitution <= 0.0:
         return gettext("{law} at the edges; {stone} is too squat to continue rocking after an impact on rigid ground.", law=law, **values)
-    if points == EDGE_POINTS:
+    if points == EDGES:
         return gettext(
             "{law} at the edges; on rigid ground an impact retains {kept:.2f} of the angular velocity of {stone}.", law=law, **values
         )

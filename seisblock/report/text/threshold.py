@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from seisblock.core.i18n import N_, gettext
+from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from seisblock.records.motion import ALONG, UP
 from seisblock.report.text.tables import format_acceleration
@@ -59,20 +58,19 @@ def threshold_text(
     return gettext(template, threshold=format_acceleration(threshold, gal=gal), factor=factor_text)
 
 
-def effective_friction(options: Mapping[str, Any]) -> float:
+def effective_friction(options: RespondOptions) -> float:
     """Return the friction coefficient at the feet, 1; infinite with tenons.
 
     Parameters
     ----------
-    options : mapping
-        Of a response of ``respond``.
+    options : RespondOptions
 
     Examples
     --------
-    >>> effective_friction({"mu": 0.3, "tenon_m": 0.0}), effective_friction({"mu": 0.3, "tenon_m": 0.02})
+    >>> effective_friction(RespondOptions(mu=0.3)), effective_friction(RespondOptions(mu=0.3, tenon=0.02))
     (0.3, inf)
     """
-    return math.inf if options["tenon_m"] > 0.0 else float(options["mu"])
+    return math.inf if options.tenon > 0.0 else float(options.mu)
 
 
 def onset_factor(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:

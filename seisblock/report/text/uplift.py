@@ -49,7 +49,7 @@ def _details(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[Any]:
 def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]]:
     """Yield the table rows, a column per corner; only the first uplift beyond the range of the model."""
     corners = response.outcome.corners
-    static = response.body.static_corner_force(response.options["gravity_m_s2"])
+    static = response.body.static_corner_force(response.options.gravity)
     yield [gettext("first uplift (s)"), *(format_seconds(c.first_uplift_s) for c in corners)]
     if not response.outcome.within_model:
         return

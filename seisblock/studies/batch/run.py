@@ -13,15 +13,16 @@ from seisblock.bodies.table import BodySpec, read_bodies
 from seisblock.core import checks
 from seisblock.core.errors import KindError, ParameterError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.core.registry import Solver, SolverBody, get_solver
 from seisblock.core.typing import Progress
 from seisblock.readers.discover import RecordSource, iter_records
 from seisblock.readers.dispatch import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
-from seisblock.studies.batch.models import BatchModel, SolverBody, batch_model
 from seisblock.studies.batch.table import BatchTable, Row, batch_columns
 from seisblock.studies.batch.task import Plan, build_solver_bodies, failure_row, record_rows
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths, is_all_azimuths
+from seisblock.studies.capabilities import capabilities
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 
 if TYPE_CHECKING:
@@ -111,11 +112,11 @@ def make_plan(
     strict: bool = False,
 ) -> tuple[Plan, tuple[str, ...]]:
     """Return the plan of a batch and its warnings; see :func:`run_batch`."""
-    model = batch_model(solver)
+    model = get_solver(solver)
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
         raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
-    if runs and model.chance is None:
+    if runs and capabilities(solver).probability is None:
         raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)
@@ -171,11 +172,11 @@ def _tasks(records: Location | Record | Iterable[Location | Record], read_option
             yield from iter_records([str(source) for source in group], read_options)
 
 
-def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBody]:
+def named_bodies(bodies: Bodies, model: Solver) -> list[BodySpec | SolverBody]:
     """Return the bodies of a batch with their names; given body objects take all options unchanged."""
     if isinstance(bodies, (str, PathLike)):
         return list(read_bodies(str(bodies)))
-    if isinstance(bodies, model.kinds):
+    if isinstance(bodies, model.bodies):
         bodies = [bodies]
     if isinstance(bodies, Mapping):
         pairs = [(str(name), body) for name, body in bodies.items()]
@@ -191,19 +192,19 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
             result += read_bodies(str(body))
         elif isinstance(body, BodySpec):
             result.append(body)
-        elif isinstance(body, model.kinds):
-            result.append(SolverBody(name, body, {}))
+        elif isinstance(body, model.bodies):
+            result.append(SolverBody(name, body, None))
         else:
             raise KindError(
                 "{solver} takes {kinds}; found {found}",
                 solver=model.name,
-                kinds=[kind.__name__ for kind in model.kinds],
+                kinds=[kind.__name__ for kind in model.bodies],
                 found=checks.type_name(body),
             )
     return result
 
 
-def ignored_column_notes(model: BatchModel, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
+def ignored_column_notes(model: Solver, bodies: Sequence[BodySpec | SolverBody]) -> tuple[str, ...]:
     """Return warnings on columns of the list of bodies that the solver does not use."""
-    ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_keys(body))
+    ignored = dict.fromkeys(key for body in bodies if isinstance(body, BodySpec) for key in model.ignored_columns(body.parameters))
     return (lazy_gettext("{solver} does not use {columns}", columns=list(ignored), solver=model.name),) if ignored else ()

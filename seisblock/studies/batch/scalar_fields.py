@@ -5,6 +5,7 @@ from __future__ import annotations
 import types
 from collections.abc import Mapping
 from dataclasses import fields
+from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 _SCALARS = (bool, int, float, str)
@@ -13,6 +14,7 @@ OPTIONAL_FIELDS = ("verdict_flips_within_2_percent", "flips_at_factor")
 """Outcome fields computed on request only (40 additional runs); not columns."""
 
 
+@cache
 def scalar_fields(outcome: type) -> Mapping[str, type]:
     """Return the scalar fields of an outcome with their types.
 

@@ -7,7 +7,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from seisblock.core.errors import ParameterError
-from seisblock.studies.batch.models import BatchModel
+from seisblock.core.registry import Solver
+from seisblock.studies.batch.directions import DIRECTIONS, FALLEN_DIRECTIONS
+from seisblock.studies.batch.scalar_fields import scalar_fields
+from seisblock.studies.capabilities import capabilities
 
 if TYPE_CHECKING:
     import pandas
@@ -21,17 +24,13 @@ REASON, WARNINGS = "failure", "warnings"
 """Columns for the reason of a missing result, and for warnings."""
 
 
-DIRECTIONS, FALLEN_DIRECTIONS = "directions", "directions_overturned"
-"""Columns of azimuth sweeps: number of directions, and number of those with overturning."""
-
-
-def batch_columns(model: BatchModel, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
+def batch_columns(solver: Solver, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
     """Return the columns of a batch with their types, including probabilities and azimuth sweeps."""
-    probability_columns = (model.chances or {}) if runs else {}
+    probability_columns = capabilities(solver.name).probability_columns if runs else {}
     directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
-    if all_azimuths and model.happens == "overturned":
+    if all_azimuths and solver.event == "overturned":
         directions[FALLEN_DIRECTIONS] = int
-    return {**KEY_COLUMNS, **directions, **model.scalars, **probability_columns, WARNINGS: str, REASON: str}
+    return {**KEY_COLUMNS, **directions, **scalar_fields(solver.outcome), **probability_columns, WARNINGS: str, REASON: str}
 
 
 @dataclass(frozen=True, eq=False)

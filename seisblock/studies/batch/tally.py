@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from seisblock.studies.batch.models import BatchModel
+from seisblock.core.registry import Solver
 from seisblock.studies.batch.table import REASON, Row
 
 
@@ -25,10 +25,10 @@ class Tally:
 
     Parameters
     ----------
-    model : BatchModel
+    solver : Solver
     """
 
-    model: BatchModel
+    solver: Solver
     bodies: dict[str, BodyCounts] = field(default_factory=dict)
     records: int = 0
     unreadable: int = 0
@@ -50,7 +50,7 @@ class Tally:
                 count.failures += 1
                 continue
             count.answers += 1
-            count.events += self.model.event_occurred(row)
+            count.events += self.solver.event_occurred(row)
         return rows
 
     @property

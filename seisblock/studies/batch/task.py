@@ -11,6 +11,7 @@ from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.table import BodySpec
 from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.core.registry import Solver, SolverBody, get_solver
 from seisblock.core.results import Status
 from seisblock.readers.discover import RecordSource
 from seisblock.readers.dispatch import ReadOptions
@@ -18,10 +19,12 @@ from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import matches_station
-from seisblock.studies.batch.models import BATCH_MODELS, LEFT_OUT, BatchModel, SolverBody
+from seisblock.studies.batch.probability import LEFT_OUT
+from seisblock.studies.batch.scalar_fields import scalar_fields
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.vectorized import solve_vectorized
-from seisblock.studies.batch.worst_azimuth import is_all_azimuths, worst_azimuth
+from seisblock.studies.batch.worst_azimuth import is_all_azimuths
+from seisblock.studies.capabilities import capabilities
 
 ALL = "all"
 
@@ -63,13 +66,13 @@ class Plan:
     strict: bool = False
 
     @property
-    def model(self) -> BatchModel:
-        """Batch solver."""
-        return BATCH_MODELS[self.solver]
+    def model(self) -> Solver:
+        """Registered solver."""
+        return get_solver(self.solver)
 
 
 def build_solver_bodies(
-    model: BatchModel, bodies: Sequence[BodySpec | SolverBody], options: Mapping[str, Any]
+    solver: Solver, bodies: Sequence[BodySpec | SolverBody], options: Mapping[str, Any]
 ) -> tuple[SolverBody | RejectedBody, ...]:
     """Return accepted and rejected bodies of a solver.
 
@@ -82,13 +85,13 @@ def build_solver_bodies(
     for body in bodies:
         try:
             result.append(
-                model.build_body(body, options) if isinstance(body, BodySpec) else replace(body, options={**options, **body.options})
+                solver.build_body(body, options) if isinstance(body, BodySpec) else replace(body, options=solver.make_options(options))
             )
         except SeisblockError as error:
             result.append(RejectedBody(body.name, error.message))
     rejected = [item for item in result if isinstance(item, RejectedBody)]
     if rejected and len(rejected) == len(result):
-        raise ParameterError("{solver} accepts none of the bodies: {reason}", solver=model.name, reason=rejected[0].reason)
+        raise ParameterError("{solver} accepts none of the bodies: {reason}", solver=solver.name, reason=rejected[0].reason)
     duplicates = [name for name, count in Counter(item.name for item in result).items() if count > 1]
     if duplicates:
         raise ParameterError("two bodies have the name {name!r}; rename one", name=duplicates[0][:100])
@@ -163,7 +166,7 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
     except SeisblockError as error:
         yield {**columns, "component": name, REASON: error.message}
         return
-    vectorized = solve_vectorized(plan.solver, [body for body in plan.bodies if isinstance(body, SolverBody)], motion)
+    vectorized = solve_vectorized(plan.model, [body for body in plan.bodies if isinstance(body, SolverBody)], motion)
     for body in plan.bodies:
         row = {**columns, "component": motion.name, "body": body.name}
         if isinstance(body, RejectedBody):
@@ -179,8 +182,10 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
     row: Row = {"component": ALL_AZIMUTHS, "body": body.name}
     if isinstance(body, RejectedBody):
         return {**row, REASON: body.reason}
+    sweep = capabilities(plan.solver).worst_azimuth
+    assert sweep is not None
     try:
-        worst, direction_counts, remarks = worst_azimuth(plan.solver, body, record)
+        worst, direction_counts, remarks = sweep(body, record)
         motion = motion_of(record, worst)
     except SeisblockError as error:
         return {**row, REASON: error.message}
@@ -192,14 +197,15 @@ def _solve_row(motion: Motion, body: SolverBody, plan: Plan, doubts: Sequence[st
     model = plan.model
     try:
         aligned_body = replace(body, body=block_for_motion(body.body, motion))
-        response = model.solve(aligned_body.body, motion, **body.options)
-        chance = model.chance(aligned_body, motion, plan.runs, plan.seed, body.options) if plan.runs and model.chance is not None else {}
+        response = model.solve(aligned_body.body, motion, **body.options.keywords())
+        probability = capabilities(plan.solver).probability
+        chance = probability(aligned_body, motion, plan.runs, plan.seed) if plan.runs and probability is not None else {}
     except SeisblockError as error:
         return {REASON: error.message}
     if response.status == Status.TOO_MANY_EVENTS:
         return {REASON: response.warnings[0]}
     warnings = [*doubts, *response.warnings, *([chance[LEFT_OUT]] if LEFT_OUT in chance else ())]
-    scalars = {name: _to_plain(getattr(response.outcome, name), kind) for name, kind in model.scalars.items()}
+    scalars = {name: _to_plain(getattr(response.outcome, name), kind) for name, kind in scalar_fields(model.outcome).items()}
     return {**scalars, **{key: value for key, value in chance.items() if key != LEFT_OUT}, WARNINGS: "; ".join(warnings) or None}
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from seisblock.bodies.block import Block, from_slenderness, scale_block
 from seisblock.bodies.block_array import BlockArray, block_variants
 from seisblock.core.typing import FloatArray
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import RockBatchParams, rock_batch_params
 from seisblock.records import Motion
 from seisblock.records._validation import Gain
@@ -134,7 +135,9 @@ class BlockFamily:
         width = values.get(SCATTER, np.full(len(unit_points), self.scatter))
         size, slenderness, restitution_shift, amplitude, azimuth_shift = (width[:, None] * shifts).T
         params = rock_batch_params(
-            self.blocks(unit_points, size=1.0 + size, slenderness=1.0 + slenderness), motion, vertical=self.vertical, gravity=self.gravity
+            self.blocks(unit_points, size=1.0 + size, slenderness=1.0 + slenderness),
+            motion,
+            options=RockOptions(vertical=self.vertical, gravity=self.gravity),
         )
         restitutions = params.restitutions
         if RESTITUTION in values:

@@ -15,9 +15,6 @@ from seisblock.core.units import parse_length
 
 ROCK, LEAN, SLIP, OVERTURN = "rock", "lean", "slip", "overturn"
 
-SUPPORTED_LIMITS = {"rock": (ROCK, LEAN, OVERTURN), "respond": (ROCK, LEAN, SLIP, OVERTURN), "slide": (SLIP,), "stack": (SLIP, OVERTURN)}
-"""Limit states of each solver."""
-
 
 @dataclass(frozen=True, eq=False)
 class EndStates:
@@ -141,7 +138,7 @@ def describe_limit(name: str) -> Message:
     return lazy_gettext("overturning") if limit.kind == OVERTURN else lazy_gettext("rocking")
 
 
-def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: str) -> tuple[LimitState, ...]:
+def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: str, supported: Sequence[str]) -> tuple[LimitState, ...]:
     """Return the limit states of a study in order of severity.
 
     Raises
@@ -154,12 +151,12 @@ def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: s
     if not states:
         raise ParameterError("no limit given; expected overturn, rock, slip=5cm or lean=0.5")
     for state in states:
-        if state.kind not in SUPPORTED_LIMITS[solver]:
+        if state.kind not in supported:
             raise ParameterError(
                 "{solver} does not compute the limit {name!r}; available: {known}",
                 solver=solver,
                 name=state.name,
-                known=list(SUPPORTED_LIMITS[solver]),
+                known=list(supported),
             )
     if len(set(states)) < len(states):
         raise ParameterError("duplicate limit; give each limit once")

@@ -15,21 +15,21 @@ from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import check_limit
+from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.studies.azimuths import STEP_DEG, sweep_azimuths
-from seisblock.studies.batch.models import SolverBody, batch_model
 from seisblock.studies.batch.run import NO_PROCESSING, Bodies, named_bodies
 from seisblock.studies.batch.task import RejectedBody, build_solver_bodies
 from seisblock.studies.batch.worst_azimuth import check_all_azimuths
+from seisblock.studies.capabilities import capabilities, fragility_solvers
 from seisblock.studies.fragility.damage_states import LimitState, describe_limit, limit_states
 from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Exceedances, FitOptions, estimate_curves
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
 from seisblock.studies.fragility.levels import DEFAULT_STEPS, check_levels, find_levels
 from seisblock.studies.fragility.results import FragilityStudy
-from seisblock.studies.fragility.runners import RUNNERS, SOLVERS_WITH_VERSIONS, Draws, version_draws
+from seisblock.studies.fragility.runners import Draws, version_draws
 from seisblock.studies.fragility.suite import Suite, make_suite, read_suite
 from seisblock.studies.fragility.warnings import fragility_warnings, stopped_run_notes, version_range_notes
 from seisblock.studies.intervals import CONFIDENCE
@@ -73,8 +73,11 @@ class StudyPlan:
         versions, solver_body = 1 if draws is None else len(draws), self.bodies[body]
         result = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
         gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
+        end_states = capabilities(self.solver).end_states
+        assert end_states is not None
         for shaking in self.suite.directions(motion, solver_body.body):
-            ends = RUNNERS[self.solver](replace(solver_body, body=block_for_motion(solver_body.body, shaking)), shaking, factors, draws)
+            aligned_body = replace(solver_body, body=block_for_motion(solver_body.body, shaking))
+            ends = end_states(aligned_body, shaking, factors, draws)
             exceeded = np.stack([limit.exceeded(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
             if ends.gave_up is not None:
                 stopped_mask = ends.gave_up.reshape(factors.size, versions)
@@ -163,8 +166,10 @@ def run_fragility(
     >>> [(curve.body, curve.limit, curve.motions) for curve in study.curves]
     [('shelf', 'overturn', 3)]
     """
-    if solver not in RUNNERS:
-        raise ParameterError("unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=list(RUNNERS))
+    if solver not in fragility_solvers():
+        raise ParameterError(
+            "unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=fragility_solvers()
+        )
     if method not in METHODS:
         raise ParameterError("unknown method {name!r}; available: {known}", name=str(method)[:100], known=list(METHODS))
     if method == CLOUD and levels is not None:
@@ -174,9 +179,9 @@ def run_fragility(
     checks.integer("the number of bootstrap samples", bootstrap, minimum=2)
     checks.integer("the number of samples of the body", perturb, minimum=0)
     check_limit(N_("bootstrap samples"), bootstrap, "SEISBLOCK_RUNS")
-    if perturb and solver not in SOLVERS_WITH_VERSIONS:
+    if perturb and not capabilities(solver).samples_in_rows:
         raise ParameterError("`perturb` has no effect with {solver}; leave `perturb` out", solver=solver)
-    states = limit_states(limits, solver)
+    states = limit_states(limits, solver, capabilities(solver).limits)
     requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
     measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))
     if not measures:
@@ -187,8 +192,9 @@ def run_fragility(
     loaded_records, exclusion_notes = read_suite(records)
     suite = make_suite(loaded_records, names, preparation)
     intensities = [suite.intensities(measure) for measure in measures]
-    gravity = float(options.get("gravity", STANDARD_GRAVITY))
-    values = [[item * m.share(body.body, gravity) for item, m in zip(intensities, measures, strict=True)] for body in solver_bodies]
+    values = [
+        [item * m.share(body.body, body.options.gravity) for item, m in zip(intensities, measures, strict=True)] for body in solver_bodies
+    ]
     study = StudyPlan(solver, solver_bodies, states, suite, values, version_draws(perturb, checks.seed(seed)))
     fit_options = FitOptions(method, measures, confidence, bootstrap, seed)
     grids = _grids(study, fit_options, levels, steps)
@@ -228,7 +234,7 @@ def prepare_bodies(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> t
     ParameterError
         If the solver does not take a body.
     """
-    model = batch_model(solver)
+    model = get_solver(solver)
     model.check_options(options)
     result: list[SolverBody] = []
     for body in build_solver_bodies(model, named_bodies(bodies, model), options):

@@ -11,19 +11,20 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core.errors import ParameterError, SolverError
+from seisblock.core.registry import Solver, SolverBody
 from seisblock.core.typing import BoolArray, FloatArray
 from seisblock.dynamics import integrate_many
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import rigid_body
 from seisblock.models.respond.solve import respond_params
 from seisblock.models.rock.params import RockBatchParams, RockParams, rock_params
 from seisblock.models.slide.final_slip import slip_at_rest
 from seisblock.models.slide.model import SLIDE, STICK, UNDEFINED, parameters
+from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import motion_gains, raise_lift_off
-from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
 from seisblock.records._validation import vertical_gain
-from seisblock.studies.batch.models import SolverBody
 from seisblock.studies.fragility.damage_states import EndStates
 from seisblock.studies.parallel import map_batches, map_threads
 from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params
@@ -46,14 +47,14 @@ BATCH_SIZE = 64
 """Sliding runs per thread and batch."""
 
 
-def _rock(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+def rock_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
     """Return the end states of a rocking block."""
     options = solver_body.options
     bodies: RockBatchParams | list[RockParams]
     if draws is None:
-        bodies = [rock_params(solver_body.body, motion, **options)]
+        bodies = [rock_params(solver_body.body, motion, options)]
     else:
-        params = perturbed_rock_params(solver_body.body, motion, SPREAD, draws, **options)
+        params = perturbed_rock_params(solver_body.body, motion, SPREAD, draws, options)
         rows = np.tile(np.arange(len(draws)), factors.size)
         bodies = params[rows]
     unit = np.array(bodies.gains() if isinstance(bodies, RockBatchParams) else bodies[0].gains())
@@ -62,34 +63,32 @@ def _rock(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: D
     return EndStates(overturned=verdicts.overturned, tilt_ratio=verdicts.max_rotation_ratio, gave_up=verdicts.gave_up)
 
 
-def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+def respond_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
     """Return the end states of a free-standing body; an overturned one has an infinite displacement."""
-    options = dict(solver_body.options)
-    unit = np.array([1.0, 0.0, vertical_gain(motion, options.pop("vertical", None))])
-    settle = options.pop("settle_s", 60.0)
+    options: RespondOptions = solver_body.options
+    unit = np.array([1.0, 0.0, vertical_gain(motion, options.vertical)])
     alphas: float | FloatArray = min(rigid_body(solver_body.body).slendernesses)
     if draws is None:
-        settings: Any = [respond_params(solver_body.body, **options)] * factors.size
+        settings: Any = [respond_params(solver_body.body, options)] * factors.size
     else:
         if not isinstance(solver_body.body, Block):
             raise ParameterError("{name}: `perturb` requires a block; leave `perturb` out", name=solver_body.name)
         run_draws = np.tile(draws, (factors.size, 1))
-        settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, **options)
+        settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, options)
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
-    results = respond_many(settings, motion, gains=gains, settle_s=settle)
+    results = respond_many(settings, motion, gains=gains, settle_s=options.settle_s)
     # beyond every slip limit
     slip = np.where(results.overturned, np.inf, np.abs(results.final_displacement_m))
     return EndStates(results.overturned, results.max_rotation_rad / alphas, slip, results.gave_up)
 
 
-def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
+def slide_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
     """Return the end states of a sliding object: maximum slip, including that after the motion, on ground at rest."""
     base = solver_body.body if isinstance(solver_body.body, SlidingBase) else SlidingBase(solver_body.body)
-    options: Mapping[str, Any] = solver_body.options
-    gravity = options.get("gravity", 9.80665)
-    unit = np.array(motion_gains(motion, options.get("vertical", False), gravity))
-    p = parameters(base, gravity)
+    options: SlideOptions = solver_body.options
+    unit = np.array(motion_gains(motion, options.vertical))
+    p = parameters(base, options.gravity)
 
     def solve_batch(part: slice) -> tuple[FloatArray, BoolArray]:
         """Return the maximum slips of some runs, and the failed ones."""
@@ -107,28 +106,23 @@ def _slide(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: 
     return EndStates(slip_m=np.concatenate(slips), gave_up=np.concatenate(failed))
 
 
-def _stack(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws) -> EndStates:
-    """Return the end states of a pile: fall of any stone, and the largest residual displacement of a stone."""
+def single_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws: Draws, *, solver: Solver) -> EndStates:
+    """Return the end states of a solver that solves run by run: overturning, and the largest displacement of its outcome."""
 
     def run_one(factor: float) -> tuple[bool, float]:
         """Return the end state of one run; NaN slip if stopped."""
         scaled_motion = Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s, motion.record)
         try:
-            outcome = solve_stack(solver_body.body, scaled_motion, **solver_body.options).outcome
+            outcome = solver.solve(solver_body.body, scaled_motion, **solver_body.options.keywords()).outcome
         except SolverError:
             return False, math.nan
-        return outcome.overturned_any, math.inf if outcome.overturned_any else max(outcome.residual_slip_m.values())
+        overturned = bool(getattr(outcome, solver.overturned)) if solver.overturned else False
+        slip = getattr(outcome, solver.residual) if solver.residual else 0.0
+        return overturned, math.inf if overturned else max(map(abs, slip.values())) if isinstance(slip, Mapping) else abs(slip)
 
     ends = list(map_threads(run_one, factors.tolist()))
     slips = np.array([slip for _, slip in ends])
     return EndStates(overturned=np.array([fell for fell, _ in ends]), slip_m=slips, gave_up=np.isnan(slips))
-
-
-RUNNERS: dict[str, Runner] = {"respond": _respond, "rock": _rock, "slide": _slide, "stack": _stack}
-"""By the names of the solvers."""
-
-SOLVERS_WITH_VERSIONS = ("respond", "rock")
-"""Solvers with Monte Carlo samples of the body."""
 
 
 def version_draws(runs: int, seed: int) -> Draws:

@@ -8,8 +8,8 @@ import numpy as np
 
 from seisblock.bodies.body_name import body_name
 from seisblock.core.i18n import Message, join_list, lazy_gettext
+from seisblock.core.registry import SolverBody
 from seisblock.core.typing import FloatArray
-from seisblock.studies.batch.models import SolverBody
 from seisblock.studies.fragility.damage_states import describe_limit
 from seisblock.studies.fragility.estimate import CLOUD, IDA, Exceedances, FitOptions
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -11,21 +10,21 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.factory import block_for_motion
+from seisblock.bodies.pile.pile import Pile
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.core.registry import Solver, SolverBody, get_solver, solver_names
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.models.jump.chain import OVERTURNED_LANDED, OVERTURNED_ROCKING
 from seisblock.records import Component, Record, motion_of
-from seisblock.records._validation import Gain
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.process import component_at_azimuth
 from seisblock.references import COMMAND_PAPERS, papers
 from seisblock.studies.azimuths import STEP_DEG
-from seisblock.studies.batch.models import BatchModel, SolverBody, batch_model
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
-from seisblock.studies.batch.worst_azimuth import DIRECTIONAL_SOLVERS
+from seisblock.studies.capabilities import capabilities
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.respond.azimuths import left_out_directions, respond_directions
 from seisblock.studies.respond.probability import MOVED_M, respond_probability
@@ -103,11 +102,8 @@ class StationBody:
     ----------
     body : Block, ScannedBody, SlidingBase, TwoLayerBlock or SpringBlock
         Of the kind that the solver takes.
-    options : mapping
-        Of the solver: of ``respond`` its ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``,
-        ``settle_s``.
-    vertical : bool, float or None, 1
-        Whether the vertical motion acts; None: default of the solver.
+    options : SolverOptions
+        Of the solver.
     runs, seed : int
         Number of samples of the probability (``respond``, ``rock``), 0 for none, and their seed.
     step_deg : float
@@ -124,15 +120,15 @@ class StationBody:
 
     Examples
     --------
+    >>> from seisblock.models.slide.options import SlideOptions
     >>> from seisblock.readers import read
-    >>> effect = StationBody(0.1, {}, solver="slide", label="vase").evaluate(read("hanmer_springs_2016"))
+    >>> effect = StationBody(0.1, SlideOptions(), solver="slide", label="vase").evaluate(read("hanmer_springs_2016"))
     >>> effect.happened, effect.overturned, round(1000 * effect.max_slip_m)
     (True, None, 55)
     """
 
     body: Any
-    options: Mapping[str, Any]
-    vertical: Gain | None = None
+    options: Any
     runs: int = 0
     seed: int = 0
     step_deg: float = STEP_DEG
@@ -140,11 +136,11 @@ class StationBody:
     label: str = ""
 
     def __post_init__(self) -> None:
-        if self.solver not in DISPLACEMENT_COLUMNS:
+        if self.solver not in station_solvers():
             raise ParameterError(
-                "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
+                "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=station_solvers()
             )
-        if self.runs and batch_model(self.solver).chance is None:
+        if self.runs and capabilities(self.solver).probability is None:
             raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=self.solver)
 
     @property
@@ -160,7 +156,7 @@ class StationBody:
     @property
     def is_directional(self) -> bool:
         """True if the solver covers all azimuths."""
-        return self.solver in DIRECTIONAL_SOLVERS
+        return capabilities(self.solver).worst_azimuth is not None
 
     def check_options(self) -> None:
         """Raise for invalid solver options, tested once on a motion of 4 zero samples.
@@ -178,9 +174,8 @@ class StationBody:
         """Return the response to a record in the worst direction."""
         if self.solver == "respond":
             return self._respond_result(record)
-        options = {**self.options, **({} if self.vertical is None else {"vertical": self.vertical})}
         components = (ALL_AZIMUTHS,) if self.is_directional else ()
-        plan = Plan(self.solver, (SolverBody(self.name, self.body, options),), components, runs=self.runs, seed=self.seed)
+        plan = Plan(self.solver, (SolverBody(self.name, self.body, self.options),), components, runs=self.runs, seed=self.seed)
         rows = component_rows(record, plan)
         results = [_result_from_row(row, plan.model, record) for row in rows if not row.get(REASON)]
         if not results:
@@ -189,15 +184,13 @@ class StationBody:
 
     def _respond_result(self, record: Record) -> StationResult:
         """Return the full response in the worst direction, with the probability there."""
-        results = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
+        results = respond_directions(self.body, record, self.options, step_deg=self.step_deg)
         worst, share, remarks = results[0], None, left_out_directions(results)
         if self.runs:
             motion = motion_of(record, f"{worst.azimuth_deg:g}")
             block = block_for_motion(self.body, motion)
             assert isinstance(block, Block)
-            chance = respond_probability(
-                block, motion, vertical=self.vertical, runs=self.runs, seed=self.seed, moved_m=MOVED_M, **self.options
-            )
+            chance = respond_probability(block, motion, self.options, runs=self.runs, seed=self.seed, moved_m=MOVED_M)
             share, warning = chance.overturned, left_out_versions(chance.no_answer, chance.runs)
             remarks += [] if warning is None else [warning]
         return StationResult(
@@ -210,18 +203,13 @@ class StationBody:
         )
 
 
-DISPLACEMENT_COLUMNS: Mapping[str, str | None] = {
-    "respond": "max_displacement_m",
-    "rock": None,
-    "slide": "max_slip_m",
-    "jump": "total_displacement_m",
-    "uplift": "max_uplift_m",
-}
-"""Solvers available for stations, and their displacement or rise column."""
+def station_solvers() -> list[str]:
+    """Return the names of the solvers available for stations: all but those of a pile."""
+    return [name for name in solver_names() if Pile not in get_solver(name).bodies]
 
 
-def _result_from_row(row: Row, model: BatchModel, record: Record) -> StationResult:
-    name, column = str(row["component"]), DISPLACEMENT_COLUMNS[model.name]
+def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
+    name, column = str(row["component"]), model.displacement
     distance = None if column is None or row[column] is None else abs(row[column])
     azimuths = {component.code: component.azimuth_deg for component in record.components}
     overturned = row.get("overturned")

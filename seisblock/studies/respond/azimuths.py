@@ -13,9 +13,9 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core.i18n import lazy_gettext
 from seisblock.models.respond.batch import RespondBatchResult, respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Record
-from seisblock.records._validation import Gain
 from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 
 
@@ -60,7 +60,7 @@ def left_out_directions(directions: Sequence[Any]) -> list[str]:
 
 
 def respond_directions(
-    block: Block | ScannedBody, record: Record, *, vertical: Gain | None = None, step_deg: float = STEP_DEG, **options: Any
+    block: Block | ScannedBody, record: Record, options: RespondOptions, *, step_deg: float = STEP_DEG
 ) -> list[RespondAzimuth]:
     """Return the response of a body in every direction of a record, the worst direction first.
 
@@ -73,13 +73,9 @@ def respond_directions(
     block : Block or ScannedBody
     record : Record
         With two horizontal components.
-    vertical : bool, float or None
-        True or a factor to apply the vertical motion; None: if the record has one.
+    options : RespondOptions
     step_deg : float
         Step between directions, degrees.
-    options
-        ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``gravity``, ``tenon`` as in
-        :func:`~seisblock.models.respond.solve.solve_respond`, and ``settle_s``.
 
     Raises
     ------
@@ -90,14 +86,13 @@ def respond_directions(
     --------
     >>> from seisblock.bodies.factory import load_block
     >>> from seisblock.readers import read
-    >>> worst = respond_directions(load_block("gravestone"), read("synthetic_jma.csv"), mu=0.5, step_deg=45.0)[0]
+    >>> worst = respond_directions(load_block("gravestone"), read("synthetic_jma.csv"), RespondOptions(mu=0.5), step_deg=45.0)[0]
     >>> worst.azimuth_deg
     135.0
     """
-    settle_s = options.pop("settle_s", 60.0)
-    azimuth_sweep = make_azimuth_sweep(block, record, step_deg=step_deg, vertical=vertical)
-    settings = [respond_params(oriented_block, **options) for oriented_block in azimuth_sweep.blocks]
-    result = respond_many(settings, azimuth_sweep.motion, gains=azimuth_sweep.gains, settle_s=settle_s)
+    azimuth_sweep = make_azimuth_sweep(block, record, step_deg=step_deg, vertical=options.vertical)
+    settings = [respond_params(oriented_block, options) for oriented_block in azimuth_sweep.blocks]
+    result = respond_many(settings, azimuth_sweep.motion, gains=azimuth_sweep.gains, settle_s=options.settle_s)
     if result.gave_up.all():
         result.require_complete()
     start_s = azimuth_sweep.motion.start_s

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from seisblock.bodies.block import Block
 from seisblock.core.results import Response
 from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.models.respond.params import rigid_body
 from seisblock.models.respond.solve import solve_respond
@@ -74,10 +75,12 @@ def best_estimate(
     runs : int
         Samples for the probability; 0 for none.
     """
-    friction = {"mu": no_slip_friction(block) if mu is None else mu, "mu_kinetic": None if mu is None else mu_kinetic}
-    vertical_option = None if vertical else False
-    response = solve_respond(block, motion, vertical=vertical_option, gravity=gravity, **friction)  # type: ignore[arg-type]
-    probability = None
-    if runs:
-        probability = respond_probability(block, motion, vertical=vertical_option, gravity=gravity, runs=runs, **friction)  # type: ignore[arg-type]
+    options = RespondOptions(
+        mu=no_slip_friction(block) if mu is None else mu,
+        mu_kinetic=None if mu is None else mu_kinetic,
+        vertical=None if vertical else False,
+        gravity=gravity,
+    )
+    response = solve_respond(block, motion, **options.keywords())
+    probability = respond_probability(block, motion, options, runs=runs) if runs else None
     return BestEstimate(response, probability, mu is not None)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -20,8 +19,9 @@ from seisblock.core.errors import SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, Progress
+from seisblock.models.stack.options import EDGES, StackOptions
 from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
-from seisblock.models.stack.solve import EDGE_POINTS, solve_stack
+from seisblock.models.stack.solve import solve_stack
 from seisblock.records._validation import validate_inputs
 from seisblock.records.motion import Motion
 from seisblock.studies.intervals import clopper_pearson
@@ -136,7 +136,7 @@ def stack_probability(
     seed: int = 0,
     progress: Progress | None = None,
     workers: int | None = None,
-    **options: Any,
+    options: StackOptions = StackOptions(),
 ) -> PileProbability:
     """Return the overturning probability of a pile and of each of its stones, from samples of the pile and its shaking.
 
@@ -155,8 +155,7 @@ def stack_probability(
         Called with the number of finished runs and the total.
     workers : int
         Threads; default: the number of cores.
-    options
-        Other options of :func:`~seisblock.models.stack.solve.solve_stack`.
+    options : StackOptions
 
     Raises
     ------
@@ -178,16 +177,17 @@ def stack_probability(
     checks.integer("the number of runs", runs, minimum=1)
     check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
     checks.positive("the residual displacement that counts as moved", moved_m, "m")
-    if (mu_kinetic := options.pop("mu_kinetic", None)) is not None:
-        body = body.with_kinetic_friction(mu_kinetic)
+    if options.mu_kinetic is not None:
+        body = body.with_kinetic_friction(options.mu_kinetic)
+        options = replace(options, mu_kinetic=None)
     # wear that would tip a stone at rest is excluded before the draws, so that every sample starts from rest
-    versions = replace(versions, inset=widest_wear(body, versions.inset) if options.get("points", EDGE_POINTS) == EDGE_POINTS else 0.0)
+    versions = replace(versions, inset=widest_wear(body, versions.inset) if options.points == EDGES else 0.0)
     # all draws before the runs: the samples do not depend on the number of threads
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
     def work(draw: FloatArray) -> StackOutcome | SolverError:
         try:
-            return solve_stack(perturb_pile(body, versions, draw), perturb_motion(motion, versions, draw), **options).outcome
+            return solve_stack(perturb_pile(body, versions, draw), perturb_motion(motion, versions, draw), **options.keywords()).outcome
         except SolverError as error:
             return error
 

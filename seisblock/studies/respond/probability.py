@@ -21,8 +21,8 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, Progress
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.respond.batch import RespondBatchResult, no_answer, respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import RespondBatchParams
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
@@ -121,15 +121,8 @@ class Probability:
 def respond_probability(
     block: Block,
     motion: Motion,
+    options: RespondOptions,
     *,
-    mu: float,
-    mu_kinetic: float | None = None,
-    restitution: float = 0.0,
-    rocking_restitution: float | None = None,
-    vertical: Gain | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    settle_s: float = 60.0,
-    tenon: float = 0.0,
     runs: int = RUNS,
     moved_m: float = MOVED_M,
     versions: ParameterVariation = ParameterVariation(),
@@ -140,7 +133,7 @@ def respond_probability(
 
     Parameters
     ----------
-    block, motion, mu, mu_kinetic, restitution, rocking_restitution, vertical, gravity, settle_s, tenon
+    block, motion, options
         As in :func:`~seisblock.models.respond.solve.solve_respond`; the median of the samples.
     runs : int
         Number of samples, at least 1.
@@ -163,7 +156,7 @@ def respond_probability(
     --------
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
-    >>> respond_probability(Block(0.24, 0.8), pulse, mu=0.5, runs=20).overturned
+    >>> respond_probability(Block(0.24, 0.8), pulse, RespondOptions(mu=0.5), runs=20).overturned
     1.0
     """
     validate_inputs(block, Block, motion)
@@ -172,35 +165,16 @@ def respond_probability(
     check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
         raise ParameterError("the residual displacement that counts as moved must be positive, found {found} m", found=moved_m)
-    # validates the nominal values: perturbed ones are clipped into their ranges
-    respond_params(
-        block,
-        mu=mu,
-        mu_kinetic=mu_kinetic,
-        restitution=restitution,
-        rocking_restitution=rocking_restitution,
-        gravity=gravity,
-        tenon=tenon,
-    )
+    respond_params(block, options)  # validates the nominal values: perturbed ones are clipped into their ranges
     rng = np.random.default_rng(checks.seed(seed))
     # WIDTH is drawn last, so that the other columns keep their values for a seed
     draws = np.column_stack([rng.uniform(-1.0, 1.0, (runs, 6)), rng.uniform(-1.0, 1.0, runs)])
-    settings = perturbed_respond_params(
-        block,
-        versions,
-        draws,
-        mu=mu,
-        mu_kinetic=mu_kinetic,
-        restitution=restitution,
-        rocking_restitution=rocking_restitution,
-        gravity=gravity,
-        tenon=tenon,
-    )
-    gains = _gains(motion, versions, draws, vertical)
+    settings = perturbed_respond_params(block, versions, draws, options)
+    gains = _gains(motion, versions, draws, options.vertical)
     parts: list[RespondBatchResult] = []
     for first in range(0, runs, CHUNK_SIZE):
         part = slice(first, first + CHUNK_SIZE)
-        parts.append(respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s))
+        parts.append(respond_many(settings[part], motion, gains=gains[part], settle_s=options.settle_s))
         if progress is not None:
             progress(min(first + CHUNK_SIZE, runs), runs)
     # stopped samples leave the statistics: their outcome is unknown, not stable
@@ -226,27 +200,17 @@ def respond_probability(
     )
 
 
-def perturbed_respond_params(
-    block: Block,
-    versions: ParameterVariation,
-    draws: FloatArray,
-    *,
-    mu: float,
-    mu_kinetic: float | None = None,
-    restitution: float = 0.0,
-    rocking_restitution: float | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    tenon: float = 0.0,
-) -> RespondBatchParams:
+def perturbed_respond_params(block: Block, versions: ParameterVariation, draws: FloatArray, options: RespondOptions) -> RespondBatchParams:
     """Return the samples of a body and its contact, from draws of each parameter within its half width.
 
     Parameters
     ----------
-    block, versions, mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon
+    block, versions, options
         As in :func:`respond_probability`.
     draws : (m, 7) array
         In [-1, 1].
     """
+    mu, restitution, rocking_restitution = options.mu, options.restitution, options.rocking_restitution
     # one factor on both coefficients keeps kinetic below static friction
     friction_factor = 1.0 + versions.mu * draws[:, MU]
     # unmeasured friction: the prior of the kind, its median at the nominal value, replaces the relative width
@@ -267,12 +231,12 @@ def perturbed_respond_params(
             worn=draws[:, INSET],
         ),
         mu * friction_factor,
-        (mu if mu_kinetic is None else mu_kinetic) * friction_factor,
+        (mu if options.mu_kinetic is None else options.mu_kinetic) * friction_factor,
         np.clip(bounce, 0.0, max(restitution, MAX_RESTITUTION)),
         loss_factor,
         rocking_restitution is not None,
-        gravity,
-        tenon,
+        options.gravity,
+        options.tenon,
     )
 
 

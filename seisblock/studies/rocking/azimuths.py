@@ -6,7 +6,6 @@ NS and EW are the axes of the sensor, not of the body: an object of unknown orie
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Unpack
 
 import numpy as np
 
@@ -14,7 +13,8 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core.typing import Progress
-from seisblock.models.rock.params import RockOptions, rock_batch_params
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.params import rock_batch_params
 from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Record, motion_of
 from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
@@ -57,7 +57,7 @@ def rock_directions(
     *,
     step_deg: float = STEP_DEG,
     progress: Progress | None = None,
-    **options: Unpack[RockOptions],
+    options: RockOptions = RockOptions(),
 ) -> list[RockAzimuth]:
     """Return the rocking of a block, or of a scan, in every direction of a record, the worst direction first.
 
@@ -73,8 +73,7 @@ def rock_directions(
         Step between directions, degrees.
     progress : callable
         Called with the number of finished runs and the total.
-    options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    options : RockOptions
 
     Examples
     --------
@@ -83,14 +82,14 @@ def rock_directions(
     >>> worst.azimuth_deg, worst.overturned
     (90.0, True)
     """
-    azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.get("vertical", False))
-    params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, **options)
+    azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.vertical)
+    params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, options)
     verdicts = parallel_verdicts(params, azimuth_sweep.motion, azimuth_sweep.gains, progress=progress)
     directions = []
     for row, (azimuth, block) in enumerate(zip(azimuth_sweep.azimuths.tolist(), azimuth_sweep.blocks, strict=True)):
         fallen, time = bool(verdicts.overturned[row]), float(verdicts.overturning_time_s[row])
         if fallen and np.isnan(time):  # falls after the record: energy decides, and a single run gives the time
-            fall_time = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options).outcome.overturning_time_s
+            fall_time = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options.keywords()).outcome.overturning_time_s
         else:
             fall_time = azimuth_sweep.motion.start_s + time if fallen else None
         gave_up = bool(verdicts.gave_up[row])

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Unpack
 
 import numpy as np
 
@@ -20,8 +19,9 @@ from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import check_limit
 from seisblock.core.results import Response
 from seisblock.core.typing import BoolArray, FloatArray, Progress
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
-from seisblock.models.rock.params import RockOptions, RockParams, rock_params
+from seisblock.models.rock.params import RockParams, rock_params
 from seisblock.records import Motion
 from seisblock.studies.rocking.verdicts import overturns_at
 
@@ -88,7 +88,7 @@ def find_margin(
     limit: float = MAX_FACTOR,
     step: float = STEP,
     progress: Progress | None = None,
-    **options: Unpack[RockOptions],
+    options: RockOptions = RockOptions(),
 ) -> Margin:
     """Return the factors up to a limit at which the verdict on a rocking block changes.
 
@@ -99,8 +99,7 @@ def find_margin(
         Largest factor and step of the scan; the factors of :func:`nearest_flip` are added. Changes are bisected to 1e-6.
     progress : callable
         Called with the number of finished runs and the total.
-    options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    options : RockOptions
 
     Raises
     ------
@@ -116,7 +115,7 @@ def find_margin(
     """
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan requires 0 < `step` <= `limit`, found step {step} and limit {limit}", step=step, limit=limit)
-    params = rock_params(block, motion, **options)
+    params = rock_params(block, motion, options)
     check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
     regular_factors = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     # a finer grid around 1, so that a verdict sensitive to 2 % of the amplitude is not missed
@@ -150,8 +149,7 @@ def _bisect_flips(block: RockParams, motion: Motion, factors: FloatArray, verdic
 
 def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
     """Return a response with a warning if a change of the record by less than 2 % changes its verdict."""
-    options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
-    factor = nearest_flip(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
+    factor = nearest_flip(response.body, response.motion, options=response.options)
     warnings = response.warnings
     if factor is not None:
         text = "{name}: verdict sensitive to the amplitude: changes within 2 % of the record, at {factor:.3f} times its amplitude"
@@ -161,14 +159,14 @@ def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
 
 
 def has_nearby_flip(
-    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
+    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, options: RockOptions = RockOptions()
 ) -> bool:
     """Return True if a factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
-    return nearest_flip(block, motion, share=share, steps=steps, **options) is not None
+    return nearest_flip(block, motion, share=share, steps=steps, options=options) is not None
 
 
 def nearest_flip(
-    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, **options: Unpack[RockOptions]
+    block: Block, motion: Motion, *, share: float = NEARBY_SHARE, steps: int = NEARBY_STEPS, options: RockOptions = RockOptions()
 ) -> float | None:
     """Return the factor nearest to 1, within `share` of it, with another verdict than factor 1.
 
@@ -179,8 +177,7 @@ def nearest_flip(
         Largest distance of the factors from 1.
     steps : int
         Number of factors; odd, so that 1 is among them.
-    options
-        As in :func:`find_margin`.
+    options : RockOptions
 
     Returns
     -------
@@ -195,7 +192,7 @@ def nearest_flip(
     (True, 1.011)
     """
     factors = _nearby_factors(share, steps)
-    verdicts = overturns_at(rock_params(block, motion, **options), motion, factors)
+    verdicts = overturns_at(rock_params(block, motion, options), motion, factors)
     flipped_factors = factors[verdicts != verdicts[steps // 2]]
     return round(float(flipped_factors[np.abs(flipped_factors - 1.0).argmin()]), 12) if flipped_factors.size else None
 

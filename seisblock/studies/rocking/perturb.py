@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Unpack
 
 import numpy as np
 
@@ -14,7 +13,8 @@ from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, Progress
-from seisblock.models.rock.params import RockBatchParams, RockOptions, rock_batch_params
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.params import RockBatchParams, rock_batch_params
 from seisblock.records import Motion
 from seisblock.records._validation import validate_inputs
 from seisblock.studies.intervals import wilson_interval
@@ -99,7 +99,7 @@ def perturb(
     spread: Spread = Spread(),
     seed: int = 0,
     progress: Progress | None = None,
-    **options: Unpack[RockOptions],
+    options: RockOptions = RockOptions(),
 ) -> Perturbation:
     """Return the overturning probability of a block under changes of size, slenderness, edge wear, restitution, amplitude and azimuth.
 
@@ -114,9 +114,7 @@ def perturb(
         The same seed gives the same samples.
     progress : callable
         Called with the number of finished runs and the total.
-    options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`; the restitution is
-        the central value, by default that of each sample's conservation of angular momentum, and never above 1.
+    options : RockOptions
 
     Raises
     ------
@@ -137,7 +135,7 @@ def perturb(
     validate_inputs(block, Block, motion)
     azimuth_width = spread.azimuth_deg if motion.transverse.any() else 0.0
     draws = draw_samples(runs, checks.seed(seed))
-    params = perturbed_rock_params(block, motion, spread, draws, **options)
+    params = perturbed_rock_params(block, motion, spread, draws, options)
     factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(azimuth_width * draws[:, AZIMUTH])
     # +x rotated clockwise, seen from above
     gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * params.vertical])
@@ -163,7 +161,7 @@ def draw_samples(runs: int, seed: int) -> FloatArray:
 
 
 def perturbed_rock_params(
-    block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]
+    block: Block, motion: Motion, spread: Spread, draws: FloatArray, options: RockOptions = RockOptions()
 ) -> RockBatchParams:
     """Return the parameters of the samples of a rocking block, from draws of each parameter within its spread.
 
@@ -177,6 +175,6 @@ def perturbed_rock_params(
     size, slenderness, bounce, _, _, wear, _ = draws.T
     larger = 1.0 + spread.size * size
     blocks = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
-    params = rock_batch_params(blocks, motion, **options)
+    params = rock_batch_params(blocks, motion, options)
     # a restitution above 1 would create energy
     return replace(params, restitutions=np.minimum(params.restitutions * (1.0 + spread.restitution * bounce[:, None]), 1.0))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Unpack
 
 import numpy as np
 
@@ -18,7 +17,8 @@ from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.models.rock.params import RockOptions, rock_batch_params
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.params import rock_batch_params
 from seisblock.records import Motion, Record
 from seisblock.studies.azimuths import make_azimuth_sweep
 from seisblock.studies.rocking.verdicts import parallel_verdicts
@@ -71,7 +71,7 @@ def rocking_spectrum(
     *,
     inset: EdgeWear = SHARP_EDGES,
     progress: Progress | None = None,
-    **options: Unpack[RockOptions],
+    options: RockOptions = RockOptions(),
 ) -> RockingSpectrum:
     """Return the rocking spectrum of a motion: peak tilt over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
 
@@ -86,8 +86,7 @@ def rocking_spectrum(
         Edge wear, per side; tilts are then relative to the alpha of the worn block.
     progress : callable
         Called with the number of finished runs and the total.
-    options
-        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.models.rock.solve.solve_rock`.
+    options : RockOptions
 
     Raises
     ------
@@ -102,7 +101,7 @@ def rocking_spectrum(
     [[5.24], [0.43]]
     """
     diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
-    params = rock_batch_params(blocks, motion, **options)
+    params = rock_batch_params(blocks, motion, options)
     verdicts = parallel_verdicts(params, motion, params.gains(), progress=progress)
     shape = diagonal.size, alpha.size
     p = np.sqrt(1.5 * params.gravity / diagonal)
@@ -117,7 +116,7 @@ def rocking_spectrum_all_azimuths(
     step_deg: float = STEP_DEG,
     inset: EdgeWear = SHARP_EDGES,
     progress: Progress | None = None,
-    **options: Unpack[RockOptions],
+    options: RockOptions = RockOptions(),
 ) -> RockingSpectrum:
     """Return the rocking spectrum of a record in the worst direction, and the share of directions in which each block overturns.
 
@@ -147,10 +146,10 @@ def rocking_spectrum_all_azimuths(
     ([[True], [True]], [[1.0], [0.83]])
     """
     diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
-    azimuth_sweep = make_azimuth_sweep(Block(1.0, 1.0), record, step_deg=step_deg, vertical=options.get("vertical", False))
+    azimuth_sweep = make_azimuth_sweep(Block(1.0, 1.0), record, step_deg=step_deg, vertical=options.vertical)
     count, directions = len(blocks), azimuth_sweep.azimuths.size
     check_limit(N_("cells"), count * directions, "SEISBLOCK_CELLS")
-    params = rock_batch_params(blocks, azimuth_sweep.motion, **options)
+    params = rock_batch_params(blocks, azimuth_sweep.motion, options)
     ratio, worst, falls = np.full(count, -1.0), np.zeros(count), np.zeros(count, dtype=np.int64)
     first = np.full(count, np.inf)
     for row, azimuth in enumerate(azimuth_sweep.azimuths.tolist()):

@@ -10,20 +10,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core import checks
 from seisblock.core.i18n import N_
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.dynamics import integrate_many
 from seisblock.models.jump.batch import jump_many
+from seisblock.models.jump.options import JumpOptions
 from seisblock.models.jump.solve import solve_jump
 from seisblock.models.slide.model import SLIDE, SLIP, STICK, UNDEFINED, parameters
+from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import raise_lift_off, solve_slide
 from seisblock.records import Motion
 from seisblock.records._validation import validate_inputs, validate_motion
@@ -199,46 +200,41 @@ def scale_motion(motion: Motion, factor: float) -> Motion:
     return Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s)
 
 
-def jump_displacement(
-    block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, first: bool = False, **options: Any
-) -> Callable[[float], float]:
+def jump_displacement(block: TwoLayerBlock, motion: Motion, options: JumpOptions, *, flight_only: bool = False) -> Callable[[float], float]:
     """Return the displacement of a two-layer block, m, against the factor on a motion ([Sugimoto2017]_ table 1).
+
+    The sum of all chains, or the first one with the option `first`; a chain in which the block overturns counts as none.
 
     Parameters
     ----------
-    block, motion, contact
+    block, motion, options
         As in :func:`seisblock.models.jump.solve.solve_jump`.
     flight_only : bool
         Count the jump alone, not the rocking-sliding after it.
-    first : bool
-        Count the first chain of the record only; default: the sum of all. A chain in which the block overturns counts as none.
-    options
-        ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity`` of ``solve_jump``.
 
     Examples
     --------
     >>> import numpy as np
     >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
     >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.linspace(0.0, np.pi, 101)), np.zeros(200)]), 0.01)
-    >>> displacement = jump_displacement(load_two_layer("chozusha"), pulse, contact=load_contact("chozusha"))
+    >>> displacement = jump_displacement(load_two_layer("chozusha"), pulse, JumpOptions(contact=load_contact("chozusha")))
     >>> displacement(0.1), displacement(1.0) > 0.01
     (0.0, True)
     """
     validate_inputs(block, TwoLayerBlock, motion)
-    checks.instance(contact, Contact)
 
     def single(factor: float, key: str = "total_displacement_m") -> float:
-        response = solve_jump(block, scale_motion(motion, factor), contact=contact, first=first, **options)
+        response = solve_jump(block, scale_motion(motion, factor), **options.keywords())
         return abs(sum((getattr(chain, key) or 0.0 for chain in response.outcome.chains), 0.0))
 
     if flight_only:
         return partial(single, key="jump_displacement_m")
-    if options.get("windows"):
+    if options.windows:
         return single
-    rows = {key: value for key, value in options.items() if key != "windows"}
+    rows = {key: value for key, value in options.keywords().items() if key not in ("windows", "contact")}
 
     def vectorized(factors: FloatArray) -> FloatArray:
-        result = jump_many([block], motion, contacts=[contact], factors=factors, first=first, **rows)
+        result = jump_many([block], motion, contacts=[options.contact], factors=factors, **rows)
         for factor in factors[result.jammed][:1]:
             single(factor)  # raises the error of the single run, with time and cause
         return np.abs(result.total_displacement_m)
@@ -246,17 +242,17 @@ def jump_displacement(
     return DisplacementFunction(vectorized)
 
 
-def slide_displacement(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
+def slide_displacement(
+    base: SlidingBase | float, motion: Motion, options: SlideOptions = SlideOptions(), *, largest: bool = False
+) -> Callable[[float], float]:
     """Return the displacement of an object on a level base, m, against the factor on a motion ([Fujino1978]_).
 
     Parameters
     ----------
-    base, motion
+    base, motion, options
         As in :func:`seisblock.models.slide.solve.solve_slide`.
     largest : bool
         True for the maximum slip, not the residual one.
-    options
-        ``vertical`` and ``gravity`` of ``solve_slide``.
 
     Raises
     ------
@@ -273,8 +269,8 @@ def slide_displacement(base: SlidingBase | float, motion: Motion, *, largest: bo
     >>> round(displacement(1.0), 2), displacement(0.1)
     (0.44, 0.0)
     """
-    start = solve_slide(base, motion, **options)  # validates base, motion and options
-    p, up = parameters(start.body, start.options["gravity_m_s2"]), start.options["vertical"]
+    start = solve_slide(base, motion, **options.keywords())  # validates base, motion and options
+    p, up = parameters(start.body, start.options.gravity), start.options.vertical
 
     def vectorized(factors: FloatArray) -> FloatArray:
         rows = np.tile(np.asarray(p, dtype=np.float64), (factors.size, 1))

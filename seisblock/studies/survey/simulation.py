@@ -18,6 +18,7 @@ from seisblock.bodies.edge_wear import DEFAULT_WEAR, EdgeWear
 from seisblock.core import checks
 from seisblock.core.typing import BoolArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.records import Motion
 from seisblock.studies.rocking.verdicts import parallel_verdicts
@@ -106,7 +107,7 @@ def simulated_overturns(
     # equal stones share one run
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     ratio, b = sizes.T
-    stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, gravity=gravity)
+    stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, options=RockOptions(gravity=gravity))
     return parallel_verdicts(stones, motion, stones.gains(scale)).overturned[index.ravel()]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import respond_params
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.run import run
 from seisblock.records import Motion
 
@@ -50,7 +51,7 @@ def sequence(outcome):
 
 def followed(block, motion, *, initial=None, settle_s=60.0, **options):
     """Return the setting and the run behind a response."""
-    setting = respond_params(block, **options)
+    setting = respond_params(block, RespondOptions(**options))
     return setting, run(setting, motion, (1.0, 0.0, 1.0), initial, settle_s)
 
 

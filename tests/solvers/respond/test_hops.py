@@ -11,6 +11,7 @@ from seisblock.core.results import Status
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import constants, solve_respond
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 from seisblock.report.text.respond import verdict
@@ -82,7 +83,7 @@ def test_hops_without_end_are_given_up():
 
 def test_runs_that_were_given_up_are_no_answers():
     """Among many, a run that was given up is none that stands: a study asks for answers alone."""
-    settings = [respond_params(SLENDER, **NEARLY_LOSSLESS), respond_params(SLENDER, mu=0.5)]
+    settings = [respond_params(SLENDER, RespondOptions(**NEARLY_LOSSLESS)), respond_params(SLENDER, options=RespondOptions(mu=0.5))]
     fates = respond_many(settings, still(1.0), initial=leaning(SLENDER, 1e-8), settle_s=10.0)
     assert fates.gave_up.tolist() == [True, False]
     with pytest.raises(SolverError, match=r"1 of 2 runs have no result: .* smaller restitution"):
@@ -97,7 +98,7 @@ def test_strong_shaking_brings_an_object_to_rest_many_times():
     assert outcome.impacts > 200_000
     assert outcome.settled
     assert outcome.end_s >= 30.0
-    fates = respond_many([respond_params(Block(0.5, 1.0), mu=0.8, restitution=0.7)], motion).require_complete()
+    fates = respond_many([respond_params(Block(0.5, 1.0), options=RespondOptions(mu=0.8, restitution=0.7))], motion).require_complete()
     assert (fates.impacts[0], fates.end_s[0]) == (outcome.impacts, outcome.end_s)
 
 

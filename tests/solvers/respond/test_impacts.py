@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import respond_params, solve_respond
 from seisblock.models.respond.impact_laws import CLOSED_BOTH, CLOSED_LEFT, CLOSED_NONE, CLOSED_RIGHT, both_corners_impact, routh
+from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from tests.solvers.respond.cases import SLENDER, SQUAT, leaning, sequence, still
 
@@ -127,7 +128,7 @@ def test_both_corners_never_gain_energy_nor_sink(omega, rise, speed, width, heig
     right, left = block.arms
     if rise - right * omega > 0.0 and rise + left * omega > 0.0:
         return
-    p = respond_params(block, mu=mu).parameters(0.01)
+    p = respond_params(block, options=RespondOptions(mu=mu)).parameters(0.01)
     stays, turned, slip, loss = both_corners_impact(omega, rise, speed, p, False)
     assert loss >= -1e-12
     speed_after = slip + block.centre * turned
@@ -185,7 +186,7 @@ def test_a_ratio_of_zero_that_leaves_a_slip_dies_away(width, height, mu, restitu
 def test_painleves_limit_of_a_rectangle():
     """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3, whatever the slenderness; it is said above it and not below."""
     for block in (SLENDER, Block(1.0, 0.4)):
-        assert respond_params(block, mu=0.5).rigid_body.friction_limit == pytest.approx(4.0 / 3.0, rel=1e-14)
+        assert respond_params(block, options=RespondOptions(mu=0.5)).rigid_body.friction_limit == pytest.approx(4.0 / 3.0, rel=1e-14)
         assert any("Painleve" in text for text in solve_respond(block, still(0.1), mu=1.4).warnings)
         assert not solve_respond(block, still(0.1), mu=1.3).warnings
 

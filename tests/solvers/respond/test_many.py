@@ -8,6 +8,7 @@ from seisblock.bodies.block_array import to_block_array
 from seisblock.core.errors import ParameterError
 from seisblock.models.respond import respond_many, respond_params, solve_respond
 from seisblock.models.respond.constants import NEAR_JAM
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.params import RespondBatchParams
 from seisblock.records import Motion
 from tests.solvers.respond.cases import shaking
@@ -26,7 +27,7 @@ def versions(n=40):
 def test_rows_are_single_runs():
     """Verdict, displacements, leans, paths, impacts and times are equal to the last bit."""
     rows = versions()
-    many = respond_many([respond_params(block, **options) for block, options in rows], MOTION)
+    many = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], MOTION)
     assert 0 < many.overturned.sum() < len(rows)
     for row, (block, options) in enumerate(rows):
         response = solve_respond(block, MOTION, sensitivity=False, **options)
@@ -48,7 +49,7 @@ def test_rows_at_the_extremes_are_single_runs(up):
     motion = Motion(whole.acceleration[:, : whole.samples // 2], whole.dt)
     blocks = (Block(0.002, 1.0), Block(0.35, 0.9), Block(3.0, 0.5))
     rows = [(block, {"mu": mu, "restitution": e}) for block in blocks for mu in (0.01, 0.7, 100.0) for e in (0.0, 0.95)]
-    many = respond_many([respond_params(block, **options) for block, options in rows], motion, gains=(1.0, 0.0, 1.0))
+    many = respond_many([respond_params(block, RespondOptions(**options)) for block, options in rows], motion, gains=(1.0, 0.0, 1.0))
     assert 0 < many.overturned.sum() < len(rows)
     for row, (block, options) in enumerate(rows):
         one = solve_respond(block, motion, sensitivity=False, vertical=True, **options).outcome
@@ -66,7 +67,10 @@ def test_settings_of_arrays_are_the_settings_one_by_one(initial):
     kinetic[::3] = mu[::3]
     some = RespondBatchParams(to_block_array(blocks), mu, kinetic, e, np.ones(n), False, 9.81, 0.01)
     numbers = zip(blocks, mu.tolist(), kinetic.tolist(), e.tolist(), strict=True)
-    each = [respond_params(block, mu=m, mu_kinetic=k, restitution=r, gravity=9.81, tenon=0.01) for block, m, k, r in numbers]
+    each = [
+        respond_params(block, options=RespondOptions(mu=m, mu_kinetic=k, restitution=r, gravity=9.81, tenon=0.01))
+        for block, m, k, r in numbers
+    ]
     for still in (False, True):
         table = some.parameters(0.01, ground_at_rest=still)
         np.testing.assert_array_equal(table, [setting.parameters(0.01, ground_at_rest=still) for setting in each])
@@ -90,7 +94,7 @@ def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
 
 def test_threads_do_not_matter():
     """One, two or seven threads give the same arrays."""
-    settings = [respond_params(block, **options) for block, options in versions(15)]
+    settings = [respond_params(block, RespondOptions(**options)) for block, options in versions(15)]
     one, *others = (respond_many(settings, MOTION, workers=workers) for workers in (1, 2, 7))
     for other in others:
         for name in vars(one):
@@ -103,7 +107,7 @@ def test_gains_turn_and_scale_the_motion():
     rows = np.array([MOTION.horizontal, np.roll(MOTION.horizontal, 40), MOTION.vertical])
     motion = Motion(rows, MOTION.dt)
     angles = rng.uniform(0.0, 2.0 * np.pi, 6)
-    setting = respond_params(Block(0.4, 0.9), mu=0.35)
+    setting = respond_params(Block(0.4, 0.9), options=RespondOptions(mu=0.35))
     many = respond_many([setting] * 6, motion, gains=np.stack([0.8 * np.cos(angles), 0.8 * np.sin(angles), np.full(6, 0.8)], axis=1))
     for row, angle in enumerate(angles):
         turned = Motion.from_arrays(0.8 * np.cos(angle) * rows[0] + 0.8 * np.sin(angle) * rows[1], motion.dt, vertical=0.8 * rows[2])

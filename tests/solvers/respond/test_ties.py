@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block
 from seisblock.models.respond.batch import respond_many
+from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params, solve_respond
+from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.records import Motion
 
@@ -63,9 +65,9 @@ def test_no_run_is_given_up_where_a_peak_equals_a_threshold(
     if plateau and peak + 1 < push.size:
         push[peak + 1], up[peak + 1] = push[peak], up[peak]
     motion = Motion.from_arrays(push, 0.01, vertical=up)
-    setting = respond_params(block, mu=mu, mu_kinetic=kinetic * mu)
+    setting = respond_params(block, options=RespondOptions(mu=mu, mu_kinetic=kinetic * mu))
     assert not respond_many([setting], motion).gave_up.any()
-    assert rock_verdict(block, motion, vertical=vertical).max_rotation_ratio >= 0.0
+    assert rock_verdict(block, motion, options=RockOptions(vertical=vertical)).max_rotation_ratio >= 0.0
 
 
 @pytest.mark.parametrize("digits", range(-3, 4))

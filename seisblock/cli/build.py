@@ -1,0 +1,74 @@
+"""Command-line options built from the fields of a dataclass of options."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import MISSING, Field
+from typing import Any, get_type_hints
+
+from seisblock.cli.command import option
+from seisblock.cli.options import check_callback
+from seisblock.cli.suggest import SuggestingChoice
+from seisblock.cli.types import LENGTH, MASS, MU
+from seisblock.core import checks
+from seisblock.core.options import Option, option_fields
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+CHECKS = {"(0, inf)": checks.positive, "[0, inf)": checks.non_negative}
+"""Checks of a range before the command runs."""
+
+
+def solver_options(kind: type, *names: str, exclude: Iterable[str] = ()) -> Decorator:
+    """Return a decorator that adds an option for each field with a flag, or for the named ones.
+
+    Parameters
+    ----------
+    kind : type
+        Dataclass of options, see :mod:`seisblock.core.options`.
+    names : str
+        Fields in the order of the help; default: all.
+    exclude : iterable of str
+        Fields without an option.
+    """
+    table = {name: (described, field) for name, described, field in option_fields(kind) if described.flag and name not in exclude}
+    hints = get_type_hints(kind)
+    declared = [_declare(name, hints[name], *table[name]) for name in names or table]
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for declare in reversed(declared):
+            function = declare(function)
+        return function
+
+    return decorate
+
+
+def _declare(name: str, hint: Any, described: Option, field: Field[Any]) -> Decorator:
+    """Return the click option of one field."""
+    attributes: dict[str, Any] = {"help": described.help, "section": described.section}
+    if "/" in described.flag:
+        return option(described.flag, name, default=_default(field), **attributes)
+    if hint is bool:
+        return option(described.flag, name, is_flag=True, **attributes)
+    if described.interval in CHECKS:
+        attributes["callback"] = check_callback(CHECKS[described.interval])
+    if described.choices:
+        attributes["type"] = SuggestingChoice(list(described.choices))
+    else:
+        attributes |= {"type": _parameter_type(described, hint), "metavar": described.metavar}
+    default = _default(field)
+    return option(
+        described.flag, name, default=default, show_default=default is not None and "[default" not in described.help, **attributes
+    )
+
+
+def _parameter_type(described: Option, hint: Any) -> Any:
+    """Return the click type of the values of an option."""
+    if described.kind == "friction":
+        return MU
+    quantity = {"m": LENGTH, "kg": MASS}.get(described.unit)
+    return quantity or (hint if hint in (int, str) else float)
+
+
+def _default(field: Field[Any]) -> Any:
+    return None if field.default is MISSING else field.default

@@ -1,0 +1,163 @@
+"""Registry of solvers: each registers itself once, in ``seisblock/models/NAME/solver.py``; commands and studies read the registry."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from seisblock.core.errors import ParameterError
+from seisblock.core.options import SolverOptions
+
+if TYPE_CHECKING:
+    from seisblock.core.results import Response
+
+ValueMap: TypeAlias = Mapping[str, Any]
+RowResult: TypeAlias = tuple[ValueMap, Sequence[str]]
+"""Scalar fields of an outcome, and its warnings."""
+
+
+@dataclass(frozen=True)
+class SolverBody:
+    """Body of a solver with its name and options.
+
+    Parameters
+    ----------
+    name : str
+    body : object
+        Of a type in :attr:`Solver.bodies`.
+    options : SolverOptions
+    """
+
+    name: str
+    body: Any
+    options: Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solver:
+    """Everything that commands, batches and studies need to know of one solver.
+
+    Parameters
+    ----------
+    name : str
+        Of the command and of the folder in ``seisblock/models``.
+    options, outcome : type
+        Dataclasses of its options and of its scalar results.
+    solve : callable
+        ``solve(body, motion, **keywords) -> Response``; the keywords are the fields of the options.
+    bodies : tuple of type
+        Body types accepted without conversion.
+    columns : tuple of str
+        Columns used of a table of bodies.
+    build_body : callable
+        ``build_body(spec, values) -> SolverBody``: body and options from the row of a table and the values common to all rows.
+    event : str
+        Field of the outcome for the event of the solver: overturning, slip, uplift.
+    event_values : tuple
+        Values of that field for which the event occurred; default: true ones.
+    displacement : str or None
+        Field of the outcome for the displacement, or None.
+    overturned, residual : str or None
+        Fields of the outcome for overturning and for the residual displacement, m (a number, or a mapping of names to numbers): limit
+        states of a fragility.
+    describe : callable or None
+        ``describe(response) -> str``: the result in one sentence.
+    solve_rows : callable or None
+        ``solve_rows(bodies, motion) -> dict of name to RowResult``: several bodies at once, bit by bit as single runs; bodies without
+        a result are left out.
+    row_options : tuple of str
+        Options that may differ between these bodies.
+    topics : tuple of str
+        Topics of its references, see :mod:`seisblock.references`.
+    """
+
+    name: str
+    options: type[SolverOptions]
+    outcome: type
+    solve: Callable[..., Response[Any]]
+    bodies: tuple[type, ...]
+    columns: tuple[str, ...]
+    build_body: Callable[[Any, ValueMap], SolverBody]
+    event: str
+    event_values: tuple[Any, ...] = (True,)
+    displacement: str | None = None
+    overturned: str | None = None
+    residual: str | None = None
+    describe: Callable[[Response[Any]], str] | None = None
+    solve_rows: Callable[[Sequence[SolverBody], Any], dict[str, RowResult]] | None = None
+    row_options: tuple[str, ...] = ()
+    topics: tuple[str, ...] = ()
+
+    @cached_property
+    def body_columns(self) -> frozenset[str]:
+        """Columns of friction, which are options of the line although they belong to the body."""
+        return frozenset(("mu", "mu_kinetic")) & frozenset(self.columns)
+
+    def check_options(self, values: ValueMap) -> None:
+        """Raise for values that neither the solver nor its bodies have.
+
+        Raises
+        ------
+        ParameterError
+            Naming them.
+        """
+        known = {option.name for option in fields(self.options)} | self.body_columns
+        unknown = [f"`{name}`" for name in values if name not in known]
+        if unknown:
+            raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
+
+    def make_options(self, values: ValueMap) -> Any:
+        """Return the options of the solver.
+
+        Raises
+        ------
+        ParameterError
+            If a value is missing or outside its range.
+        """
+        missing = [f"`{o.name}`" for o in fields(self.options) if o.default is MISSING and o.name not in values]
+        if missing:
+            raise ParameterError("{solver} requires {names}", solver=self.name, names=missing)
+        return self.options(**values)
+
+    def event_occurred(self, row: ValueMap) -> bool:
+        """Return whether the event of the solver occurred in a row with a result."""
+        return row[self.event] in self.event_values
+
+    def ignored_columns(self, columns: Iterable[str]) -> list[str]:
+        """Return the columns of a body that the solver does not use."""
+        return [key for key in columns if key not in self.columns]
+
+
+_SOLVERS: dict[str, Solver] = {}
+
+
+def register(solver: Solver) -> Solver:
+    """Add a solver to the registry."""
+    _SOLVERS[solver.name] = solver
+    return solver
+
+
+@cache
+def solver_names() -> tuple[str, ...]:
+    """Return the names of all solvers, without importing them: folders of ``seisblock/models`` with a module ``solver``."""
+    folder = Path(__file__).parents[1] / "models"
+    return tuple(sorted(path.parent.name for path in folder.glob("*/solver.py")))
+
+
+def get_solver(name: str) -> Solver:
+    """Return a solver by name.
+
+    Raises
+    ------
+    ParameterError
+        If there is none of that name.
+    """
+    if name not in _SOLVERS:
+        if name not in solver_names():
+            raise ParameterError("unknown solver {name!r}; available: {known}", name=str(name)[:100], known=list(solver_names()))
+        importlib.import_module(f"seisblock.models.{name}.solver")
+    return _SOLVERS[name]

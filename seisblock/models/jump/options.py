@@ -1,0 +1,57 @@
+"""Options of the jump solver."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from seisblock.bodies.two_layer import Contact
+from seisblock.core.i18n import N_
+from seisblock.core.options import GRAVITY, SolverOptions, documented, option
+from seisblock.core.typing import TimeWindow
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.models.jump.landing import LANDING_RULES
+
+DIRECTIONS = ("+", "-", "both")
+
+
+@documented
+@dataclass(frozen=True, kw_only=True)
+class JumpOptions(SolverOptions):
+    """Options of :func:`~seisblock.models.jump.solve.solve_jump`."""
+
+    contact: Contact = field(metadata=option(N_("Friction of the landed foot and restitution of the impact.")))
+    drop: float = field(
+        default=0.0,
+        metadata=option(
+            N_("Height of the floor above the landing ground, m or with a unit. [default: 0]"), "--drop", unit="m", interval="[0, inf)"
+        ),
+    )
+    spin: str = field(
+        default="momentum",
+        metadata=option(
+            N_("Angular velocity after the impact: conserved angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q."),
+            "--spin",
+            metavar="momentum|printed|ratio=Q",
+        ),
+    )
+    direction: str = field(
+        default="both",
+        metadata=option(N_("Sign of the ground acceleration that can start a chain of motion."), "--direction", choices=DIRECTIONS),
+    )
+    landing: str = field(
+        default="paper",
+        metadata=option(
+            N_("Landing impulse of the foot: unlimited friction (paper), or limited by friction with further sliding (friction)."),
+            "--landing",
+            choices=tuple(LANDING_RULES),
+        ),
+    )
+    first: bool = field(
+        default=False,
+        metadata=option(N_("Compute only the first chain of motion in each --window, as in the paper. [default: all]"), "--first"),
+    )
+    windows: Sequence[TimeWindow] = field(
+        default=(), metadata=option(N_("Time windows of the start of a chain; empty: the entire record."), unit="s")
+    )
+    gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)

@@ -1,0 +1,39 @@
+"""Registration of the full-response solver."""
+
+from __future__ import annotations
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.from_spec import BLOCK_COLUMNS, friction_from_spec, rigid_body_from_spec, spec_values
+from seisblock.bodies.scan.body import ScannedBody
+from seisblock.bodies.table import BodySpec
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.core.registry import Solver, SolverBody, ValueMap, register
+from seisblock.models.respond.options import RespondOptions
+from seisblock.models.respond.outcome import RespondOutcome
+from seisblock.models.respond.solve import solve_respond
+
+OWN_COLUMNS = ("restitution", "rocking_restitution", "tenon")
+
+
+def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
+    body = rigid_body_from_spec(spec)
+    if isinstance(body, Block) and ("mu" in spec.parameters or "surface" in spec.parameters):
+        body = body.without_ranges("mu")
+    options = RespondOptions(**{**values, **spec_values(spec, *OWN_COLUMNS), **friction_from_spec(spec, values)})
+    return SolverBody(spec.name, body, options)
+
+
+SOLVER = register(
+    Solver(
+        name="respond",
+        options=RespondOptions,
+        outcome=RespondOutcome,
+        solve=solve_respond,
+        bodies=(Block, TwoLayerBlock, ScannedBody),
+        columns=(*BLOCK_COLUMNS, "mu", "mu_kinetic", "surface", *OWN_COLUMNS),
+        build_body=_build_body,
+        event="overturned",
+        displacement="max_displacement_m",
+        topics=("all modes", "two-layer body"),
+    )
+)

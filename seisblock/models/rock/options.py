@@ -1,0 +1,41 @@
+"""Options of the rocking solver."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from seisblock.bodies.block import Restitution
+from seisblock.core.i18n import N_
+from seisblock.core.options import GRAVITY, SolverOptions, documented, option
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.records._validation import Gain
+
+
+@documented
+@dataclass(frozen=True, kw_only=True)
+class RockOptions(SolverOptions):
+    """Options of :func:`~seisblock.models.rock.solve.solve_rock`."""
+
+    restitution: Restitution = field(
+        default=None,
+        metadata=option(
+            N_(
+                "Coefficient of restitution, ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
+                "sin^2(alpha), or the body's own]"
+            ),
+            "--restitution",
+            unit="1",
+            metavar="E",
+        ),
+    )
+    linear: bool = field(
+        default=False, metadata=option(N_("Use the linearised equation of slender blocks. [default: exact equation]"), "--linear")
+    )
+    vertical: Gain | None = field(
+        default=False,
+        metadata=option(N_("Apply or omit the vertical component. [default: omitted]"), "--vertical/--no-vertical", document=bool),
+    )
+    gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)
+    initial: tuple[float, float] = field(
+        default=(0.0, 0.0), metadata=option(N_("Tilt, rad, and angular velocity, rad/s, at the first sample."))
+    )

@@ -1,0 +1,33 @@
+"""Registration of the rocking solver."""
+
+from __future__ import annotations
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.factory import table_restitution
+from seisblock.bodies.from_spec import BLOCK_COLUMNS, rigid_body_from_spec, spec_values
+from seisblock.bodies.table import BodySpec
+from seisblock.core.registry import Solver, SolverBody, ValueMap, register
+from seisblock.models.rock.options import RockOptions
+from seisblock.models.rock.outcome import RockOutcome
+from seisblock.models.rock.solve import solve_rock
+
+
+def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
+    restitution = None if spec.description is None else table_restitution(spec.description, spec.source)
+    from_file = {} if restitution is None else {"restitution": restitution}
+    return SolverBody(spec.name, rigid_body_from_spec(spec), RockOptions(**{**values, **from_file, **spec_values(spec, "restitution")}))
+
+
+SOLVER = register(
+    Solver(
+        name="rock",
+        options=RockOptions,
+        outcome=RockOutcome,
+        solve=solve_rock,
+        bodies=(Block,),
+        columns=(*BLOCK_COLUMNS, "restitution"),
+        build_body=_build_body,
+        event="overturned",
+        topics=("rocking",),
+    )
+)

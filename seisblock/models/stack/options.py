@@ -1,0 +1,89 @@
+"""Options of the solver of piles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.core.i18n import N_
+from seisblock.core.options import GRAVITY, VERTICAL, SolverOptions, documented, option
+from seisblock.core.typing import Progress
+from seisblock.core.units import STANDARD_GRAVITY
+from seisblock.records._validation import Gain
+
+RIGID, SPRINGS = "rigid", "springs"
+"""Contact laws."""
+
+EDGES, GRID = 2, 5
+"""Contact points along each side of a joint: on the edges, and as in [Furukawa2009]_."""
+
+
+@documented
+@dataclass(frozen=True, kw_only=True)
+class StackOptions(SolverOptions):
+    """Options of :func:`~seisblock.models.stack.solve.solve_stack`."""
+
+    law: str | None = field(
+        default=None,
+        metadata=option(
+            N_(
+                "Contact law: rigid stones, or springs and dashpots as in Furukawa2009. [default: rigid; springs with --criterion, --young "
+                "or --joint-stiffness]"
+            ),
+            "--law",
+            choices=(RIGID, SPRINGS),
+        ),
+    )
+    points: int = field(default=EDGES, metadata=option(N_("Contact points along each side of a joint; 2: its edges.")))
+    contact: PileContact | None = field(
+        default=None, metadata=option(N_("Springs and dashpots; default with springs: those of Furukawa2009 table 2."))
+    )
+    mu_kinetic: float | None = field(
+        default=None,
+        metadata=option(
+            N_(
+                "Kinetic friction coefficient of every joint, at most the smallest static coefficient; --law rigid. [default: the file's "
+                "own, or as --mu]"
+            ),
+            "--mu-kinetic",
+            unit="1",
+            kind="friction",
+        ),
+    )
+    restitution: float | None = field(
+        default=None,
+        metadata=option(
+            N_(
+                "Coefficient of restitution: ratio of the velocity of the leaving edge of a joint to that of the striking edge; --law "
+                "rigid. [default: from conserved angular momentum]"
+            ),
+            "--restitution",
+            unit="1",
+            interval="[0, 1]",
+            label=N_("the restitution of the joints"),
+        ),
+    )
+    vertical: Gain | None = field(default=None, metadata=VERTICAL)
+    across: Gain = field(
+        default=True, metadata=option(N_("Apply or omit the other horizontal component."), "--across/--no-across", document=bool)
+    )
+    gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)
+    step: float | None = field(
+        default=None,
+        metadata=option(
+            N_(
+                "Time step, s. [default: 1/55 of the rocking time scale of the smallest stone; springs: 0.7 of the stability limit of the "
+                "stiffest contact]"
+            ),
+            "--step",
+            unit="s",
+            metavar="S",
+        ),
+    )
+    stop_at_fall: bool = field(default=False, metadata=option(N_("End at the first fall.")))
+    tilts: Mapping[str, float] | None = field(
+        default=None, metadata=option(N_("Initial tilt of stones about y, over the edge of their base, by name."), unit="rad")
+    )
+    progress: Progress | None = field(default=None, repr=False, compare=False)
+    """Function called with the number of finished samples and their total."""
