@@ -182,13 +182,18 @@ def keywords_of(
     """
 
     def decorate(solve: Callable[[Body, Motion, Options], Result]) -> Callable[Concatenate[Body, Motion, P], Result]:
-        @functools.wraps(solve)
-        def solve_with_keywords(body: Body, motion: Motion, /, *args: P.args, **kwargs: P.kwargs) -> Result:
-            return solve(body, motion, make(*args, **kwargs))
-
-        signature, options = inspect.signature(solve), inspect.signature(make)
+        signature = inspect.signature(solve)
         first = list(signature.parameters.values())[:2]
-        solve_with_keywords.__signature__ = signature.replace(parameters=[*first, *options.parameters.values()])  # type: ignore[attr-defined]
+
+        @functools.wraps(solve)
+        def solve_with_keywords(*args: Any, **kwargs: Any) -> Result:
+            inputs = [*args, *(kwargs.pop(parameter.name) for parameter in first[len(args) :] if parameter.name in kwargs)]
+            if len(inputs) != len(first):
+                raise TypeError(f"{solve.__name__}() takes {', '.join(parameter.name for parameter in first)} and keyword arguments")
+            return solve(*inputs, make(**kwargs))  # type: ignore[call-arg, arg-type]
+
+        parameters = [*first, *inspect.signature(make).parameters.values()]
+        solve_with_keywords.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         return solve_with_keywords
 
     return decorate

@@ -169,7 +169,7 @@ def test_a_frame(folder):
 def test_given_wrongly(folder):
     """One sentence each."""
     block = seisblock.Block(0.2, 1.0)
-    with pytest.raises(ParameterError, match="unknown batch solver 'fly'"):
+    with pytest.raises(ParameterError, match="unknown solver 'fly'"):
         seisblock.run_batch("records", [block], "fly")
     with pytest.raises(KindError, match="slide takes SlidingBase"):
         seisblock.run_batch("records", [block], "slide")

@@ -18,10 +18,11 @@ from seisblock.studies.respond.azimuths import respond_directions
 from seisblock.studies.respond.probability import ParameterVariation, Probability, respond_probability
 
 PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005)
+DEFAULT_VARIATION = ParameterVariation()
 NOTHING_VARIES = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
-def share(block, motion, *, runs=40, versions=ParameterVariation(), seed=0, moved_m=0.01, progress=None, **options):
+def share(block, motion, *, runs=40, versions=DEFAULT_VARIATION, seed=0, moved_m=0.01, progress=None, **options):
     """Return the probability of 40 samples."""
     study = {"runs": runs, "versions": versions, "seed": seed, "moved_m": moved_m, "progress": progress}
     return respond_probability(block, motion, RespondOptions(**{"settle_s": 20.0, **options}), **study)

@@ -118,7 +118,7 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
     answer = survey_stations(event, subject, preparation=strong).answers[0]
     record = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station)).read(ReadOptions())
     components = "all-azimuths" if subject.is_directional else ()
-    options = {**subject.options, "runs": subject.runs, "preparation": strong}
+    options = {**subject.options.keywords(), "runs": subject.runs, "preparation": strong}
     table = run_batch(record, {"it": subject.body}, solver, components=components, **options)
     effects = {row["component"]: EFFECTS[solver](row) for row in table.rows}
     effect = answer.effect

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from typing import Any
 
 from seisblock.core.errors import ParameterError
+from seisblock.core.registry import get_solver
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.studies.capabilities import capabilities, directional_solvers
 
@@ -30,6 +32,7 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
     ability = capabilities(solver)
     if ability.worst_azimuth is None:
         raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=directional_solvers())
-    unknown = [f"`{name}`" for name in options if name in ability.single_direction_options]
+    defaults = {field.name: field.default for field in fields(get_solver(solver).options)}
+    unknown = [f"`{name}`" for name in ability.single_direction_options if options.get(name, defaults[name]) != defaults[name]]
     if unknown:
         raise ParameterError("{solver} in all azimuths has no option {names}; remove it", solver=solver, names=unknown)
