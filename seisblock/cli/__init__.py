@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import os
 import re
 import sys
@@ -28,36 +29,68 @@ from seisblock.cli.verbosity import quiet_output
 from seisblock.core.errors import OutputError, SeisblockError, os_error_text
 from seisblock.core.i18n import N_, escape_control, gettext, lazy_gettext, truncate
 from seisblock.core.io.overwrite import track_files
+from seisblock.core.registry import solver_names
 
-COMMANDS: dict[str, tuple[str, str]] = {
-    "measure": ("seisblock.cli.measure:measure", "Intensity measures of a record: peaks, frequencies, durations, JMA intensity."),
-    "respond": (
-        "seisblock.cli.respond:respond",
-        "Full response: rest, sliding, rocking, flight, overturning.",
-    ),
-    "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
-    "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with margins."),
-    "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
-    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic motion."),
-    "stack": ("seisblock.cli.stack:stack", "Pile of stones in three dimensions: gravestones, lanterns, columns."),
-    "criteria": ("seisblock.cli.criteria:criteria", "Closed-form overturning criteria beside the simulated outcome."),
-    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning spectra over size and slenderness."),
-    "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Overturning rate of the gravestones of a cemetery."),
-    "infer": ("seisblock.cli.infer:infer", "Ground motion estimated from fallen gravestones or displaced objects."),
-    "body": ("seisblock.cli.body:body", "Rigid-body properties of a 3-D scan: mass, inertia, base, slenderness."),
-    "batch": ("seisblock.cli.batch:batch", "Table of many records and many bodies, on all cores or a cluster."),
-    "map": ("seisblock.cli.map:map", "Map of an earthquake's stations with the response of a body or a cemetery."),
-    "fragility": ("seisblock.cli.fragility:fragility", "Fragility curves: overturning, sliding or rocking against intensity."),
-    "risk": ("seisblock.cli.risk:risk", "Annual frequency at a site: fragility and seismic hazard."),
-    "fit": ("seisblock.cli.fit:fit", "Block parameters from observed overturning, with cross-validation."),
-    "report": ("seisblock.cli.report:report", "HTML report of a record and the response of bodies."),
-    "validate": ("seisblock.cli.validate:validate", "Numbers printed in the papers beside the computed ones."),
-    "cite": ("seisblock.cli.cite:cite", "References of a command, as text or BibTeX."),
-    "schema": ("seisblock.cli.schema:schema", "JSON Schema of a command's JSON document."),
-    "samples": ("seisblock.cli.samples:samples", "Bundled records and bodies: list or copy."),
-    "completion": ("seisblock.cli.completion:completion", "Shell completion for bash, zsh and fish."),
+GROUPS: dict[str, dict[str, str]] = {
+    N_("Answers"): {
+        "respond": N_("Full response: rest, sliding, rocking, flight, overturning."),
+        "report": N_("HTML report of a record and the response of bodies."),
+    },
+    N_("Models"): {
+        "slide": N_("Sliding on a level or sloping base, with Coulomb friction."),
+        "rock": N_("Rocking and overturning of one block, with margins."),
+        "jump": N_("Rocking, impact and jump of a two-layer block."),
+        "uplift": N_("Uplift of a block on corner springs: records and harmonic motion."),
+        "stack": N_("Pile of stones in three dimensions: gravestones, lanterns, columns."),
+    },
+    N_("Records"): {
+        "measure": N_("Intensity measures of a record: peaks, frequencies, durations, JMA intensity."),
+        "samples": N_("Bundled records and bodies: list or copy."),
+    },
+    N_("Surveys"): {
+        "overturn-rate": N_("Overturning rate of the gravestones of a cemetery."),
+        "infer": N_("Ground motion estimated from fallen gravestones or displaced objects."),
+        "map": N_("Map of an earthquake's stations with the response of a body or a cemetery."),
+        "fit": N_("Block parameters from observed overturning, with cross-validation."),
+        "body": N_("Rigid-body properties of a 3-D scan: mass, inertia, base, slenderness."),
+    },
+    N_("Risk"): {
+        "fragility": N_("Fragility curves: overturning, sliding or rocking against intensity."),
+        "risk": N_("Annual frequency at a site: fragility and seismic hazard."),
+        "batch": N_("Table of many records and many bodies, on all cores or a cluster."),
+        "spectrum": N_("Rocking and overturning spectra over size and slenderness."),
+    },
+    N_("Evidence"): {
+        "criteria": N_("Closed-form overturning criteria beside the simulated outcome."),
+        "validate": N_("Numbers printed in the papers beside the computed ones."),
+        "cite": N_("References of a command, as text or BibTeX."),
+    },
+    N_("Tools"): {
+        "schema": N_("JSON Schema of a command's JSON document."),
+        "completion": N_("Shell completion for bash, zsh and fish."),
+    },
 }
-"""Command name: (module:attribute, one-line help). Kept here so that ``--help`` imports no command."""
+"""Commands by purpose with a one-line help. Kept here so that ``--help`` imports no command."""
+
+MODELS = "Models"
+"""Group of the solvers that are registered without a line here."""
+
+
+def _command_groups() -> dict[str, dict[str, str]]:
+    """Return the commands by purpose, with every registered solver."""
+    listed = {name for commands in GROUPS.values() for name in commands}
+    others = {name: _solver_summary(name) for name in solver_names() if name not in listed}
+    return {group: {**commands, **(others if group == MODELS else {})} for group, commands in GROUPS.items()}
+
+
+def _solver_summary(name: str) -> str:
+    """Return the first line of the docstring of a solver's package."""
+    return (importlib.import_module(f"seisblock.models.{name}").__doc__ or "").partition("\n")[0]
+
+
+COMMAND_GROUPS = _command_groups()
+COMMANDS = {name: text for commands in COMMAND_GROUPS.values() for name, text in commands.items()}
+"""One-line help by command."""
 
 EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
 """Example lines at the end of the help."""
@@ -106,8 +139,12 @@ class SeisblockGroup(click.Group):
         """Import the module of a command and return the command."""
         if cmd_name not in COMMANDS:
             return None
-        module, attribute = COMMANDS[cmd_name][0].split(":")
-        command: click.Command = getattr(importlib.import_module(module), attribute)
+        module = cmd_name.replace("-", "_")
+        if importlib.util.find_spec(f"seisblock.cli.{module}") is None:
+            from seisblock.cli.solver_command import solver_command
+
+            return solver_command(cmd_name)
+        command: click.Command = getattr(importlib.import_module(f"seisblock.cli.{module}"), module)
         return command
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
@@ -124,13 +161,14 @@ class SeisblockGroup(click.Group):
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete command names without importing the commands."""
-        names = [CompletionItem(name, help=gettext(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
+        names = [CompletionItem(name, help=gettext(text)) for name, text in COMMANDS.items() if name.startswith(incomplete)]
         return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the list of commands without importing them."""
-        with formatter.section(gettext("Commands")):
-            formatter.write_dl([(name, gettext(text)) for name, (_, text) in COMMANDS.items()])
+        for group, commands in COMMAND_GROUPS.items():
+            with formatter.section(gettext(group)):
+                formatter.write_dl([(name, gettext(text)) for name, text in commands.items()], col_max=16)
         with formatter.section(gettext("Examples")):
             for line in EXAMPLES:
                 formatter.write(f"  {line}\n")

@@ -14,8 +14,7 @@ from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import MU, Count
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core.i18n import N_
-
-SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
+from seisblock.core.registry import solver_names
 
 
 @click.command(
@@ -35,7 +34,7 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     section="Body",
     help="Table of bodies (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; may be repeated.",
 )
-@option("--solver", type=SuggestingChoice(SOLVERS), default="respond", show_default=True, help="Model that computes the response.")
+@option("--solver", type=SuggestingChoice(solver_names()), default="respond", show_default=True, help="Model that computes the response.")
 @option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies without a friction of their own.")
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(

@@ -7,11 +7,11 @@ import click
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.console import print_result, print_tables
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.references import COMMAND_PAPERS
+from seisblock.references import cited_commands, command_papers
 
 
 @click.command(cls=Command, examples=("seisblock cite jump", "seisblock cite --bibtex > seisblock.bib"))
-@argument("command", required=False, metavar="[COMMAND]", type=SuggestingChoice(COMMAND_PAPERS), help="Command. [default: all commands]")
+@argument("command", required=False, metavar="[COMMAND]", type=SuggestingChoice(cited_commands()), help="Command. [default: all commands]")
 @option("--bibtex", is_flag=True, section="Output", help="Print BibTeX entries instead of text.")
 @option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout.")
 def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
@@ -21,7 +21,7 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
     """
     from seisblock.references import REFERENCES, SOFTWARE
 
-    keys = COMMAND_PAPERS[command] if command else tuple(REFERENCES)
+    keys = command_papers(command) if command else tuple(REFERENCES)
     references = [*(REFERENCES[key] for key in keys), SOFTWARE]
     if as_json:
         from seisblock.report.json.citations import cite_document

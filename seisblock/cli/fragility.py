@@ -12,10 +12,11 @@ from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
 from seisblock.cli.output import OutputOptions
+from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, MU, Count
 from seisblock.core.i18n import N_
+from seisblock.core.registry import solver_names
 
-SOLVERS = ("respond", "rock", "slide", "stack")
 METHODS = ("stripes", "ida", "cloud")
 
 
@@ -73,7 +74,7 @@ METHODS = ("stripes", "ida", "cloud")
     metavar="E",
     help="Coefficient of restitution, a ratio of velocities. [default: of the solver]",
 )
-@option("--solver", type=click.Choice(SOLVERS), default="respond", show_default=True, help="Model that computes the response.")
+@option("--solver", type=SuggestingChoice(solver_names()), default="respond", show_default=True, help="Model that computes the response.")
 @option(
     "--limit",
     multiple=True,

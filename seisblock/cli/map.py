@@ -19,11 +19,10 @@ from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import Count
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.registry import solver_names
 
 if TYPE_CHECKING:
     from seisblock.studies.map.station_response import StationModel
-
-SOLVERS = ("respond", "rock", "slide", "jump", "uplift")
 SIZES = ("block", "width", "height")
 """Options that select a body."""
 
@@ -69,7 +68,7 @@ DEFAULT_RUNS = 50
     section="Body",
     help="--solver uplift: natural frequency of the vertical motion on the springs, Hz.",
 )
-@option("--solver", type=SuggestingChoice(SOLVERS), help="Model that computes the response. [default: respond]")
+@option("--solver", type=SuggestingChoice(solver_names()), help="Model that computes the response. [default: respond]")
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(
     "--runs",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -61,9 +61,13 @@ class Solver:
         Values of that field for which the event occurred; default: true ones.
     displacement : str or None
         Field of the outcome for the displacement, or None.
-    overturned, residual : str or None
-        Fields of the outcome for overturning and for the residual displacement, m (a number, or a mapping of names to numbers): limit
-        states of a fragility.
+    overturned : str or None
+        Field of the outcome for overturning, None for a solver without overturning.
+    overturned_values : tuple
+        Values of that field for an overturned body.
+    damage_states : mapping of str to str
+        Limit states of a fragility by run, with their fields of the outcome: ``overturn``; ``slip``, a displacement, m, or a mapping of
+        names to displacements.
     describe : callable or None
         ``describe(response) -> str``: the result in one sentence.
     solve_rows : callable or None
@@ -86,7 +90,8 @@ class Solver:
     event_values: tuple[Any, ...] = (True,)
     displacement: str | None = None
     overturned: str | None = None
-    residual: str | None = None
+    overturned_values: tuple[Any, ...] = (True,)
+    damage_states: Mapping[str, str] = field(default_factory=dict)
     describe: Callable[[Response[Any]], str] | None = None
     solve_rows: Callable[[Sequence[SolverBody], Any], dict[str, RowResult]] | None = None
     row_options: tuple[str, ...] = ()
@@ -126,6 +131,10 @@ class Solver:
     def event_occurred(self, row: ValueMap) -> bool:
         """Return whether the event of the solver occurred in a row with a result."""
         return row[self.event] in self.event_values
+
+    def overturns(self, row: ValueMap) -> bool | None:
+        """Return whether the body overturned in a row with a result; None for a solver without overturning."""
+        return None if self.overturned is None else row[self.overturned] in self.overturned_values
 
     def ignored_columns(self, columns: Iterable[str]) -> list[str]:
         """Return the columns of a body that the solver does not use."""

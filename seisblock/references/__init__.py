@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from seisblock.core.registry import get_solver, solver_names
 from seisblock.references.ground_motion import GROUND_MOTION
 from seisblock.references.literature import LITERATURE
 from seisblock.references.reference import Reference
@@ -76,11 +77,6 @@ def find_citations(texts: Iterable[str]) -> tuple[str, ...]:
 
 COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
     "measure": papers("measures", "response spectrum"),
-    "slide": papers("sliding", "one-way sliding"),
-    "rock": papers("rocking"),
-    "jump": papers("jump"),
-    "uplift": papers("uplift"),
-    "respond": papers("all modes", "two-layer body"),
     "batch": papers("all modes", "two-layer body"),
     "map": papers("measures", "all modes", "gravestones as fitted", "intensity of a velocity"),
     "body": papers("a scan's arms"),
@@ -90,7 +86,16 @@ COMMAND_PAPERS: dict[str, tuple[str, ...]] = {
     "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
     "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
-    "stack": papers("rigid pile"),
     "fit": papers("rocking", "fit"),
 }
-"""Papers used by each command with default options; each JSON document lists those of its result."""
+"""Papers used by each command other than the solvers with default options; each JSON document lists those of its result."""
+
+
+def cited_commands() -> tuple[str, ...]:
+    """Return the commands with references."""
+    return (*solver_names(), *COMMAND_PAPERS)
+
+
+def command_papers(command: str) -> tuple[str, ...]:
+    """Return the keys of the papers of a command: those of its solver, or of its study."""
+    return COMMAND_PAPERS[command] if command in COMMAND_PAPERS else papers(*get_solver(command).topics)

@@ -76,8 +76,7 @@ def capabilities(name: str) -> Capabilities:
     if name in _CAPABILITIES:
         return _CAPABILITIES[name]
     solver = get_solver(name)
-    limits = tuple(limit for limit, column in ((SLIP, solver.residual), (OVERTURN, solver.overturned)) if column)
-    return Capabilities(partial(single_end_states, solver=solver) if limits else None, limits)
+    return Capabilities(partial(single_end_states, solver=solver) if solver.damage_states else None, tuple(solver.damage_states))
 
 
 def fragility_solvers() -> list[str]:

@@ -13,7 +13,7 @@ from seisblock.cli import main
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.report.figures.respond import figure
-from seisblock.report.text.respond import format_signed, probability_sentence, verdict
+from seisblock.report.text.respond import format_signed, probability_sentence, describe
 from seisblock.report.units_display import length_unit
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 
@@ -226,8 +226,8 @@ def test_tenons_hold_the_feet_before_friction_does():
     """What stands on tenons rocks first, whatever the friction: so say the verdict, the table and the figure."""
     motion = Motion.from_arrays(1.8 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     held, free = (solve_respond(Block(0.5, 1.0), motion, mu=0.2, tenon=tenon) for tenon in (0.02, 0.0))
-    assert verdict(held) == "NS: remains at rest; rocking threshold 490.3 gal (2.72 times this record's PGA)."
-    assert verdict(free) == "NS: remains at rest; sliding threshold 196.1 gal (1.09 times this record's PGA)."
+    assert describe(held) == "NS: remains at rest; rocking threshold 490.3 gal (2.72 times this record's PGA)."
+    assert describe(free) == "NS: remains at rest; sliding threshold 196.1 gal (1.09 times this record's PGA)."
     levels = [figure([found]).axes[0].get_legend_handles_labels()[1] for found in (held, free)]
     assert "sliding threshold" in levels[1] and "sliding threshold" not in "".join(levels[0])
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.2", "--tenon", "2cm", "--runs", "0", "--quiet", "--component", "NS")

@@ -13,7 +13,7 @@ from seisblock.core.errors import OutputError
 from seisblock.models.rock.solve import solve_rock
 from seisblock.records import Motion
 from seisblock.report.animation.render import MAX_FRAMES, frame_times, write_frames
-from seisblock.report.animation.rock import animate_rocking, centroid_position, corners, extend_to_fall
+from seisblock.report.animation.rock import animate, centroid_position, corners, extend_to_fall
 from seisblock.report.io import atomic
 from seisblock.report.io.atomic import find_ffmpeg
 
@@ -118,7 +118,7 @@ def test_interruption_leaves_the_old_file(tmp_path):
 @pytest.mark.slow
 def test_five_seconds_of_rocking_are_a_hundred_pictures_that_move(tmp_path, response):
     """Twenty pictures a second, and the block is elsewhere in a later one."""
-    animate_rocking(response, tmp_path / "rock.gif")
+    animate(response, tmp_path / "rock.gif")
     with Image.open(tmp_path / "rock.gif") as image:
         assert image.n_frames >= 95
         first = np.asarray(image.convert("RGB")).astype(int)

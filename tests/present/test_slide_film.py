@@ -11,7 +11,7 @@ from seisblock.core.i18n import use_locale
 from seisblock.models.slide.solve import solve_slide
 from seisblock.records import Motion
 from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.slide import animate_slide, position_on_base, slide_animation
+from seisblock.report.animation.slide import animate, position_on_base, slide_animation
 
 
 @pytest.fixture(scope="module")
@@ -53,9 +53,9 @@ def test_the_object_is_where_the_answer_has_it(response):
 @pytest.mark.slow
 def test_it_is_written(response, tmp_path):
     """As a .gif and as a page."""
-    animate_slide(response, tmp_path / "slide.gif", AnimationOptions())
+    animate(response, tmp_path / "slide.gif", AnimationOptions())
     with use_locale("ja"):
-        animate_slide(response, tmp_path / "slide.html", AnimationOptions())
+        animate(response, tmp_path / "slide.html", AnimationOptions())
     with Image.open(tmp_path / "slide.gif") as image:
         assert image.n_frames > 40
     assert "相対変位" in (tmp_path / "slide.html").read_text(encoding="utf-8")

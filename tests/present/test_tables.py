@@ -9,7 +9,7 @@ from rich.console import Console, Group
 from seisblock.core.i18n import use_locale
 from seisblock.report.templating import render_page
 from seisblock.report.text.fragility import tables as fragility_tables
-from seisblock.report.text.jump import verdict as jump_verdict
+from seisblock.report.text.jump import describe as jump_verdict
 from seisblock.report.text.rock import tables as rock_tables
 from seisblock.report.text.tables import side_by_side, styled_line, table
 from seisblock.report.text.wrap import display_width

@@ -9,10 +9,10 @@ import pytest
 from seisblock import Block, Contact, SlidingBase, motion_of, read, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.criteria.compare import CriterionResult
 from seisblock.report.text.criteria import format_ratio
-from seisblock.report.text.jump import verdict as jump_verdict
-from seisblock.report.text.respond import verdict as respond_verdict
-from seisblock.report.text.rock import first_line
-from seisblock.report.text.slide import sentence as slide_sentence
+from seisblock.report.text.jump import describe as jump_verdict
+from seisblock.report.text.respond import describe as respond_verdict
+from seisblock.report.text.rock import describe
+from seisblock.report.text.slide import describe as slide_sentence
 from seisblock.report.text.threshold import SLIDES, threshold_text
 from tests.present.long_record import PAVILION, motion
 
@@ -22,7 +22,7 @@ def test_what_keeps_still_says_what_it_would_take():
     still = motion("NS", 0.1)
     peak = np.abs(still.horizontal).max()
     found = {
-        first_line(solve_rock(Block(0.3, 0.9), still)): 9.80665 / 3.0,
+        describe(solve_rock(Block(0.3, 0.9), still)): 9.80665 / 3.0,
         slide_sentence(solve_slide(SlidingBase(0.3), still)): 0.3 * 9.80665,
         respond_verdict(solve_respond(Block(0.45, 1.8), still, mu=0.2, vertical=False)): 0.2 * 9.80665,
         jump_verdict(solve_jump(PAVILION, still, contact=Contact(mu=0.18))): 4.6124,
@@ -44,7 +44,7 @@ def test_what_keeps_still_under_vertical_motion_moves_from_the_factor_told_on(co
     """The vertical motion takes weight off and adds it: the factor told is that of both together, in each model that has it."""
     still = motion_of(read("hanmer_springs_2016"), component)
     stronger = {
-        lambda m: solve_rock(Block(0.24, 0.72), m, vertical=True): (first_line, lambda outcome: outcome.rocks),
+        lambda m: solve_rock(Block(0.24, 0.72), m, vertical=True): (describe, lambda outcome: outcome.rocks),
         lambda m: solve_respond(Block(0.24, 0.72), m, mu=0.4): (respond_verdict, lambda outcome: outcome.outcome != "rests"),
         lambda m: solve_slide(SlidingBase(0.4), m, vertical=True): (slide_sentence, lambda outcome: outcome.slips),
     }
@@ -60,7 +60,7 @@ def test_a_block_with_a_weaker_side_is_told_the_factor_of_the_peak_that_pushes_i
     """The record's larger peak may push to the stronger side."""
     still, block = motion_of(read("elcentro_1940_ns.csv"), "NS"), Block(0.24, 0.72, centroid_offset=offset)
     still = replace(still, rows=0.5 * still.rows)
-    factor = _told(first_line(solve_rock(block, still)))
+    factor = _told(describe(solve_rock(block, still)))
     assert factor == _told(respond_verdict(solve_respond(block, still, mu=0.6)))
     assert not solve_rock(block, replace(still, rows=0.99 * factor * still.rows)).outcome.rocks
     assert solve_rock(block, replace(still, rows=1.01 * factor * still.rows)).outcome.rocks

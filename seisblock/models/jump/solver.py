@@ -10,7 +10,7 @@ from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact_from_tabl
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import RowResult, Solver, SolverBody, ValueMap, register
 from seisblock.models.jump.batch import jump_many
-from seisblock.models.jump.chain import JUMPED
+from seisblock.models.jump.chain import JUMPED, OVERTURNED_LANDED, OVERTURNED_ROCKING
 from seisblock.models.jump.describe import chain_warnings
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.jump.solve import JumpOutcome, solve_jump
@@ -68,6 +68,8 @@ SOLVER = register(
         build_body=_build_body,
         event="outcome",
         event_values=(JUMPED,),
+        overturned="outcome",
+        overturned_values=(OVERTURNED_ROCKING, OVERTURNED_LANDED),
         displacement="total_displacement_m",
         solve_rows=_solve_rows,
         row_options=("contact", "drop"),

@@ -33,6 +33,7 @@ SOLVER = register(
         columns=(*BLOCK_COLUMNS, "mu", "mu_kinetic", "surface", *OWN_COLUMNS),
         build_body=_build_body,
         event="overturned",
+        overturned="overturned",
         displacement="max_displacement_m",
         topics=("all modes", "two-layer body"),
     )

@@ -28,6 +28,7 @@ SOLVER = register(
         columns=(*BLOCK_COLUMNS, "restitution"),
         build_body=_build_body,
         event="overturned",
+        overturned="overturned",
         topics=("rocking",),
     )
 )

@@ -31,7 +31,7 @@ SOLVER = register(
         build_body=_build_body,
         event="overturned_any",
         overturned="overturned_any",
-        residual="residual_slip_m",
+        damage_states={"slip": "residual_slip_m", "overturn": "overturned_any"},
         topics=("rigid pile",),
     )
 )

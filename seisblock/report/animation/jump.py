@@ -25,7 +25,7 @@ PEDESTAL = 0.06
 """Half width of the stone under each foot over the width of the block."""
 
 
-def animate_jump(response: Response[JumpOutcome], path: Path | str, options: AnimationOptions) -> None:
+def animate(response: Response[JumpOutcome], path: Path | str, options: AnimationOptions) -> None:
     """Write the animation of a jump, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(
         response.phases, COLOURS, float(response.motion.time[0]), float(max(response.motion.time[-1], response.time[-1]))

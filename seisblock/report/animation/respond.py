@@ -23,7 +23,7 @@ from seisblock.report.text.threshold import effective_friction
 from seisblock.report.units_display import length_unit
 
 
-def animate_respond(response: Response[RespondOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
+def animate(response: Response[RespondOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
     """Write the animation of a full response, see :func:`seisblock.report.animation.writers.write_animation`."""
     write_animation(lambda times: respond_animation(response, times, gal=options.gal), motion_interval(response), path, options)
 

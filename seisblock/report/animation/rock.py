@@ -22,7 +22,7 @@ from seisblock.report.figures.heading import motions_heading
 from seisblock.report.figures.rock import COLOURS, motion_interval
 
 
-def animate_rocking(response: Response[RockOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
+def animate(response: Response[RockOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
     """Write the animation of a rocking block, to scale and by default in real time.
 
     Parameters

@@ -25,7 +25,7 @@ MIN_HALF_WIDTH = 0.05
 """Smallest half width of the drawn object, m; the model has no width, so it is drawn half as wide as the range of the slip."""
 
 
-def animate_slide(response: Response[SlideOutcome], path: Path | str, options: AnimationOptions) -> None:
+def animate(response: Response[SlideOutcome], path: Path | str, options: AnimationOptions) -> None:
     """Write the animation of sliding, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
     write_animation(lambda times: slide_animation(response, times, gal=options.gal), span, path, options)

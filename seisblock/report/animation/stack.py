@@ -21,7 +21,7 @@ from seisblock.report.figures.stack import line_style, max_standing, motion_inte
 from seisblock.report.units_display import length_unit
 
 
-def animate_stack(response: Response[StackOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
+def animate(response: Response[StackOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
     """Write the animation of a pile, see :func:`seisblock.report.animation.writers.write_animation`."""
     span = motion_interval(response, margin=1.5)
     write_animation(lambda times: stack_animation(response, times, gal=options.gal), span, path, options, rate=FRAMES_PER_RAD)

@@ -36,7 +36,7 @@ IN_AIR = N_("corner uplift")
 LIFTS, STAYS, BEYOND = N_("uplift"), N_("no uplift"), N_("uplift beyond the range of the model")
 
 
-def animate_uplift(response: Response[UpliftOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
+def animate(response: Response[UpliftOutcome], path: Path | str, options: AnimationOptions = REAL_TIME) -> None:
     """Write the animation of a block on springs, see :func:`seisblock.report.animation.writers.write_animation`."""
     write_animation(
         lambda times: uplift_animation(response, times, gal=options.gal), motion_interval(response), path, options, rate=FRAMES_PER_RAD

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from seisblock.core.errors import ParameterError
-from seisblock.core.i18n import gettext
+from seisblock.core.i18n import N_, gettext
 from seisblock.core.typing import FloatArray
 from seisblock.records.site import EARTH_RADIUS_KM, great_circle_km, unwrap_longitude
 from seisblock.report.coastline import coastlines
@@ -170,7 +170,7 @@ def colour_values(stations: Stations, model: StationModel | None, *, gal: bool) 
         values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in stations.mapped])
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(model, StationBody):
-        name = gettext("overturning probability (1)") if model.runs else gettext(EVENT_WORDS[model.solver])
+        name = gettext("overturning probability (1)") if model.runs else gettext(EVENT_WORDS.get(model.event, N_("event")))
         if any(answer.effect.overturns_nominally for answer in stations.mapped):
             name = gettext("overturning probability (1); thick rim: nominal body overturned")
         return np.array([_overturned_share(answer) for answer in stations.mapped]), name, 1.0

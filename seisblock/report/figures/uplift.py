@@ -31,7 +31,7 @@ IN_AIR = N_("uplift")
 SUBSCRIPTS = "₁₂₃₄"
 
 
-def record_figure(responses: Uplifts, *, gal: bool = True) -> Figure:
+def figure(responses: Uplifts, *, gal: bool = True) -> Figure:
     """Return the figure: ground motion, four corner displacements with uplift shaded, plan with the times of uplift."""
     fig = _build_figure(responses, gal=gal)
     fig.narrow_layout = lambda: _build_figure(responses, gal=gal, narrow=True)

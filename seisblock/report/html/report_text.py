@@ -9,8 +9,8 @@ from typing import Any
 from seisblock.core.i18n import N_, gettext
 from seisblock.models.jump.chain import JUMPED
 from seisblock.report.directions import direction_label, format_displacement, with_direction
+from seisblock.report.text.respond import describe as respond_verdict
 from seisblock.report.text.respond import probability_sentence, variation_text
-from seisblock.report.text.respond import verdict as respond_verdict
 from seisblock.report.text.rock import lean_text
 from seisblock.report.units_display import format_length, format_size, length_unit
 from seisblock.studies.assessment import ModelResponse

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from seisblock.references import COMMAND_PAPERS
+from seisblock.references import papers
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.batch.tally import Tally
 from seisblock.studies.batch.task import Plan
@@ -68,7 +68,7 @@ def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Docu
     return BATCH.document(
         BatchParameters(solver=plan.solver, table=table, components=plan.components, runs=plan.runs, seed=plan.seed),
         entries,
-        citations=COMMAND_PAPERS[plan.solver],
+        citations=papers(*plan.model.topics),
         warnings=notes,
         upstairs=plan.preparation.floor is not None,
         records_count=tally.records,

@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.bodies.block import Block
-from seisblock.references import COMMAND_PAPERS
+from seisblock.references import command_papers
 from seisblock.report.json.bodies import BlockEntry, block_entry
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.fit.cross_validation import HeldOutScores
@@ -183,7 +183,7 @@ def document(fit: BlockFit, outcomes: OutcomeTable, block: Block | None, table: 
     return FIT.document(
         parameters,
         ((None, marginal) for marginal in results),
-        citations=COMMAND_PAPERS["fit"],
+        citations=command_papers("fit"),
         warnings=[*outcomes.notes, *fit.warnings],
         records_count=fit.experiment.records,
         outcomes_count=len(fit.experiment.outcomes),

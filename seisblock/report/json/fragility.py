@@ -8,7 +8,7 @@ from typing import Any
 from msgspec import Struct
 
 from seisblock.bodies.block import Block
-from seisblock.core.registry import SolverBody
+from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.references import papers
 from seisblock.report.json.bodies import BlockEntry, block_entry
@@ -16,9 +16,6 @@ from seisblock.report.json.entries import entry_type, to_entry
 from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.results import Fragility, FragilityStudy
-
-CITATION_TOPICS = {"respond": "all modes", "rock": "rocking", "slide": "sliding", "stack": "pile"}
-"""Citation topics of each solver."""
 
 
 class FragilityBody(Struct, frozen=True, kw_only=True):
@@ -138,7 +135,7 @@ def document(
         suite=options.get("suite"),
     )
     entries = ((None, to_entry(FRAGILITY_RESULT, curve)) for curve in study.curves)
-    citations = papers("fragility", CITATION_TOPICS[study.solver], *(["synthetic records"] if options.get("suite") else []))
+    citations = papers("fragility", *get_solver(study.solver).topics[:1], *(["synthetic records"] if options.get("suite") else []))
     return FRAGILITY.document(
         parameters,
         entries,

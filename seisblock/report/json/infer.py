@@ -144,12 +144,12 @@ CONTOUR_KEYS = {
     "joint": Annotated[list[JointEstimate], Meta(description="Joint estimates of several cemeteries by frequency; empty for one.")],
 }
 STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
-STONES = DocumentSchema("infer", StonesParameters, STONES_RESULT, CONTOUR_KEYS, name="stones")
+STONES = DocumentSchema("infer", StonesParameters, STONES_RESULT, CONTOUR_KEYS, name="stones", version=2)
 
 SCAN_KEYS = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against scale factor.")]}
 FACTORS_RESULT = entry_type("FactorsResult", ScaleFactors, exclude=("curve",), extra=SCAN_KEYS)
-SLID = DocumentSchema("infer", SlidParameters, FACTORS_RESULT, name="slid")
-JUMPED = DocumentSchema("infer", JumpedParameters, FACTORS_RESULT, name="jumped")
+SLID = DocumentSchema("infer", SlidParameters, FACTORS_RESULT, name="slid", version=2)
+JUMPED = DocumentSchema("infer", JumpedParameters, FACTORS_RESULT, name="jumped", version=2)
 
 RecordFactors = Sequence[tuple[Record | None, ScaleFactors]]
 

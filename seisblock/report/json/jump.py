@@ -26,7 +26,7 @@ JUMP_PARAMETERS = parameters_type(
     },
 )
 JUMP_RESULT = entry_type("JumpResult", JumpOutcome, leading=COMPONENT_KEY)
-JUMP = DocumentSchema("jump", JUMP_PARAMETERS, JUMP_RESULT)
+JUMP = DocumentSchema("jump", JUMP_PARAMETERS, JUMP_RESULT, version=2)
 
 
 def document(responses: Sequence[Response[JumpOutcome]], block: TwoLayerBlock, *, tenon: float | None) -> Document:

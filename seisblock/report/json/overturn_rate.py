@@ -68,8 +68,8 @@ class CurveResult(Result, frozen=True, kw_only=True):
 
 CURVE_KEY = {"curve": Annotated[tuple[CurvePoint, ...], Meta(description="Rate against PGA at the requested frequencies.")]}
 RATE_RESULT = entry_type("RateResult", CemeteryRate)
-RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY)
-CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve")
+RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY, version=2)
+CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve", version=2)
 
 
 def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, frequency_kind: str) -> RateParameters:

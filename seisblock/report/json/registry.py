@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import inspect
 import re
 from collections.abc import Iterator
@@ -11,32 +12,24 @@ from typing import Any
 import msgspec
 
 from seisblock.core.errors import ParameterError
+from seisblock.core.registry import solver_names
 from seisblock.report.json.schema import DocumentSchema
 from seisblock.report.json.units import split_unit
 
-DOCUMENTS: dict[str, tuple[str, ...]] = {
-    "measure": ("measure:MEASURE",),
-    "respond": ("respond:RESPOND",),
-    "slide": ("slide:SLIDE", "slide:STUDY"),
-    "rock": ("rock:ROCK",),
-    "jump": ("jump:JUMP",),
-    "uplift": ("uplift:UPLIFT", "uplift:HARMONIC"),
-    "stack": ("stack:STACK", "stack:STUDY"),
-    "criteria": ("criteria:CRITERIA",),
-    "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING", "spectrum:MODES"),
-    "overturn-rate": ("overturn_rate:RATE", "overturn_rate:CURVE_ALONE"),
-    "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
-    "body": ("body:BODY",),
-    "batch": ("batch:BATCH",),
-    "map": ("map:MAP",),
-    "fragility": ("fragility:FRAGILITY",),
-    "risk": ("risk:RISK",),
-    "fit": ("fit:FIT",),
-    "validate": ("validate:VALIDATE",),
-    "cite": ("citations:CITE",),
-    "samples": ("citations:SAMPLES",),
-}
-"""Module and name of each document schema by command; text, so that listing needs no import."""
+STUDY_DOCUMENTS = (
+    "measure", "criteria", "spectrum", "overturn-rate", "infer", "body", "batch", "map", "fragility", "risk", "fit", "validate", "cite",
+    "samples",
+)  # fmt: skip
+"""Commands with a document, apart from those of the solvers."""
+
+CITATION_COMMANDS = ("cite", "samples")
+"""Commands whose documents are defined in :mod:`seisblock.report.json.citations`."""
+
+
+def document_commands() -> tuple[str, ...]:
+    """Return the commands with a document: solvers, then studies and tools."""
+    return (*solver_names(), *STUDY_DOCUMENTS)
+
 
 JSON_SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -49,10 +42,15 @@ def document_schemas(command: str) -> list[DocumentSchema]:
     ParameterError
         If it answers with none.
     """
-    if command not in DOCUMENTS:
-        raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(DOCUMENTS))
-    pairs = (name.split(":") for name in DOCUMENTS[command])
-    return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
+    if command not in document_commands():
+        raise ParameterError("{command!r} has no JSON document; available: {known}", command=command, known=list(document_commands()))
+    own = f"{__package__}.{'citations' if command in CITATION_COMMANDS else command.replace('-', '_')}"
+    if importlib.util.find_spec(own) is None:
+        from seisblock.report.json.solver import solver_schema
+
+        return [solver_schema(command)]
+    schemas = vars(importlib.import_module(own)).values()
+    return [schema for schema in schemas if isinstance(schema, DocumentSchema) and schema.command == command]
 
 
 def json_schema(command: str) -> dict[str, Any]:

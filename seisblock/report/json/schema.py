@@ -17,7 +17,6 @@ from seisblock.records.floor_motion import is_floor_motion
 from seisblock.records.qc_report import qc_summary
 from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
 from seisblock.references import papers
-from seisblock.report.json.versions import schema_name
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -188,6 +187,8 @@ class DocumentSchema:
         Further keys, between the results and the warnings.
     name : str
         Distinguishes several kinds of one command.
+    version : int
+        Incremented when a key is removed or changes name, unit or type; not when one is added.
     """
 
     command: str
@@ -195,11 +196,12 @@ class DocumentSchema:
     result: type[Result]
     extra: Mapping[str, Any] = field(default_factory=dict)
     name: str = ""
+    version: int = 1
 
     @property
     def schema(self) -> str:
         """Value of the key ``schema``."""
-        return schema_name(self.command)
+        return f"seisblock/{self.command}/{self.version}"
 
     @cached_property
     def type(self) -> type[Document]:

@@ -122,8 +122,8 @@ PROBABILITY_KEY = Annotated[PileProbability, Meta(description="Probabilities of 
 STACK_RESULT = entry_type(
     "StackResult", StackOutcome, leading=COMPONENT_KEY, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY}
 )
-STACK = DocumentSchema("stack", STACK_PARAMETERS, STACK_RESULT)
-STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion")
+STACK = DocumentSchema("stack", STACK_PARAMETERS, STACK_RESULT, version=3)
+STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion", version=3)
 
 
 def document(

@@ -15,21 +15,19 @@ MAX_BODIES = 20
 MAX_REASONS = 5
 """Most reasons listed for rows without a result."""
 
-_EVENT_COUNT_TEXTS = {
-    "respond": N_("overturned in {happened} of {answers} runs"),
-    "rock": N_("overturned in {happened} of {answers} runs"),
-    "slide": N_("slid in {happened} of {answers} runs"),
-    "jump": N_("jumped in {happened} of {answers} runs"),
-    "uplift": N_("uplift in {happened} of {answers} runs"),
-    "stack": N_("at least one stone fell in {happened} of {answers} runs"),
+_EVENT_COUNT_TEXTS: dict[str, str] = {
+    "overturned": N_("overturned in {happened} of {answers} runs"),
+    "slips": N_("slid in {happened} of {answers} runs"),
+    "outcome": N_("jumped in {happened} of {answers} runs"),
+    "uplifts": N_("uplift in {happened} of {answers} runs"),
+    "overturned_any": N_("at least one stone fell in {happened} of {answers} runs"),
 }
-_EVENT_HEADINGS = {
-    "respond": N_("overturned"),
-    "rock": N_("overturned"),
-    "slide": N_("slid"),
-    "jump": N_("jumped"),
-    "uplift": N_("uplift"),
-    "stack": N_("stone fell"),
+_EVENT_HEADINGS: dict[str, str] = {
+    "overturned": N_("overturned"),
+    "slips": N_("slid"),
+    "outcome": N_("jumped"),
+    "uplifts": N_("uplift"),
+    "overturned_any": N_("stone fell"),
 }
 
 
@@ -42,14 +40,22 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     messages : mapping of str to str
         Translatable messages by their English text.
     """
-    solver = tally.solver.name
-    total = gettext(_EVENT_COUNT_TEXTS[solver], happened=tally.event_count, answers=tally.answers)
+    event = tally.solver.event
+    total = gettext(
+        _EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} runs")), happened=tally.event_count, answers=tally.answers
+    )
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
     )
     bodies = tally.sorted_counts()
     if bodies and tally.answers:
-        header = [gettext("body"), gettext("runs"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no result")]
+        header = [
+            gettext("body"),
+            gettext("runs"),
+            gettext(_EVENT_HEADINGS.get(event, N_("event"))),
+            gettext("share"),
+            gettext("no result"),
+        ]
         rows = [
             [gettext(c.body), c.answers, c.events, format_share(c.events / c.answers) if c.answers else None, c.failures]
             for c in bodies[:MAX_BODIES]

@@ -13,7 +13,7 @@ from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_cri
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.model_comparison import agreement_line
-from seisblock.report.text.respond import verdict as fate
+from seisblock.report.text.respond import describe as fate
 from seisblock.report.text.rock import verdict
 from seisblock.report.text.tables import format_number, group_answers, styled_line, table
 from seisblock.report.units_display import acceleration_unit, velocity_unit

@@ -49,7 +49,7 @@ MIN_VELOCITY = 0.005
 
 def tables(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Iterator[Any]:
     """Yield, per component, the verdict and a table with a column per chain as in [Sugimoto2017]_ table 1."""
-    for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(verdict(item, gal=gal))]):
+    for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(describe(item, gal=gal))]):
         yield from heading
         for response in part:
             yield from _details(response, gal=gal, tenon=tenon)
@@ -100,7 +100,7 @@ def _format_friction(friction: float | None) -> str:
     return "-" if friction is None else f"{friction:.2f}" if math.isfinite(friction) else gettext("none suffices")
 
 
-def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
+def describe(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     """Return the final outcome and the friction required for it."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:

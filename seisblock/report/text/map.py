@@ -13,30 +13,19 @@ from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.stations import StationReport, Stations
 from seisblock.studies.map.surveyed_places import SurveyComparison, contradictions
 
-COLUMNS = {
-    "respond": ("overturned", "probability", "max_slip_m"),
-    "rock": ("overturned", "probability"),
-    "slide": ("happened", "max_slip_m"),
-    "jump": ("happened", "overturned", "max_slip_m"),
-    "uplift": ("happened", "max_uplift_m"),
-}
-"""Table columns by solver."""
-
-EVENT_WORDS = {
-    "respond": N_("falls"),
-    "rock": N_("falls"),
-    "slide": N_("slides"),
-    "jump": N_("jumps"),
-    "uplift": N_("lifts"),
+EVENT_WORDS: dict[str, str] = {
+    "overturned": N_("falls"),
+    "slips": N_("slides"),
+    "outcome": N_("jumps"),
+    "uplifts": N_("lifts"),
 }
 """Column heading of the event of each solver."""
 
-_VERDICTS = {
-    "respond": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
-    "rock": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
-    "slide": N_("{subject}: slides at {some} of {stations}, largest response at {station}"),
-    "jump": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
-    "uplift": N_("{subject}: lifts at {some} of {stations}, largest response at {station}"),
+_VERDICTS: dict[str, str] = {
+    "overturned": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
+    "slips": N_("{subject}: slides at {some} of {stations}, largest response at {station}"),
+    "outcome": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
+    "uplifts": N_("{subject}: lifts at {some} of {stations}, largest response at {station}"),
 }
 
 MAX_ROWS = 40
@@ -167,7 +156,13 @@ def verdict(survey_map: Stations, model: StationModel | None) -> str:
         return gettext("{stations}, largest shaking at {station}", stations=station_text, station=worst.label)
     if isinstance(model, StationBody):
         event_count = sum(bool(answer.effect.happened) for answer in answers)
-        return gettext(_VERDICTS[model.solver], subject=gettext(model.name), some=event_count, stations=station_text, station=worst.label)
+        return gettext(
+            _VERDICTS.get(model.event, N_("{subject}: event at {some} of {stations}, largest response at {station}")),
+            subject=gettext(model.name),
+            some=event_count,
+            stations=station_text,
+            station=worst.label,
+        )
     rates = [answer.effect.rate or 0.0 for answer in answers]
     return gettext(
         "{subject}: stones overturn at {falls} of {stations}, largest rate at {station}: {rate}",
@@ -203,13 +198,13 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
     if not isinstance(model, StationBody):
         return [gettext("rate"), gettext("worst to")]
     header = {
-        "happened": gettext(EVENT_WORDS[model.solver]),
+        "happened": gettext(EVENT_WORDS.get(model.event, N_("event"))),
         "overturned": gettext("falls"),
         "probability": gettext("share"),
         "max_slip_m": gettext("moves ({unit})", unit=way.name),
         "max_uplift_m": gettext("rises ({unit})", unit=way.name),
     }
-    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst to")]
+    return [*(header[name] for name in model.columns), gettext("worst to")]
 
 
 def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:
@@ -219,7 +214,7 @@ def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) 
     towards = format_number(None) if effect.azimuth_deg is None else f"{effect.azimuth_deg:g}°"
     if not isinstance(model, StationBody):
         return [format_number(None) if effect.rate is None else format_share(effect.rate), towards]
-    return [*(_cell(name, getattr(effect, name), way) for name in COLUMNS[model.solver]), towards]
+    return [*(_cell(name, getattr(effect, name), way) for name in model.columns), towards]
 
 
 def _cell(name: str, value: Any, way: Unit) -> str:

@@ -60,14 +60,14 @@ def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bo
 
 
 def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
-    yield styled_line(verdict(response, gal=gal), "bold")
+    yield styled_line(describe(response, gal=gal), "bold")
     if "probability" in extra:
         yield styled_line("  " + probability_sentence(extra["probability"], gal=gal))
     if "directions" in extra:
         yield styled_line("  " + direction_sentence(extra["directions"]))
 
 
-def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
+def describe(response: Response[RespondOutcome], *, gal: bool = True) -> str:
     """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if outcome.overturned:

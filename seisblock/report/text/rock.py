@@ -49,7 +49,7 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
     """
     pairs = zip(responses, extras, strict=True)
     for heading, part in group_answers(
-        pairs, lambda pair: pair[0].motion.record, lambda pair: [styled_line(first_line(pair[0], mu, gal=gal))]
+        pairs, lambda pair: pair[0].motion.record, lambda pair: [styled_line(describe(pair[0], mu, gal=gal))]
     ):
         yield from heading
         yield _outcome_table([r for r, _ in part], gal=gal)
@@ -142,7 +142,7 @@ def _onset_text(response: Response[RockOutcome], *, gal: bool) -> str:
     return threshold_text(ROCKS, towards, response.motion, gravity=options.gravity, vertical=options.vertical, gal=gal)
 
 
-def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
+def describe(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
     """Return the verdict, the rocking threshold of a block at rest, and a note if the friction does not suffice."""
     outcome, name = response.outcome, response.motion.name or "x"
     verdict_text = verdict(outcome, response.motion.name)

@@ -26,7 +26,7 @@ RESIDUAL = N_("residual: at the last sample of the record; final: at rest after 
 
 def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: bool = True) -> Iterator[Any]:
     """Yield, per record, a row per direction, then the table of all azimuths if there is one."""
-    for preamble, group in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
+    for preamble, group in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(describe(item, gal=gal))]):
         yield from preamble
         unit = length_unit((length for response in group for length in _lengths(response)), gal=gal)
         yield table(
@@ -64,7 +64,7 @@ def _lengths(response: Response[SlideOutcome]) -> tuple[float | None, ...]:
     return outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m
 
 
-def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
+def describe(response: Response[SlideOutcome], *, gal: bool = True) -> str:
     """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:

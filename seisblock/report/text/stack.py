@@ -44,7 +44,7 @@ def tables(responses: StackResponses, extras: Sequence[Mapping[str, Any]], *, ga
 
 
 def _summary(response: Response[StackOutcome], extra: Mapping[str, Any], *, with_name: bool, gal: bool) -> Iterator[Text]:
-    text = verdict(response)
+    text = describe(response)
     yield styled_line(gettext("{name}: {text}", name=response.motion.name or "x", text=text) if with_name else text)
     if "probability" in extra:
         yield styled_line("  " + probability_sentence(extra["probability"], gal=gal))
@@ -91,7 +91,7 @@ def _fall_direction(stone: StoneOutcome, motion: Motion) -> str:
     )
 
 
-def verdict(response: Response[StackOutcome]) -> str:
+def describe(response: Response[StackOutcome]) -> str:
     """Return the outcome in a sentence."""
     outcome = response.outcome
     if outcome.overturned_any:

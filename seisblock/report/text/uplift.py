@@ -28,7 +28,7 @@ CORNER_LABELS = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
 
 def tables(responses: UpliftResponses, *, gal: bool) -> Iterator[Any]:
     """Yield the record, and per component a sentence and a table of the corners."""
-    for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(sentence(item, gal=gal))]):
+    for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(describe(item, gal=gal))]):
         yield from heading
         yield from (block for response in part for block in _details(response, gal=gal))
 
@@ -62,7 +62,7 @@ def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]
     yield [gettext("... over static"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
 
 
-def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
+def describe(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
     """Return the outcome in a sentence."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.uplifts:

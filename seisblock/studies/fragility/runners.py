@@ -25,7 +25,7 @@ from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import motion_gains, raise_lift_off
 from seisblock.records import Motion
 from seisblock.records._validation import vertical_gain
-from seisblock.studies.fragility.damage_states import EndStates
+from seisblock.studies.fragility.damage_states import OVERTURN, SLIP, EndStates
 from seisblock.studies.parallel import map_batches, map_threads
 from seisblock.studies.respond.probability import ParameterVariation, perturbed_respond_params
 from seisblock.studies.rocking.perturb import Spread, draw_samples, perturbed_rock_params
@@ -116,8 +116,8 @@ def single_end_states(solver_body: SolverBody, motion: Motion, factors: FloatArr
             outcome = solver.solve(solver_body.body, scaled_motion, **solver_body.options.keywords()).outcome
         except SolverError:
             return False, math.nan
-        overturned = bool(getattr(outcome, solver.overturned)) if solver.overturned else False
-        slip = getattr(outcome, solver.residual) if solver.residual else 0.0
+        overturned = OVERTURN in solver.damage_states and bool(getattr(outcome, solver.damage_states[OVERTURN]))
+        slip = getattr(outcome, solver.damage_states[SLIP]) if SLIP in solver.damage_states else 0.0
         return overturned, math.inf if overturned else max(map(abs, slip.values())) if isinstance(slip, Mapping) else abs(slip)
 
     ends = list(map_threads(run_one, factors.tolist()))

@@ -16,11 +16,10 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver, solver_names
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
-from seisblock.models.jump.chain import OVERTURNED_LANDED, OVERTURNED_ROCKING
 from seisblock.records import Component, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.process import component_at_azimuth
-from seisblock.references import COMMAND_PAPERS, papers
+from seisblock.references import papers
 from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.table import REASON, Row
 from seisblock.studies.batch.task import Plan, component_rows
@@ -31,6 +30,9 @@ from seisblock.studies.respond.probability import MOVED_M, respond_probability
 from seisblock.studies.survey.assessment import AssessmentMethod, assess_stones
 from seisblock.studies.survey.overturning_rate import rate_from_stones
 from seisblock.studies.survey.shaking import Shaking
+
+RISE = "max_uplift_m"
+"""Displacement field of a solver whose displacement is a rise."""
 
 
 @dataclass(frozen=True)
@@ -151,12 +153,31 @@ class StationBody:
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the cited papers."""
-        return papers("all modes") if self.solver == "respond" else COMMAND_PAPERS[self.solver]
+        topics = get_solver(self.solver).topics
+        return papers(*(topics[:1] if self.solver == "respond" else topics))
 
     @property
     def is_directional(self) -> bool:
         """True if the solver covers all azimuths."""
         return capabilities(self.solver).worst_azimuth is not None
+
+    @property
+    def event(self) -> str:
+        """Field of the outcome for the event of the solver."""
+        return get_solver(self.solver).event
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Fields of a result that the solver fills."""
+        solver = get_solver(self.solver)
+        filled = {
+            "happened": solver.event != solver.overturned or solver.event_values != solver.overturned_values,
+            "overturned": solver.overturned is not None,
+            "probability": capabilities(self.solver).probability is not None,
+            "max_slip_m": solver.displacement is not None and solver.displacement != RISE,
+            "max_uplift_m": solver.displacement == RISE,
+        }
+        return tuple(name for name, is_filled in filled.items() if is_filled)
 
     def check_options(self) -> None:
         """Raise for invalid solver options, tested once on a motion of 4 zero samples.
@@ -212,16 +233,13 @@ def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
     name, column = str(row["component"]), model.displacement
     distance = None if column is None or row[column] is None else abs(row[column])
     azimuths = {component.code: component.azimuth_deg for component in record.components}
-    overturned = row.get("overturned")
-    if model.name == "jump":
-        overturned = row["outcome"] in (OVERTURNED_ROCKING, OVERTURNED_LANDED)
     return StationResult(
         azimuths[name] if name in azimuths else float(name),
         happened=model.event_occurred(row),
-        overturned=overturned,
+        overturned=model.overturns(row),
         probability=row.get("probability_overturned"),
-        max_slip_m=None if column == "max_uplift_m" else distance,
-        max_uplift_m=distance if column == "max_uplift_m" else None,
+        max_slip_m=None if column == RISE else distance,
+        max_uplift_m=distance if column == RISE else None,
     )
 
 

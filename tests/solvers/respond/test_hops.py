@@ -14,7 +14,7 @@ from seisblock.models.respond.batch import respond_many
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
-from seisblock.report.text.respond import verdict
+from seisblock.report.text.respond import describe
 from tests.solvers.respond.cases import SLENDER, followed, leaning, sequence, still
 
 
@@ -78,7 +78,7 @@ def test_hops_without_end_are_given_up():
     assert response.outcome.outcome == "hops without end"
     assert not response.outcome.settled
     assert any("still bouncing" in text for text in response.warnings)
-    assert "no result: run stopped at" in verdict(response, gal=True)
+    assert "no result: run stopped at" in describe(response, gal=True)
 
 
 def test_runs_that_were_given_up_are_no_answers():
