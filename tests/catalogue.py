@@ -132,7 +132,7 @@ def help_messages() -> dict[str, str]:
     context = click.Context(main)
     for name in ("", *COMMANDS):
         command = main.get_command(context, name) if name else main
-        texts = [*paragraphs(command.help or ""), *(COMMANDS[name][1:] if name else ())]
+        texts = [*paragraphs(command.help or ""), *((COMMANDS[name],) if name else ())]
         texts += [each.help for each in command.params if getattr(each, "help", None)]
         found |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in found}
     return found

@@ -19,8 +19,8 @@ import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.command import SECTIONS
 from seisblock.cli.help import help_rows, paragraphs
-from seisblock.references import COMMAND_PAPERS, REFERENCES
-from seisblock.report.json.registry import DOCUMENTS, json_schema
+from seisblock.references import REFERENCES, cited_commands, command_papers
+from seisblock.report.json.registry import document_commands, json_schema
 
 FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
@@ -50,10 +50,10 @@ def command(name: str, context: click.Context) -> Iterator[str]:
     examples = getattr(found, "examples", ())
     if examples:
         yield "\n".join(("```sh", *examples, "```\n"))
-    if name in DOCUMENTS:
+    if name in document_commands():
         yield f"Document of `--json`: [{name}](documents.md#{name})\n"
-    if COMMAND_PAPERS.get(name):
-        yield "Papers: " + ", ".join(f"[{key}]" for key in COMMAND_PAPERS[name]) + "\n"
+    if name in cited_commands():
+        yield "Papers: " + ", ".join(f"[{key}]" for key in command_papers(name)) + "\n"
 
 
 def commands(_: str) -> str:
@@ -92,7 +92,7 @@ def table(name: str, schema: dict[str, Any]) -> str:
 
 def documents(_: str) -> str:
     """Return the keys of every document of ``--json``; types that several share stand once, at the end."""
-    types = {kind: json_schema(kind) for kind in DOCUMENTS}
+    types = {kind: json_schema(kind) for kind in document_commands()}
     owners: dict[str, list[str]] = {}
     for kind, schema in types.items():
         for name in schema["$defs"]:

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.references import COMMAND_PAPERS
+from seisblock.references import command_papers
 from tests.stations import EPICENTRE, bundle, station_files
 
 
@@ -141,7 +141,7 @@ def test_every_solver_is_told(words, says, heads, monkeypatch):
     assert shown.exit_code == 0 and says in shown.stdout, shown.stderr
     assert all(word in shown.stdout for word in (*heads.split(), "Emergency"))
     told = json.loads(CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split(), "--json"]).stdout)
-    assert told["parameters"]["solver"] == words.split()[1] and set(COMMAND_PAPERS[words.split()[1]]) <= set(told["citations"])
+    assert told["parameters"]["solver"] == words.split()[1] and set(command_papers(words.split()[1])) <= set(told["citations"])
 
 
 def test_the_storey_is_told():

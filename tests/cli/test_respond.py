@@ -13,7 +13,7 @@ from seisblock.cli import main
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.report.figures.respond import figure
-from seisblock.report.text.respond import format_signed, probability_sentence, describe
+from seisblock.report.text.respond import describe, format_signed, probability_sentence
 from seisblock.report.units_display import length_unit
 from seisblock.studies.respond.probability import ParameterVariation, Probability
 

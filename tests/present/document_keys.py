@@ -3,8 +3,7 @@
 import sys
 from pathlib import Path
 
-from seisblock.report.json.registry import DOCUMENTS, json_schema
-from seisblock.report.json.versions import schema_name
+from seisblock.report.json.registry import document_commands, document_schemas, json_schema
 
 STORED = Path(__file__).with_name("keys")
 
@@ -17,7 +16,7 @@ def lines(command):
     for root in roots:
         for path, kind in _walk({"$ref": root["$ref"]}, schema["$defs"], root["$ref"].rpartition("/")[2]):
             kinds.setdefault(path, []).append(kind)
-    return [schema_name(command), *(f"{path} {'|'.join(dict.fromkeys(each))}" for path, each in kinds.items())]
+    return [document_schemas(command)[0].schema, *(f"{path} {'|'.join(dict.fromkeys(each))}" for path, each in kinds.items())]
 
 
 def _walk(shape, definitions, path):
@@ -58,7 +57,7 @@ def gone(command):
 
 def refresh():
     """Write the keys of every command down; refuse where one went or changed without a step of the version."""
-    for command in DOCUMENTS:
+    for command in document_commands():
         if gone(command):
             sys.exit(f"{command}: step its version in versions.py first; these went or changed: {'; '.join(gone(command))}")
         text = "\n".join(lines(command)) + "\n"

@@ -30,6 +30,7 @@ from seisblock import (
 )
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.scan.scan import scan_body
+from seisblock.core.registry import solver_names
 from seisblock.measures import measure, response_spectrum
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rock.options import RockOptions
@@ -57,7 +58,7 @@ from seisblock.report.figures import (
 )
 from seisblock.report.figures import stations as stations_figure
 from seisblock.report.figures.measure import measure_figure
-from seisblock.report.registry import PRESENTERS, response_figure
+from seisblock.report.registry import response_figure
 from seisblock.studies.criteria_comparison import compare_criteria
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -246,7 +247,7 @@ def fitted_block():
 
 def of_models():
     """Yield the figure of each model, of one direction and of two."""
-    for model in PRESENTERS:
+    for model in solver_names():
         function = getattr(import_module(f"{figures.__name__}.{model}"), "record_figure" if model == "uplift" else "figure")
         yield model, (function, lambda gal, model=model: response_figure([response(model)], gal=gal))
         if model != "stack":

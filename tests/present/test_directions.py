@@ -7,6 +7,7 @@ import pytest
 from matplotlib.text import Text
 
 from seisblock.core.i18n import use_locale
+from seisblock.core.registry import solver_names
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.report.animation.html import animation_html
 from seisblock.report.animation.jump import jump_animation
@@ -18,7 +19,7 @@ from seisblock.report.animation.stack import stack_animation
 from seisblock.report.animation.uplift import uplift_animation
 from seisblock.report.directions import direction_in_plane, direction_label, phase_label, with_direction
 from seisblock.report.html.report_text import sentences, verdict
-from seisblock.report.registry import PRESENTERS, response_figure, verdict_text
+from seisblock.report.registry import response_figure, verdict_text
 from seisblock.studies.assessment import ModelResponse
 from tests.lengths import all_but_slow
 from tests.present.long_record import response
@@ -33,7 +34,7 @@ NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("model", all_but_slow(PRESENTERS, set(PRESENTERS) - {"stack"}))
+@pytest.mark.parametrize("model", all_but_slow(solver_names(), set(solver_names()) - {"stack"}))
 def test_a_model_names_directions_after_the_record(model, lang):
     """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
     found = response(model)

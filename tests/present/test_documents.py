@@ -11,11 +11,10 @@ from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
 from seisblock.core.i18n import lazy_gettext
-from seisblock.references import COMMAND_PAPERS, REFERENCES
+from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.encode import to_builtins
-from seisblock.report.json.registry import DOCUMENTS, document_schemas, json_schema
+from seisblock.report.json.registry import document_commands, document_schemas, json_schema
 from seisblock.report.json.units import split_unit
-from seisblock.report.json.versions import VERSIONS
 from tests.present.document_keys import gone, lines, stored
 
 WITHOUT_DOCUMENT = {"report", "completion", "schema"}
@@ -124,20 +123,20 @@ def test_an_answer_cites_what_its_command_relies_on(line, documents):
     """The papers of a document are among those that `cite COMMAND` prints; ``validate`` those of its cases."""
     command, cited = line.split()[0], documents(line)["citations"]
     assert len(set(cited)) == len(cited)
-    assert set(cited) <= set(COMMAND_PAPERS.get(command, REFERENCES))
+    assert set(cited) <= set(command_papers(command) if command in cited_commands() else REFERENCES)
     assert bool(cited) is (command not in {"samples"})
 
 
 def test_every_command_has_a_schema_and_every_kind_an_example(documents):
     """A command without schema writes no document; each kind of document is among those validated."""
-    assert set(COMMANDS) - WITHOUT_DOCUMENT == set(DOCUMENTS) == set(VERSIONS)
-    for command in DOCUMENTS:
+    assert set(COMMANDS) - WITHOUT_DOCUMENT == set(document_commands())
+    for command in document_commands():
         told = [set(documents(line)["parameters"]) for line in EVERY if line.split()[0] == command]
         for kind in document_schemas(command):
             assert set(kind.parameters.__struct_fields__) in told, f"{command}: no example of {kind.name or 'its document'}"
 
 
-@pytest.mark.parametrize("command", list(DOCUMENTS))
+@pytest.mark.parametrize("command", document_commands())
 def test_no_key_changes_unless_the_version_does(command):
     """What is written down in ``keys`` still holds, or the version was stepped; what is new is written down too."""
     assert gone(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
@@ -157,7 +156,7 @@ def test_a_key_that_changes_is_noticed(monkeypatch):
     assert gone("slide") == []
 
 
-@pytest.mark.parametrize("command", list(DOCUMENTS))
+@pytest.mark.parametrize("command", document_commands())
 def test_every_number_names_its_unit(command):
     """In its own key, in a key above it, in a key ``unit`` beside it; or it is a pure number."""
     paths = dict(line.rsplit(" ", 1) for line in lines(command)[1:])
@@ -186,7 +185,7 @@ def test_the_schema_is_printed_and_the_list_costs_nothing():
     """`seisblock schema rock` prints JSON; without a command the names and versions; an unknown command is a usage error."""
     printed = CliRunner().invoke(main, ["schema", "rock"])
     assert json.loads(printed.stdout) == json_schema("rock")
-    assert CliRunner().invoke(main, ["schema"]).stdout.split() == [f"seisblock/{name}/{version}" for name, version in VERSIONS.items()]
+    assert CliRunner().invoke(main, ["schema"]).stdout.split() == [document_schemas(name)[0].schema for name in document_commands()]
     assert CliRunner().invoke(main, ["schema", "report"]).exit_code == 2
 
 

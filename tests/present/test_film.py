@@ -22,9 +22,11 @@ from seisblock.records.process import crop
 from seisblock.report.animation.animation import Animation, Line, Strip
 from seisblock.report.animation.frames import format_speed
 from seisblock.report.animation.html import animation_html
-from seisblock.report.animation.jump import animate, jump_animation
+from seisblock.report.animation.jump import animate as animate_jump
+from seisblock.report.animation.jump import jump_animation
 from seisblock.report.animation.render import AnimationOptions
-from seisblock.report.animation.rock import animate, rocking_animation
+from seisblock.report.animation.rock import animate as animate_rock
+from seisblock.report.animation.rock import rocking_animation
 from seisblock.report.animation.scene2d import Body, Piece, Scene2D, rectangle, rotate
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
@@ -119,7 +121,7 @@ def test_titles_are_text_and_not_markup():
 def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
     """--slow 4 takes four times the pictures, of which each stands as long."""
     for slow in (1.0, 4.0):
-        animate(jumped, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
+        animate_jump(jumped, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
     with Image.open(tmp_path / "1.gif") as fast, Image.open(tmp_path / "4.gif") as slow:
         assert slow.n_frames == pytest.approx(4 * fast.n_frames, abs=4)
         assert fast.info["duration"] == slow.info["duration"] == 50
@@ -131,7 +133,7 @@ def test_drawing_tells_how_far_it_is(tmp_path):
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
     told = []
-    animate(response, tmp_path / "rock.gif", AnimationOptions(progress=lambda done, total: told.append((done, total))))
+    animate_rock(response, tmp_path / "rock.gif", AnimationOptions(progress=lambda done, total: told.append((done, total))))
     assert told[-1][0] == told[-1][1] > 50
 
 

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from seisblock.core.registry import solver_names
 from seisblock.core.results import Histories
 from seisblock.report import units_display
-from seisblock.report.registry import PRESENTERS, response_figure
+from seisblock.report.registry import response_figure
 from seisblock.report.units_display import TEXT_DECIMALS, format_length, length_cell, length_unit
 from tests.lengths import all_but_slow
 from tests.present.long_record import response
@@ -57,7 +58,7 @@ def test_a_length_is_written_to_what_can_be_read_off():
     assert format_length(0.21534, gal=False) == "0.215 m" and set(TEXT_DECIMALS) == {"mm", "cm", "m"}
 
 
-@pytest.mark.parametrize("model", all_but_slow(PRESENTERS, {"slide", "rock", "jump"}))
+@pytest.mark.parametrize("model", all_but_slow(solver_names(), {"slide", "rock", "jump"}))
 def test_figure_and_film_speak_of_the_same_units(model):
     """What the panels of a figure are in, the strips of its film are in, too; in SI nothing else is left."""
     for gal, wanted in ((True, {"gal", "kine", "cm", "mm"}), (False, {"m/s²", "m/s", "m"})):
