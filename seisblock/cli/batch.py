@@ -19,6 +19,7 @@ from seisblock.core.registry import solver_names
 
 @click.command(
     cls=Command,
+    essential=("--bodies", "--solver", "--mu", "--runs", "--out", "--resume"),
     examples=(
         "seisblock batch synthetic_jma.csv elcentro_1940_ns.csv --bodies gravestone --out results.csv",
         "seisblock batch synthetic_knet.knt.tar.gz --bodies gravestone --solver rock --runs 50 --out chances.csv --resume",

@@ -26,6 +26,13 @@ SECTIONS = (
 """Headings of ``--help`` in their order; each option names its section."""
 
 
+SHARED_ESSENTIAL = frozenset(("--component", "--json", "--csv", "--plot", "--animate", "--help", "--help-all"))
+"""Shared options of the short help."""
+
+HELP_ALL = "seisblock.help_all"
+"""Key in the context's meta for ``--help-all``."""
+
+
 class Finite(click.types.FloatParamType):
     """Float parameter that accepts only finite numbers."""
 
@@ -70,14 +77,18 @@ class Command(click.Command):
     ----------
     examples : sequence of str
         Example command lines.
+    essential : sequence of str
+        Options of ``--help``, beside the shared ones; ``--help-all`` shows all. Default: all.
     """
 
     context_class = Context
 
-    def __init__(self, *args: Any, examples: Sequence[str] = (), **kwargs: Any) -> None:
-        self.examples = tuple(examples)
+    def __init__(self, *args: Any, examples: Sequence[str] = (), essential: Sequence[str] = (), **kwargs: Any) -> None:
+        self.examples, self.essential = tuple(examples), frozenset(essential)
         super().__init__(*args, **kwargs)
         self.params.append(lang_option())
+        if essential:
+            self.params.append(_help_all_option())
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the arguments; check repeated options and suggest names for unknown ones."""
@@ -111,12 +122,19 @@ class Command(click.Command):
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
         groups: dict[str, list[tuple[str, str]]] = {name: [] for name in SECTIONS}
-        for parameter, row in help_rows(self.get_params(ctx), ctx):
+        shown = self.get_params(ctx)
+        if self.essential and HELP_ALL not in ctx.meta:
+            shown = [parameter for parameter in shown if self._is_essential(parameter)]
+        for parameter, row in help_rows(shown, ctx):
             groups[f"{getattr(parameter, 'section', 'Other')} options"].append(row)
         for name, rows in groups.items():
             if rows:
                 with formatter.section(gettext(name)):
                     formatter.write_dl(rows)
+
+    def _is_essential(self, parameter: click.Parameter) -> bool:
+        """Return whether a parameter belongs to the short help."""
+        return isinstance(parameter, click.Argument) or not (self.essential | SHARED_ESSENTIAL).isdisjoint(parameter.opts)
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the examples."""
@@ -124,6 +142,20 @@ class Command(click.Command):
             with formatter.section(gettext("Examples")):
                 for line in self.examples:
                     formatter.write(f"  {line}\n")
+
+
+def _help_all_option() -> click.Option:
+    """Return ``--help-all``, which shows the help with all options."""
+
+    def show(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+        del param
+        if value and not ctx.resilient_parsing:
+            ctx.meta[HELP_ALL] = True
+            click.echo(ctx.get_help(), color=ctx.color)
+            ctx.exit()
+
+    text = N_("Show all options and exit.")
+    return Option(["--help-all"], is_flag=True, is_eager=True, expose_value=False, callback=show, section="Other", help=text)
 
 
 def lang_option() -> click.Option:

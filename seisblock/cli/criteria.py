@@ -20,6 +20,7 @@ from seisblock.models.rock.options import RockOptions
 
 @click.command(
     cls=Command,
+    essential=("--width", "--height", "--inset", "--kind", "--block", "--mu", "--vertical"),
     examples=("seisblock criteria --width 24cm --height 72cm", "seisblock criteria record.csv --block gravestone --json"),
 )
 @record_options

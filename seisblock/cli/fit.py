@@ -47,6 +47,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 
 @click.command(
     cls=Command,
+    essential=("--outcome", "--free", "--bounds", "--width", "--height", "--block", "--folds"),
     examples=(
         "seisblock fit shaken_block.csv --free alpha,p --plot fit.png",
         "seisblock fit shaken_block.csv --width 26cm --height 90cm --free inset --scatter 0.05",

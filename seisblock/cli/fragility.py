@@ -22,6 +22,7 @@ METHODS = ("stripes", "ida", "cloud")
 
 @click.command(
     cls=Command,
+    essential=("--suite", "--bodies", "--width", "--height", "--block", "--mu", "--solver", "--limit", "--im", "--perturb"),
     examples=(
         "seisblock fragility synthetic_jma.csv elcentro_1940_ns.csv --width 30cm --height 1.2m --solver rock --im pgv",
         "seisblock fragility synthetic_jma.csv elcentro_1940_ns.csv --bodies gravestone --solver rock --im pga,pgv --plot fragility.png",

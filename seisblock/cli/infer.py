@@ -36,6 +36,7 @@ JUMPED_OPTIONS = (
 
 @click.command(
     cls=Command,
+    essential=("--cemetery", "--rate", "--slid", "--jumped", "--mu", "--frequency", "--criterion", "--inset"),
     examples=(
         "seisblock infer --rate 35/100 --cemetery aoyama.csv --plot shaking.png",
         "seisblock infer --slid 5cm --mu 0.3 record.csv",

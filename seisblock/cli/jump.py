@@ -27,6 +27,7 @@ DEFAULT_BLOCK = "chozusha"
 
 @click.command(
     cls=Command,
+    essential=("--block", "--width", "--heights", "--masses", "--mu", "--drop", "--landing", "--tenon", "--window"),
     examples=("seisblock jump", "seisblock jump record.csv --component EW --drop 0.3 --tenon 2cm --plot jump.png"),
 )
 @record_options

@@ -38,6 +38,7 @@ DEFAULT_RUNS = 50
 
 @click.command(
     cls=Command,
+    essential=("--block", "--width", "--height", "--mu", "--cemetery", "--solver", "--runs", "--html"),
     examples=(
         "seisblock map hanmer_springs_2016 --block gravestone --mu 0.5 --geojson stations.geojson",
         "seisblock map hanmer_springs_2016 --cemetery aoyama.csv --csv stations.csv",

@@ -46,6 +46,7 @@ def _check_corner(ctx: click.Context, param: click.Parameter, value: float) -> f
 
 @click.command(
     cls=Command,
+    essential=("--highpass", "--window", "--units"),
     examples=("seisblock measure", "seisblock measure record.csv --width 24cm --height 72cm --plot record.png"),
 )
 @real_record_options

@@ -51,6 +51,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 @click.command(
     "overturn-rate",
     cls=Command,
+    essential=("--cemetery", "--reinforced", "--pga", "--frequency", "--criterion", "--inset"),
     examples=(
         "seisblock overturn-rate --cemetery aoyama.csv",
         "seisblock overturn-rate --cemetery aoyama.csv record.csv --both --plot rate.png",

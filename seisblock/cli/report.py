@@ -25,6 +25,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
 
 @click.command(
     cls=Command,
+    essential=("--body", "--kind", "--mu", "--drop", "--output", "-o"),
     examples=("seisblock report -o report.html", "seisblock report record.csv --body 24cmx72cm --mu 0.3 --lang ja -o report.html"),
 )
 @record_options

@@ -27,6 +27,7 @@ VARIED_PARAMETERS = ("size", "inset", "mu", "restitution", "amplitude", "azimuth
 
 @click.command(
     cls=Command,
+    essential=("--width", "--height", "--kind", "--block", "--mu", "--surface", "--floor", "--vertical", "--runs"),
     examples=(
         "seisblock respond --width 45cm --height 180cm --mu 0.3",
         "seisblock respond record.csv --block gravestone --component EW --plot respond.png",

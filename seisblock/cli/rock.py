@@ -33,6 +33,7 @@ DEFAULT_RUNS = 200
 
 @click.command(
     cls=Command,
+    essential=("--width", "--height", "--inset", "--kind", "--block", "--restitution", "--vertical", "--margin", "--floor"),
     examples=(
         "seisblock rock --width 24cm --height 72cm",
         "seisblock rock record.csv --block gravestone --component EW --vertical --margin --plot rock.png",

@@ -42,6 +42,7 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 
 @click.command(
     cls=Command,
+    essential=("--mu", "--kappa", "--slope", "--one-way", "--vertical", "--target-pga"),
     examples=(
         "seisblock slide --mu 0.2",
         "seisblock slide record.csv --mu 0.3 --kappa 0.5 --vertical --csv slide.csv --plot slide.png",

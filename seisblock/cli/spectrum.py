@@ -39,6 +39,7 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
 
 @click.command(
     cls=Command,
+    essential=("--kind", "--mu", "--sizes", "--height-over-width", "--inset", "--vertical"),
     examples=(
         "seisblock spectrum --component NS --plot spectrum.png",
         "seisblock spectrum record.csv --kind overturning --sizes 0.2:4:0.1 --height-over-width 2:8:0.25 --csv falls.csv",

@@ -36,6 +36,7 @@ MAX_GRID = 29
 
 @click.command(
     cls=Command,
+    essential=("--stones", "--reinforced", "--inset", "--mu", "--restitution", "--law", "--vertical", "--criterion", "--runs"),
     examples=(
         "seisblock stack --stones wagata.toml --reinforced",
         "seisblock stack record.csv --stones lantern.toml --plot stack.png --animate stack.gif",

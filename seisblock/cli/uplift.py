@@ -33,6 +33,7 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
 
 @click.command(
     cls=Command,
+    essential=("--width", "--depth", "--height", "--frequency-vertical", "--damping", "--harmonic", "--alpha", "--figure", "--vertical"),
     examples=(
         "seisblock uplift --width 1.2 --height 3 --frequency-vertical 8 --plot uplift.png",
         "seisblock uplift --harmonic --alpha 1 --damping 0.02,0.05,0.1 --plot regions.png",
