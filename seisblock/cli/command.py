@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 import click
 
 from seisblock.cli.help import Context, help_rows
+from seisblock.cli.option_file import read_option_file
 from seisblock.cli.suggest import SuggestingChoice, suggest_options
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
@@ -88,7 +90,7 @@ class Command(click.Command):
         super().__init__(*args, **kwargs)
         self.params.append(lang_option())
         if essential:
-            self.params.append(_help_all_option())
+            self.params += [_option_file_option(), _help_all_option()]
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the arguments; check repeated options and suggest names for unknown ones."""
@@ -156,6 +158,19 @@ def _help_all_option() -> click.Option:
 
     text = N_("Show all options and exit.")
     return Option(["--help-all"], is_flag=True, is_eager=True, expose_value=False, callback=show, section="Other", help=text)
+
+
+def _option_file_option() -> click.Option:
+    """Return ``--options``, which takes options from a TOML file; those of the line take precedence."""
+
+    def load(ctx: click.Context, param: click.Parameter, value: Path | None) -> None:
+        del param
+        if value is not None and not ctx.resilient_parsing:
+            ctx.default_map = {**read_option_file(value, ctx.command), **(ctx.default_map or {})}
+
+    text = N_("TOML file of options, such as mu = 0.3; options of the line take precedence.")
+    path = click.Path(path_type=Path, dir_okay=False)
+    return Option(["--options"], type=path, is_eager=True, expose_value=False, callback=load, section="Other", metavar="FILE", help=text)
 
 
 def lang_option() -> click.Option:

@@ -20,7 +20,7 @@ DIRECTIONS = ("+", "-", "both")
 class JumpOptions(SolverOptions):
     """Options of :func:`~seisblock.models.jump.solve.solve_jump`."""
 
-    contact: Contact = field(metadata=option(N_("Friction of the landed foot and restitution of the impact.")))
+    contact: Contact = field(metadata=option("Friction of the landed foot and restitution of the impact."))
     drop: float = field(
         default=0.0,
         metadata=option(
@@ -52,6 +52,6 @@ class JumpOptions(SolverOptions):
         metadata=option(N_("Compute only the first chain of motion in each --window, as in the paper. [default: all]"), "--first"),
     )
     windows: Sequence[TimeWindow] = field(
-        default=(), metadata=option(N_("Time windows of the start of a chain; empty: the entire record."), unit="s")
+        default=(), metadata=option("Time windows of the start of a chain; empty: the entire record.", unit="s")
     )
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)

@@ -69,10 +69,8 @@ class RespondOptions(SolverOptions):
     initial: Sequence[float] | None = field(
         default=None,
         metadata=option(
-            N_(
-                "x and y of the centre of gravity relative to the ground, m, tilt, rad, and their rates at the first sample; null: "
-                "upright, at rest."
-            )
+            "x and y of the centre of gravity relative to the ground, m, tilt, rad, and their rates at the first sample; null: upright, "
+            "at rest."
         ),
     )
     settle_s: float = field(
@@ -93,10 +91,10 @@ class RespondOptions(SolverOptions):
     further_points: Sequence[tuple[float, float]] = field(
         default=(),
         metadata=option(
-            N_("Points of the body, to +x of the centre of gravity and above it, that end the motion on contact with the ground."),
+            "Points of the body, to +x of the centre of gravity and above it, that end the motion on contact with the ground.",
             unit="m",
         ),
     )
     sensitivity: bool = field(
-        default=True, metadata=option(N_("Test with two more runs if a change of the input by 1e-6 changes the verdict."))
+        default=True, metadata=option("Test with two more runs if a change of the input by 1e-6 changes the verdict.")
     )

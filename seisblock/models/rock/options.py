@@ -37,5 +37,5 @@ class RockOptions(SolverOptions):
     )
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)
     initial: tuple[float, float] = field(
-        default=(0.0, 0.0), metadata=option(N_("Tilt, rad, and angular velocity, rad/s, at the first sample."))
+        default=(0.0, 0.0), metadata=option("Tilt, rad, and angular velocity, rad/s, at the first sample.")
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from seisblock.core.i18n import N_
 from seisblock.core.options import GRAVITY, SolverOptions, documented, option
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
@@ -17,6 +16,6 @@ class SlideOptions(SolverOptions):
 
     vertical: Gain | None = field(
         default=False,
-        metadata=option(N_("Scale factor on the vertical component; 0 if omitted."), key="vertical_scale"),
+        metadata=option("Scale factor on the vertical component; 0 if omitted.", key="vertical_scale"),
     )
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)

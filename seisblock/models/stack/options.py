@@ -35,9 +35,9 @@ class StackOptions(SolverOptions):
             choices=(RIGID, SPRINGS),
         ),
     )
-    points: int = field(default=EDGES, metadata=option(N_("Contact points along each side of a joint; 2: its edges.")))
+    points: int = field(default=EDGES, metadata=option("Contact points along each side of a joint; 2: its edges."))
     contact: PileContact | None = field(
-        default=None, metadata=option(N_("Springs and dashpots; default with springs: those of Furukawa2009 table 2."))
+        default=None, metadata=option("Springs and dashpots; default with springs: those of Furukawa2009 table 2.")
     )
     mu_kinetic: float | None = field(
         default=None,
@@ -81,9 +81,9 @@ class StackOptions(SolverOptions):
             metavar="S",
         ),
     )
-    stop_at_fall: bool = field(default=False, metadata=option(N_("End at the first fall.")))
+    stop_at_fall: bool = field(default=False, metadata=option("End at the first fall."))
     tilts: Mapping[str, float] | None = field(
-        default=None, metadata=option(N_("Initial tilt of stones about y, over the edge of their base, by name."), unit="rad")
+        default=None, metadata=option("Initial tilt of stones about y, over the edge of their base, by name.", unit="rad")
     )
     progress: Progress | None = field(default=None, repr=False, compare=False)
     """Function called with the number of finished samples and their total."""
