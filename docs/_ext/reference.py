@@ -1,6 +1,6 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `gallery`, `glossary`, `literature` or `names` (one public name per line) is replaced by the
+A fence named `commands`, `documents`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per line) is replaced by the
 generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
@@ -8,6 +8,7 @@ import inspect
 import re
 import tomllib
 from collections.abc import Iterator
+from dataclasses import MISSING
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +20,12 @@ import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.command import SECTIONS
 from seisblock.cli.help import help_rows, paragraphs
+from seisblock.core.options import document_key, option_fields, plain_help
+from seisblock.core.registry import get_solver, solver_names
 from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.registry import document_commands, json_schema
 
-FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|options|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
@@ -128,6 +131,22 @@ def literature(_: str) -> str:
     return "\n".join(("```{eval-rst}", entries, "```"))
 
 
+def options(_: str) -> str:
+    """Return the options of every solver: keyword, command-line option, document key, unit, range, default, meaning."""
+    parts = []
+    for name in solver_names():
+        kind = get_solver(name).options
+        parts += [f"## {name}\n", f"`seisblock.models.{name}.options.{kind.__name__}`\n"]
+        parts += ["| keyword | option | key | unit | range | default | meaning |", "|---|---|---|---|---|---|---|"]
+        for keyword, described, field in option_fields(kind):
+            default = "required" if field.default is MISSING else f"`{field.default!r}`"
+            flag = f"`{described.flag}`" if described.flag else ""
+            cells = (plain(described.unit), plain(described.interval), default, plain(plain_help(described)))
+            parts.append(f"| `{keyword}` | {flag} | `{document_key(keyword, described)}` | {' | '.join(cells)} |")
+        parts.append("")
+    return "\n".join(parts)
+
+
 def names(name_list: str) -> str:
     """Return the public names of a list: a table, then each with its docstring."""
     public_names = name_list.split()
@@ -172,6 +191,7 @@ GENERATORS = {
     "gallery": gallery,
     "glossary": glossary,
     "literature": literature,
+    "options": options,
     "names": names,
 }
 
