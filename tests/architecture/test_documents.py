@@ -69,7 +69,7 @@ def test_layer_table_of_the_architecture_page_matches_the_import_contract():
 def test_benchmarks_can_be_measured_alone():
     """As CONTRIBUTING says it, without workers: pytest-benchmark refuses where tests are shared out."""
     words = re.search(r"python -m (pytest tests/benchmarks \S+)", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))[1].split()
-    words[1] = "tests/benchmarks/test_film_speed.py"
+    words[1] = "tests/benchmarks/test_animation_speed.py"
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
     found = subprocess.run(
         [sys.executable, "-m", *words, "--collect-only", "-p", "no:cacheprovider"],

@@ -15,7 +15,7 @@ from seisblock.records import Component, Record, motion_of
 from seisblock.studies.batch import cluster
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.parallel import cpu_count
-from tests.batch.conftest import shaking, write_record
+from tests.studies.batch.conftest import shaking, write_record
 
 BODIES = {f"block {number}": Block(0.15 + 0.01 * number, 1.0) for number in range(20)}
 FRICTIONS = {f"mu {number}": 0.05 + 0.02 * number for number in range(20)}

@@ -9,7 +9,7 @@ from seisblock.models.jump import flight as flying
 from seisblock.models.jump import jump_many, modes, rocking, solve_jump
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import best
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)

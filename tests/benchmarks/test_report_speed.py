@@ -12,7 +12,7 @@ from seisblock.report.html.report import report
 from seisblock.report.io.atomic import write_records
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
-from tests.present.long_record import record
+from tests.report.long_record import record
 
 THREE = ("gravestone", "chozusha", "24cmx72cm")
 

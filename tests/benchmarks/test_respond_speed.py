@@ -17,7 +17,7 @@ from seisblock.models.respond import constants, respond_many, respond_params, so
 from seisblock.models.respond.model import RESPOND
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import strong_motion
-from tests.solvers.respond.cases import leaning
+from tests.models.respond.cases import leaning
 
 SAMPLES = 10_000
 WEAK = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01, vertical=0.2 * np.sin(0.11 * np.arange(SAMPLES)))

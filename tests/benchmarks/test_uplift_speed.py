@@ -9,7 +9,7 @@ from seisblock.models.uplift.batch import uplift_many
 from seisblock.models.uplift.harmonic import uplift_thresholds
 from seisblock.models.uplift.solve import solve_uplift
 from tests.benchmarks.test_slide_speed import best
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 
 def test_harmonic_curve_of_1000_frequencies(benchmark):

@@ -27,7 +27,7 @@ from seisblock.report.html.report_text import verdict
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
 from tests.brief_record import brief_record
-from tests.language.english import english_in, seen_in
+from tests.i18n.english import english_in, seen_in
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 

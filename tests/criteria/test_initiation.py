@@ -12,7 +12,7 @@ from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria import first_mode, friction_to_rock, peak_loading_ratio
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from tests.solvers.respond.cases import steady
+from tests.models.respond.cases import steady
 
 
 @settings(max_examples=200, deadline=None)

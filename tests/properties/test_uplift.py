@@ -13,7 +13,7 @@ from seisblock.models.uplift.minima import uplift_minima
 from seisblock.models.uplift.modes import natural_modes
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 RATIO = st.floats(0.2, 5.0)
 DAMPING = st.floats(0.005, 0.5)

@@ -31,8 +31,8 @@ from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_
 from seisblock.studies.fragility.run import prepare_bodies, run_fragility
 from seisblock.studies.fragility.runners import RUNNERS, version_draws
 from seisblock.studies.fragility.suite import make_suite
-from tests.batch.conftest import shaking
 from tests.motions import synthetic_suite
+from tests.studies.batch.conftest import shaking
 
 INDEPENDENT = 1e-3
 """Two optimisers of one likelihood; what the issue asks."""
