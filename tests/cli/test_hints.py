@@ -36,7 +36,7 @@ def prepared(line):
 
 
 @pytest.mark.parametrize("given", GIVEN)
-def test_the_line_prepares_the_record_as_it_was(given):
+def test_suggested_command_repeats_record_options(given):
     """Every option of the record is typed again: without the storey or the window it would be another answer."""
     asked = prepared(f"synthetic_jma.csv --component NS --component 30 {given} --width 1 --height 2 --mu 0.5")
     line = respond_command(Source(**asked), "--width", "1", "--height", "2", "--mu", "0.5")

@@ -61,7 +61,7 @@ OF_ONE_SIDE = (
 
 
 @pytest.mark.parametrize(("line", "flag"), IDLE, ids=[line for line, _ in IDLE])
-def test_what_has_nothing_to_do_is_refused_by_name(line, flag, tmp_path, monkeypatch):
+def test_options_without_effect_are_rejected_by_name(line, flag, tmp_path, monkeypatch):
     """One sentence that names the option, before anything is computed; nothing on stdout."""
     monkeypatch.chdir(tmp_path)
     done = CliRunner().invoke(main, shlex.split(line))
@@ -71,13 +71,13 @@ def test_what_has_nothing_to_do_is_refused_by_name(line, flag, tmp_path, monkeyp
 
 
 @pytest.mark.parametrize("line", OF_ONE_SIDE)
-def test_a_body_of_one_block_has_no_long_side(line):
+def test_side_requires_two_layer_block(line):
     """--side chose nothing of bodies that are no two-layer block, without a word."""
     done = CliRunner().invoke(main, shlex.split(line))
     assert done.exit_code == 3 and "--side has no effect: this body is not a two-layer --block" in done.stderr
 
 
-def test_a_form_of_infer_refuses_all_that_it_does_not_read():
+def test_infer_rejects_options_of_other_modes():
     """Each option of the command belongs to a form, or to all; the refused are those of the other forms."""
     shared = {*Source.__dataclass_fields__, *OutputOptions.__dataclass_fields__, "help", "lang", "cemetery", "slid", "jumped", "rate"}
     own = {"--cemetery": {*infer.STONE_OPTIONS}, "--slid": {*infer.SLID_OPTIONS}, "--jumped": {*infer.JUMPED_OPTIONS}}
@@ -88,20 +88,20 @@ def test_a_form_of_infer_refuses_all_that_it_does_not_read():
         assert idle == set().union(*own.values()) - read | (set(RECORD_OPTIONS) if form == "--cemetery" else set())
 
 
-def test_each_form_of_infer_takes_what_it_reads():
+def test_infer_accepts_options_of_its_mode():
     """With rigid stones gravity has a say, and is taken."""
     rigid = f"{STONES} --frequency 1 --criterion rigid --gravity 1.62 --quiet"
     assert CliRunner().invoke(main, shlex.split(rigid)).exit_code == 0
     assert CliRunner().invoke(main, shlex.split(f"{SLID} --limit 2 --steps 5 --largest --quiet")).exit_code == 0
 
 
-def test_a_jump_follows_no_vertical_motion():
+def test_jump_rejects_vertical():
     """--vertical of a solver that has none fell with a traceback."""
     done = CliRunner().invoke(main, shlex.split("map --block chozusha --solver jump --vertical"))
     assert done.exit_code == 3 and "jump has no option --vertical" in done.stderr
 
 
-def test_the_line_for_respond_keeps_the_side():
+def test_suggested_respond_command_keeps_side():
     """What rock offers to type is of the same side of the body; it was always the short one."""
     line = "rock synthetic_jma.csv --component NS --block chozusha --side long --mu 0.01 --quiet"
     typed = " ".join(CliRunner().invoke(main, shlex.split(line)).stdout.split())

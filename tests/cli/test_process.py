@@ -31,7 +31,7 @@ def shell(line, cwd, **environment):
 
 
 @pytest.mark.parametrize("words", [["--help"], ["--version"], *([name, "--help"] for name in COMMANDS)], ids=" ".join)
-def test_help_loads_nothing_heavy(words):
+def test_help_imports_no_large_package(words):
     """Neither the list of commands nor the help of any command loads a large package; the list does not even load rich and numpy."""
     script = (
         "import sys\nfrom seisblock.cli import main\n"
@@ -44,7 +44,7 @@ def test_help_loads_nothing_heavy(words):
     assert len(words) == 2 or loaded.isdisjoint({"rich", "numpy"})
 
 
-def test_start_costs_little_more_than_python_and_click():
+def test_start_time_is_at_most_twice_python_with_click():
     """The list of commands takes twice the processor time of a Python that loads click alone (the best of five in turn, on any machine)."""
 
     def spent(*words):
@@ -61,7 +61,7 @@ def test_start_costs_little_more_than_python_and_click():
     "line",
     all_but_slow(["jump --json", "validate --paper Housner1963", "measure --json", "samples", "cite --bibtex"], {"jump --json", "samples"}),
 )
-def test_a_reader_that_goes_away_is_no_event(line, tmp_path):
+def test_broken_pipe_leaves_stderr_empty(line, tmp_path):
     """`| head -1` leaves stderr without a word about pipes and a traceback least of all."""
     done = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
     assert done.stderr == ""
@@ -69,7 +69,7 @@ def test_a_reader_that_goes_away_is_no_event(line, tmp_path):
     assert done.returncode in (0, 141)
 
 
-def interrupted(words, cwd, wait):
+def run_interrupted(words, cwd, wait):
     """Start a command in its own group, send SIGINT once `wait` says so, return exit code and stderr."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-m", "seisblock", *words]
@@ -83,7 +83,7 @@ def interrupted(words, cwd, wait):
         return process.returncode, said
 
 
-def test_interruption_exits_with_130_and_leaves_no_half_file(tmp_path):
+def test_sigint_exits_130_and_leaves_no_partial_file(tmp_path):
     """Ctrl-C while pictures are drawn: the old file stands, nothing lies beside it, one line is said."""
     film = tmp_path / "film.gif"
     film.write_bytes(b"old")
@@ -95,7 +95,7 @@ def test_interruption_exits_with_130_and_leaves_no_half_file(tmp_path):
             time.sleep(0.02)
         time.sleep(0.3)
 
-    code, said = interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
+    code, said = run_interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
     assert code == 130
     assert said.strip() == "seisblock: interrupted; no partially written file remains"
     assert [path.name for path in tmp_path.iterdir()] == ["film.gif"] and film.read_bytes() == b"old"
@@ -125,7 +125,7 @@ def on_a_terminal(words, cwd, **environment):
 
 
 @pytest.mark.slow
-def test_colours_are_for_terminals_and_obey_no_color(tmp_path):
+def test_colours_appear_on_terminal_without_no_color_only(tmp_path):
     """A terminal gets colours, a terminal with NO_COLOR and a pipe get none, in errors too."""
     assert "\x1b[3" in on_a_terminal(["jump", "nowhere.csv"], tmp_path)
     for words in (["jump", "nowhere.csv"], ["jump", "--component", "EW", "--window", "25:28"]):
@@ -134,7 +134,7 @@ def test_colours_are_for_terminals_and_obey_no_color(tmp_path):
     assert "\x1b" not in shell(f"{SEISBLOCK} jump --window 25:28 2>&1", tmp_path).stdout
 
 
-def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monkeypatch):
+def test_progress_bar_appears_on_terminal_for_long_work_only(tmp_path, monkeypatch):
     """Work of more than a second shows how much is done; shorter work, --quiet and pipes show nothing."""
     script = (
         "import sys, time\nfrom seisblock.cli.progress import progress\n"
@@ -201,7 +201,7 @@ SECONDS = ("fit", "measure", "report", "rock", "spectrum", "stack", "uplift", "v
 
 
 @pytest.mark.parametrize("name", ["", *(pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in COMMANDS)])
-def test_help_ends_with_lines_that_run(name, workshop):
+def test_help_examples_run(name, workshop):
     """At least two lines at the end of each help can be pasted as they stand, and run."""
     lines = examples(name)
     assert len(lines) >= 2
@@ -217,7 +217,7 @@ def test_help_ends_with_lines_that_run(name, workshop):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_options_are_grouped(name):
+def test_help_groups_every_option(name):
     """No option but --help is left outside the groups record, body, solver and output."""
     import click
 
@@ -226,7 +226,7 @@ def test_options_are_grouped(name):
     assert groups <= {"Record", "Site", "Body", "Solver", "Output"}
 
 
-def test_plot_to_stdout_is_the_picture_and_nothing_else(tmp_path):
+def test_plot_to_stdout_writes_png_only(tmp_path):
     """`--plot -` writes a .png to stdout without a table around it."""
     command = [sys.executable, "-m", "seisblock", "jump", "--component", "EW", "--plot", "-", "--quiet"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
@@ -234,7 +234,7 @@ def test_plot_to_stdout_is_the_picture_and_nothing_else(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_one_process_answers_many_times(tmp_path):
+def test_main_is_repeatable_in_one_process(tmp_path):
     """Called again and again in one process, the answer is the same and nothing is left behind."""
     first, second = (CliRunner().invoke(main, ["jump", "--json"]).stdout for _ in range(2))
     assert first == second and json.loads(first)["schema"] == "seisblock/jump/2"
@@ -247,7 +247,7 @@ def test_one_process_answers_many_times(tmp_path):
         (("uplift", "--width", "1", "--height", "2"), "give --frequency-vertical in Hz, or --mass and --stiffness kx,ky,kz in N/m"),
     ],
 )
-def test_what_the_library_calls_a_parameter_is_an_option_here(tmp_path, monkeypatch, words, told):
+def test_library_parameter_names_become_options_in_errors(tmp_path, monkeypatch, words, told):
     """A sentence from below names parameters as Python does; the command line tells them as its own options, in any language."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bare.csv").write_text("NS (gal)\n" + "1\n2\n" * 50, encoding="utf-8")

@@ -44,7 +44,7 @@ LIKE_NOTHING = (
 
 
 @pytest.mark.parametrize(("line", "meant"), MISSPELT, ids=lambda each: " ".join(each) if isinstance(each, tuple) else each)
-def test_the_nearest_name_is_asked_for(line, meant, tmp_path, monkeypatch):
+def test_unknown_name_suggests_nearest(line, meant, tmp_path, monkeypatch):
     """F6: whatever is named, command, option, record, body, stone, cemetery, component or pair: in English and in Japanese."""
     monkeypatch.chdir(tmp_path)
     told = CliRunner().invoke(main, list(line))
@@ -56,7 +56,7 @@ def test_the_nearest_name_is_asked_for(line, meant, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("line", LIKE_NOTHING, ids=" ".join)
-def test_what_is_like_nothing_is_not_asked_for(line):
+def test_unrelated_name_suggests_nothing(line):
     """A guess that is none would lead astray."""
     told = CliRunner().invoke(main, [*line, *(("--mu", "0.2") if line[0] == "slide" else ())])
     assert told.exit_code in (2, 3) and "did you mean" not in told.stderr.lower()
@@ -75,13 +75,13 @@ def test_what_is_like_nothing_is_not_asked_for(line):
         ("jmp", "jump"),
     ],
 )
-def test_near_is_one_slip_a_beginning_or_a_word_that_goes_on(typed, meant):
+def test_suggestion_allows_one_typo_or_prefix(typed, meant):
     """Nothing else is: of a long name two slips."""
     assert closest_name(typed, COMMANDS) == meant and closest_name(typed, ()) is None
     assert closest_name("ovreturn-rat", COMMANDS) == "overturn-rate" and closest_name("ovretrn-rat", COMMANDS) is None
 
 
-def offered(*words):
+def completions(*words):
     """Return what a shell is offered for the last word."""
     *before, last = words
     found = ShellComplete(main, {}, "seisblock", "_SEISBLOCK_COMPLETE").get_completions(before, last)
@@ -115,12 +115,12 @@ OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack
     ],
     ids=lambda each: " ".join(each) or "(nothing)",
 )
-def test_a_shell_is_offered_the_names_there_are(words, names):
+def test_completion_lists_existing_names(words, names):
     """F6: components, samples, bodies of the kind that is wanted, stones of the pile that is named, cemeteries, surfaces."""
-    assert offered(*words) == names
+    assert completions(*words) == names
 
 
-def test_every_direction_is_offered_where_it_is_understood():
+def test_completion_offers_all_azimuths_where_supported():
     """A command that sweeps the azimuths says so in its help, and the others do not offer it."""
     for name in COMMANDS:
         with use_locale("en"):
@@ -129,7 +129,7 @@ def test_every_direction_is_offered_where_it_is_understood():
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_row_of_the_help_says_what_it_is(command):
+def test_help_describes_every_parameter(command):
     """F6: no argument or option stands without a word, and a record stands with what is done to it."""
     context = click.Context(main.get_command(click.Context(main), command))
     rows = [each.get_help_record(context) for each in context.command.get_params(context) if not getattr(each, "hidden", False)]

@@ -45,13 +45,13 @@ def options_of(command):
     return {name for each in main.get_command(None, command).params for name in each.opts}
 
 
-def test_the_unit_is_asked_for_where_there_is_one():
+def test_unit_option_exists_where_accelerations_are_shown():
     """F6: --gal/--si stands in the commands that show accelerations, and in no other."""
     assert {command for command in COMMANDS if "--gal" in options_of(command)} == set(IN_GAL)
 
 
 @pytest.mark.parametrize("command", all_but_slow(IN_GAL, set(IN_GAL) - {"fit", "measure", "uplift", "stack"}))
-def test_the_unit_is_that_asked_for(command, tmp_path):
+def test_unit_option_sets_units_of_text_and_figure(command, tmp_path):
     """F3, F6: with --si no gal, kine, cm or mm is left in the answer or the figure, with --gal no m/s²; one of the two differs."""
     answers = []
     for unit, other in (("--gal", "m/s²"), ("--si", "(gal|kine|cm|mm)")):
@@ -66,7 +66,7 @@ def test_the_unit_is_that_asked_for(command, tmp_path):
     assert answers[0] != answers[1]
 
 
-def test_no_option_is_taken_and_left():
+def test_every_option_is_read_by_its_command():
     """Whatever a command takes it reads: by name, or as a field of what its shared options were gathered in."""
     left = {}
     for name in COMMANDS:
@@ -80,7 +80,7 @@ def test_no_option_is_taken_and_left():
 
 
 @pytest.mark.parametrize("gathered", [Source, OutputOptions])
-def test_every_field_of_the_shared_options_is_read(gathered):
+def test_every_shared_option_field_is_read(gathered):
     """Each field of what the shared options become is read somewhere in the command line."""
     source = "\n".join(path.read_text(encoding="utf-8") for path in Path(cli.__file__).parent.rglob("*.py"))
     names = [field.name for field in dataclasses.fields(gathered)]

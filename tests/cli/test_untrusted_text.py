@@ -55,7 +55,7 @@ def record(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("language", ["en", "ja"])
 @pytest.mark.parametrize("command", COMMANDS)
-def test_tables_and_talk(command, language, record):
+def test_terminal_output_strips_control_characters(command, language, record):
     """No control character reaches the terminal; brackets, dollars and braces are printed as they are."""
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--lang", language])
     assert done.exception is None, (done.exception, done.stderr)
@@ -67,7 +67,7 @@ def test_tables_and_talk(command, language, record):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_documents_hold_the_text_itself(command, record):
+def test_json_round_trips_text(command, record):
     """JSON escapes it, and gives it back."""
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--json", "--quiet"])
     assert done.exception is None, done.exception
@@ -82,7 +82,7 @@ DRAWING = ("measure", "slide", "rock", "jump", "uplift", "respond", "stack", "cr
 
 
 @pytest.mark.parametrize("command", all_but_slow(DRAWING, {"slide", "rock", "respond", "criteria"}))
-def test_figures(command, record, tmp_path):
+def test_figure_text_is_not_mathematics(command, record, tmp_path):
     """A dollar begins no formula: the figure is drawn, and its title is the text."""
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--title", NASTY, "--quiet"])
     assert done.exception is None, done.exception
@@ -91,7 +91,7 @@ def test_figures(command, record, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_report_is_a_page_of_text(record, tmp_path):
+def test_report_escapes_text(record, tmp_path):
     """No tag of a header is a tag of the page."""
     done = CliRunner().invoke(main, ["report", record, "--body", "stone.toml", "-o", "out.html", "--quiet"])
     assert done.exception is None, done.exception

@@ -32,27 +32,27 @@ calls = pytest.mark.parametrize(("solve", "body"), SOLVERS, ids=["slide", "rock"
 
 
 @calls
-def test_a_record_in_the_place_of_a_motion(solve, body):
+def test_solvers_reject_record_as_motion_and_name_selector(solve, body):
     """A record holds several components: the message names the call that chooses one."""
     with pytest.raises(KindError, match=r"found a Record \(.*level.csv\): select a component with motion_of\(record, 'NS'\)"):
         solve(body, LEVEL)
 
 
 @calls
-def test_an_array_in_the_place_of_a_motion(solve, body):
+def test_solvers_reject_array_as_motion_and_name_constructor(solve, body):
     """An array knows no time step: the message names what makes a motion of it."""
     with pytest.raises(TypeError, match=r"expected a Motion, found ndarray.*from_arrays"):
         solve(body, MOTION.horizontal)
 
 
 @calls
-def test_the_motion_before_the_body(solve, body):
+def test_solvers_reject_motion_before_body(solve, body):
     """The wrong order is recognised."""
     with pytest.raises(ValueError, match="expected the body first, then the motion, found Motion before "):
         solve(MOTION, body)
 
 
-def test_the_wrong_order_is_named():
+def test_argument_order_error_names_both_arguments():
     """The message says what stands where."""
     with pytest.raises(KindError, match="expected the body first, then the motion, found Motion before Block"):
         solve_rock(MOTION, BLOCK)
@@ -63,14 +63,14 @@ def test_the_wrong_order_is_named():
 @pytest.mark.parametrize(
     ("solve", "kind"), [(solve_rock, "Block"), (jump, "TwoLayerBlock"), (solve_uplift, "SpringBlock"), (solve_stack, "Pile")]
 )
-def test_a_body_of_another_kind(solve, kind):
+def test_solvers_reject_body_of_another_kind(solve, kind):
     """The message names the kind that the solver follows."""
     with pytest.raises(KindError, match=f"expected {kind}, found str"):
         solve("gravestone", MOTION)
 
 
 @pytest.mark.parametrize(("solve", "body"), [SOLVERS[0], SOLVERS[1]], ids=["slide", "rock"])
-def test_a_vertical_motion_that_the_record_has_not(solve, body):
+def test_vertical_true_without_vertical_component_is_rejected(solve, body):
     """Asked for, it is refused; a motion made of arrays has one, of zeros."""
     with pytest.raises(ComponentError, match=r"level.csv: no vertical component \(components: NS, EW\)"):
         solve(body, motion_of(LEVEL, "NS"), vertical=True)
@@ -78,14 +78,14 @@ def test_a_vertical_motion_that_the_record_has_not(solve, body):
 
 
 @pytest.mark.parametrize(("solve", "body"), [SOLVERS[3], SOLVERS[4]], ids=["uplift", "stack"])
-def test_three_components_act_where_there_are_three(solve, body):
+def test_solvers_in_space_accept_record_without_vertical_component(solve, body):
     """Solvers in space take a record without a vertical component for one that does not move up and down."""
     alone = solve(body, motion_of(LEVEL, "NS"))
     np.testing.assert_array_equal(alone.time, solve(body, motion_of(LEVEL, "NS"), vertical=False).time)
 
 
 @pytest.mark.parametrize(("solve", "body"), [SOLVERS[i] for i in (0, 1, 3, 4)], ids=["slide", "rock", "uplift", "stack"])
-def test_vertical_is_a_claim_or_a_factor(solve, body):
+def test_vertical_accepts_bool_or_factor(solve, body):
     """True acts like 1 and False like 0; half the vertical motion acts like a motion of half its height."""
     half = Motion.from_arrays(MOTION.horizontal, 0.01, vertical=0.5 * MOTION.vertical)
     for one, other, motion in ((True, 1.0, MOTION), (False, 0.0, MOTION), (0.5, True, half)):

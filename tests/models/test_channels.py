@@ -57,7 +57,7 @@ def response(request):
     return RESPONSES[request.param](MOTION)
 
 
-def test_one_name_is_one_quantity_in_one_unit(response):
+def test_channels_of_one_name_have_one_quantity_and_unit(response):
     """What two solvers know has one name; a pile's stones carry theirs before it."""
     if response.model == "stack":
         kinds = {channel.name.removeprefix(f"{name}_") for channel in response.channels for name in response.body.names}
@@ -70,7 +70,7 @@ def test_one_name_is_one_quantity_in_one_unit(response):
     assert "displacement" in common or response.model == "rock"
 
 
-def test_one_name_has_one_sign(response):
+def test_channels_of_one_name_have_one_sign(response):
     """Pushed to +x, the ground leaves every body behind: it leans to -x and is displaced to -x; mirrored, both signs change."""
     back = RESPONSES[response.model](Motion.from_arrays(-PUSH, 0.005))
     for name in {"rotation", "displacement"} & {channel.name for channel in response.channels}:

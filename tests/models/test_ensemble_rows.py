@@ -63,7 +63,7 @@ def rows_of(name):
 
 @pytest.mark.parametrize("name", ["rock", "slide", "uplift", "jump"])
 @pytest.mark.parametrize(("width", "peak"), [(12, 7.0), (40, 9.0)])
-def test_rows_are_single_runs(name, width, peak):
+def test_ensemble_rows_equal_single_runs(name, width, peak):
     """Ends, extrema, first events and counts, each row with factors of its own."""
     alone, many, p, starts, mode = rows_of(name)
     motion = shaking(width, peak)
@@ -78,7 +78,7 @@ def test_rows_are_single_runs(name, width, peak):
         np.testing.assert_equal(found.first_event_time[row], one.events[0].time if one.events else np.nan)
 
 
-def test_a_study_of_sliding_is_its_answers():
+def test_sliding_study_equals_solve_slide():
     """Slips, their times, counts and where the object comes to rest are those that `solve_slide` gives of each combination."""
     motion = shaking(25, 5.0)
     points = slide_study([0.1, 0.2, 0.35], motion, kappa=[0.6, 1.0], slope_deg=[-4.0, 0.0, 4.0], vertical=[0.0, 1.0])

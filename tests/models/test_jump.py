@@ -35,7 +35,7 @@ def flight_rows(response):
 
 
 @pytest.mark.parametrize("spin", [0.0, 0.3, 0.6, 0.8, -0.8])
-def test_the_rise_is_that_of_the_path_flown(spin):
+def test_rise_equals_flight_path_cut_short_by_spin(spin):
     """A foot that a fast spin brings down before the top of the path leaves v_y T - g T^2/2, what the history shows too (N2)."""
     response = solve_jump(SHORT, PULSE, contact=CONTACT, spin=f"ratio={spin}", gravity=G)
     chain = response.outcome.chains[0]
@@ -49,7 +49,7 @@ def test_the_rise_is_that_of_the_path_flown(spin):
     assert chain.max_rise_m - seen <= G * PULSE.dt**2 / 8 + 1e-12
 
 
-def test_the_papers_landing_can_make_energy_and_says_so():
+def test_landing_of_the_paper_can_create_energy_and_warns():
     """Without horizontal rebound the long side lands with more energy than it had, and needs far more friction than there is (N3)."""
     response = solve_jump(LONG, PULSE, contact=Contact(0.18, 0.17, 0.0, 0.85), gravity=G)
     before, after = response.outcome.chains[0].landing_energy_j
@@ -60,7 +60,7 @@ def test_the_papers_landing_can_make_energy_and_says_so():
     assert any("more than mu 0.18" in text for text in response.warnings)
 
 
-def test_the_friction_that_a_landing_needs_is_its_impulse():
+def test_landing_friction_demand_equals_impulse_ratio():
     """P_x/P_y follows from the change of the centroid's velocity, which the history has on both sides of the landing."""
     response = solve_jump(SHORT, PULSE, contact=CONTACT, spin="ratio=0.19", gravity=G)
     chain = response.outcome.chains[0]
@@ -93,7 +93,7 @@ contacts = st.builds(
 
 @given(contacts, st.floats(-0.7, 0.7), st.sampled_from([SHORT, LONG]), st.floats(6.0, 9.0))
 @settings(max_examples=60, deadline=None)
-def test_friction_bears_its_landings_and_energy_never_grows(contact, spin, block, peak):
+def test_friction_landing_keeps_cone_and_creates_no_energy(contact, spin, block, peak):
     """Under the rule of friction no impulse leaves the cone and no landing makes energy (N3)."""
     assume(contact.restitution_y > abs(spin))
     outcome = solve_jump(block, half_sine(peak, 0.6, 2.0), contact=contact, landing="friction", spin=f"ratio={spin}", gravity=G).outcome
@@ -105,7 +105,7 @@ def test_friction_bears_its_landings_and_energy_never_grows(contact, spin, block
         assert after <= before * (1.0 + NEAR_ROUND_OFF)
 
 
-def test_without_friction_the_landing_leaves_the_horizontal_velocity_alone():
+def test_frictionless_landing_keeps_horizontal_velocity():
     """Mu = 0 cannot stop anything: the centroid goes on as it flew, which the paper's landing forbids (N3)."""
     icy = Contact(0.0, 0.0, 0.95, 0.85)
     response = solve_jump(SHORT, PULSE, contact=icy, landing="friction", spin="ratio=0.1", gravity=G)
@@ -119,7 +119,7 @@ def test_without_friction_the_landing_leaves_the_horizontal_velocity_alone():
     assert abs(stopped.rock_slide_displacement_m) < 0.01
 
 
-def test_enough_friction_holds_the_corner_and_keeps_its_angular_momentum():
+def test_sticking_landing_conserves_angular_momentum_about_corner():
     """A corner that sticks keeps the body's angular momentum about itself: I_O omega = I_G omega + m (r x v)."""
     contact = Contact(4.0, 4.0, 0.95, 0.85)
     response = solve_jump(SHORT, PULSE, contact=contact, landing="friction", spin="ratio=0.19", gravity=G)
@@ -137,7 +137,7 @@ def test_enough_friction_holds_the_corner_and_keeps_its_angular_momentum():
     assert -bend[1] == pytest.approx(momentum / SHORT.corner_inertia, rel=2e-3)
 
 
-def test_what_slips_after_the_landing_slides_to_rest():
+def test_slip_after_landing_stops_at_kinetic_friction_distance():
     """A flat block that still slides on ground at rest goes on for v^2/(2 mu' g), and stops there."""
     response = solve_jump(SHORT, PULSE, contact=Contact(0.1, 0.1, 0.95, 0.85), landing="friction", spin="ratio=0", gravity=G)
     chain = response.outcome.chains[0]
@@ -149,7 +149,7 @@ def test_what_slips_after_the_landing_slides_to_rest():
     assert least < chain.rock_slide_displacement_m < most
 
 
-def test_all_chains_count_and_the_verdict_is_the_final_state():
+def test_outcome_sums_all_chains_and_reports_final_state():
     """The first chain of this record barely moves the block, later ones do: the sum and the end are told, not the first (N4)."""
     motion = motion_of(read("synthetic_jma.csv"), "NS")
     every = solve_jump(SHORT, motion, contact=CONTACT)
@@ -164,7 +164,7 @@ def test_all_chains_count_and_the_verdict_is_the_final_state():
     assert every.outcome.friction_needed_at_landing == max(chain.friction_needed_at_landing for chain in chains)
 
 
-def test_a_jump_before_a_harmless_chain_is_still_a_jump():
+def test_jump_before_smaller_chain_is_reported():
     """The last chain need not be the one that matters: it jumped, and stands where that took it."""
     small = half_sine(4.75, 0.1, 2.0).horizontal
     motion = Motion.from_arrays(np.concatenate([PULSE.horizontal, small]), 0.01)
@@ -178,7 +178,7 @@ def test_a_jump_before_a_harmless_chain_is_still_a_jump():
     assert (stays.outcome, stays.final_displacement_m) == (NO_JUMP, 0.0)
 
 
-def test_a_window_limits_the_onset_and_not_the_motion():
+def test_window_limits_onset_but_not_later_motion():
     """The chain that starts in a window of 0.1 s goes on for a second beyond it, as in the whole record (N5)."""
     motion = motion_of(read("synthetic_jma.csv"), "EW")
     whole = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains
@@ -189,7 +189,7 @@ def test_a_window_limits_the_onset_and_not_the_motion():
     assert two == (whole[0], whole[2])
 
 
-def test_a_window_begins_where_it_says():
+def test_window_opening_above_threshold_starts_rocking_there():
     """Where the ground is above the threshold when a window opens, rocking starts there, between two samples too."""
     plateau = Motion.from_arrays(np.concatenate([np.full(60, 5.0), np.zeros(300)]), 0.01)
     for begins in (0.2, 0.2345):
@@ -198,14 +198,14 @@ def test_a_window_begins_where_it_says():
 
 
 @pytest.mark.parametrize("window", [(100.0, 200.0), (-5.0, -1.0), (2.0, 1.0)])
-def test_a_window_without_motion_is_refused(window):
+def test_solve_jump_rejects_window_without_motion(window):
     """One sentence."""
     with pytest.raises(ParameterError, match=r"window .* does not overlap the motion"):
         solve_jump(SHORT, PULSE, contact=CONTACT, windows=[window])
 
 
 @pytest.mark.parametrize("landing", ["paper", "friction"])
-def test_what_moves_when_the_record_ends_comes_to_its_end(landing):
+def test_motion_continues_after_end_of_record(landing):
     """Cut after its pulse the record has the chain of the longer one, which ends with three seconds of still ground (N5)."""
     samples = int(np.flatnonzero(PULSE.horizontal)[-1]) + 2
     short = Motion.from_arrays(PULSE.horizontal[:samples], PULSE.dt)
@@ -218,7 +218,7 @@ def test_what_moves_when_the_record_ends_comes_to_its_end(landing):
     assert cut.end_s > short.time[-1]
 
 
-def test_the_ground_stops_at_once_after_the_last_sample():
+def test_ground_acceleration_is_zero_after_last_sample():
     """A record that ends in mid-push stops pushing there: the same as one whose last interval, a hundredth as long, ramps down."""
     push = Motion.from_arrays(np.full(41, 6.5), 0.01)
     steep = Motion.from_arrays(np.concatenate([np.full(40_001, 6.5), np.zeros(20_000)]), 1e-5)
@@ -230,7 +230,7 @@ def test_the_ground_stops_at_once_after_the_last_sample():
     assert not response["ground_acceleration"][after].any()
 
 
-def test_what_is_left_at_the_end_is_told():
+def test_outcome_reports_angular_velocity_at_return_to_zero_tilt():
     """The angular velocity with which the tilt comes back to zero: the paper's model makes nothing of it."""
     response = solve_jump(SHORT, PULSE, contact=CONTACT, spin="ratio=0.19", gravity=G)
     chain = response.outcome.chains[0]
@@ -240,7 +240,7 @@ def test_what_is_left_at_the_end_is_told():
 
 
 @pytest.mark.kernel
-def test_named_modes_are_numbered_as_the_model_names_them():
+def test_mode_constants_match_mode_names():
     """Each kind of motion about a corner has its name in the model's list."""
     from seisblock.models.jump.flight import FLIGHT_MODEL
 

@@ -33,7 +33,7 @@ def forces_on_a_foot_that_holds(side, theta, omega, shake):
 
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(st.sampled_from([-1, 1]), st.floats(0.01, 0.7), st.floats(-3.0, 3.0), st.floats(-8.0, 8.0), st.floats(0.05, 1.2))
-def test_a_foot_that_lands_holds_where_static_friction_bears_what_it_needs(side, tilt, omega, shake, mu):
+def test_landed_foot_sticks_within_static_friction(side, tilt, omega, shake, mu):
     """[Sugimoto2017]_ eqs. (12b), (12c), (14), centrifugal force included: held if |H| <= mu N, else it slips against the push it lacks."""
     theta = -side * tilt
     push, normal = forces_on_a_foot_that_holds(side, theta, omega, shake)
@@ -48,7 +48,7 @@ def test_a_foot_that_lands_holds_where_static_friction_bears_what_it_needs(side,
         assert found == modes.contact_mode(corner, modes.SLIP_FORWARD if push < 0.0 else modes.SLIP_BACKWARD)
 
 
-def test_centrifugal_force_decides_some_landings():
+def test_centrifugal_force_changes_stick_to_slip():
     """The cases above are no idle ones: turning at 2 rad/s a foot slips that would hold if it came down without turning."""
     for omega, holds in ((0.0, True), (2.0, False), (-2.0, False)):
         push, normal = forces_on_a_foot_that_holds(1, -0.3, omega, 0.0)
@@ -57,7 +57,7 @@ def test_centrifugal_force_decides_some_landings():
 
 @pytest.mark.parametrize("ratio", [-0.9, -0.86, -0.84, -0.3, 0.0, 0.3, 0.84, 0.86, 0.9])
 @pytest.mark.parametrize("restitution_y", [0.85, 0.5])
-def test_a_block_jumps_when_both_corners_rise(ratio, restitution_y):
+def test_jump_requires_both_corners_to_rise(ratio, restitution_y):
     """[Sugimoto2017]_ eq. (8b): whichever way it spins, the corner that the spin turns down must rise all the same."""
     go = launch(SHORT, -1.3, ratio, 0.95, restitution_y)
     corners = [go.vertical + side * go.spin * SHORT.width / 2 for side in (-1, 1)]
@@ -65,12 +65,12 @@ def test_a_block_jumps_when_both_corners_rise(ratio, restitution_y):
 
 
 @pytest.mark.parametrize(("block", "clockwise"), [(SHORT, 0.126), (LONG, -0.013)])
-def test_the_spin_as_printed(block, clockwise):
+def test_printed_spin_equals_eq_7a_times_depth(block, clockwise):
     """[Sugimoto2017]_ eq. (7a) to the letter, times the depth: 0.126 clockwise on the short side, 0.013 the other way on the long."""
     assert spin_ratio(block, "printed", 0.95, 0.85) == pytest.approx(clockwise, abs=5e-4)
 
 
-def test_the_spin_by_angular_momentum_is_that_of_the_layers():
+def test_spin_by_angular_momentum_equals_sum_over_slices():
     """Every slice of the block keeps e_x of its horizontal and e_y of its vertical velocity: the moment of momentum of 400 x 400 pieces."""
     ex, ey = 0.95, 0.85
     for block in (SHORT, LONG):

@@ -22,7 +22,7 @@ SHAKING = 3.4 * np.sin(2 * np.pi * 1.6 * T) * np.sin(np.pi * T / 6) ** 2
 UP = 1.5 * np.sin(2 * np.pi * 3.1 * T)
 
 
-def test_friction_demand_is_that_of_the_moving_centre():
+def test_friction_demand_equals_second_differences_of_centre():
     """H/N from second differences of the centre's coordinates, on a record sampled so densely that they are exact enough."""
     block = Block(0.3, 1.0)
     fine = np.arange(120001) * 5e-5
@@ -44,7 +44,7 @@ def test_friction_demand_is_that_of_the_moving_centre():
     assert coarse.max_friction_demand_s == pytest.approx(response.outcome.max_friction_demand_s, abs=2e-3)
 
 
-def test_contact_is_lost_under_strong_downward_ground():
+def test_contact_loss_is_reported_at_exact_time():
     """At rest N vanishes where the ground falls faster than g, at the exact time; it is said."""
     down = np.linspace(0.0, -2.0 * G, 41)
     response = solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down), vertical=True)
@@ -55,7 +55,7 @@ def test_contact_is_lost_under_strong_downward_ground():
     assert not solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down)).outcome.contact_lost
 
 
-def test_rocking_ends_in_rest_and_starts_again():
+def test_rocking_ends_in_rest_and_restarts_at_threshold():
     """Impacts crowd until the rest, from which the next crossing of the threshold starts anew."""
     block = Block(0.5, 1.2)
     pulse = 6.0 * np.sin(np.pi * np.arange(41) / 40)
@@ -72,7 +72,7 @@ def test_rocking_ends_in_rest_and_starts_again():
     assert response.outcome.decided_after_record is False
 
 
-def test_maximum_is_between_samples():
+def test_maximum_tilt_is_found_between_samples():
     """Halving dt does not move the maximum of one swing: it is that of the curve."""
     a = np.concatenate([4.0 * np.sin(np.pi * np.arange(21) / 20), np.zeros(60)])
     coarse = solve_rock(Block(0.3, 1.0), Motion.from_arrays(a, 0.02))
@@ -83,7 +83,7 @@ def test_maximum_is_between_samples():
     assert np.abs(coarse["rotation"]).max() < coarse.outcome.max_rotation_rad
 
 
-def test_unequal_corners():
+def test_asymmetric_block_starts_about_nearer_corner():
     """An offset centre: it starts to the side of the shorter arm, with that alpha, and its restitutions differ."""
     block = Block(0.4, 1.0, centroid_offset=0.1)
     outcome = solve_rock(block, Motion.from_arrays(np.array([0.0, -2.5, 0.0]), 0.2)).outcome
@@ -95,7 +95,7 @@ def test_unequal_corners():
     assert onto_left == pytest.approx((block.gyration_squared + 0.25 - 0.03) / (block.gyration_squared + 0.25 + 0.09))
 
 
-def test_no_restitution_is_the_limit_of_little():
+def test_zero_restitution_is_limit_of_small_restitution():
     """Restitution 0 is allowed: every swing ends at its impact, and the answer is that of 1e-9 (N13)."""
     motion = motion_of(read("synthetic_jma.csv"), "NS")
     for factor in (0.5, 0.7, 1.0):
@@ -119,7 +119,7 @@ def test_very_wide_block_stops_at_the_impact():
     assert "rocking threshold 1.50 g" in response.warnings[0]
 
 
-def test_block_that_never_loses_energy_is_told_from_one_that_falls():
+def test_lossless_block_below_energy_barrier_does_not_overturn():
     """With a restitution of 1 energy decides, too: below the barrier it stands although it rocks for ever."""
     block = from_slenderness(0.25, 2.14)
     still = Motion.from_arrays(np.zeros(50), 0.01)
@@ -136,7 +136,7 @@ def test_block_that_never_loses_energy_is_told_from_one_that_falls():
 
 @pytest.mark.parametrize("linear", [False, True])
 @pytest.mark.parametrize(("theta", "omega"), [(0.3, -0.1), (0.26, 0.0), (0.4, -1.6), (-0.3, 0.12), (0.1, 1.2), (-0.05, -2.0), (0.2, -0.8)])
-def test_fate_agrees_with_integrating_on(theta, omega, linear):
+def test_free_rocking_outcome_equals_integration_over_still_record(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
     found = free_rocking_outcome(
@@ -150,7 +150,7 @@ def test_fate_agrees_with_integrating_on(theta, omega, linear):
         assert {1: "+x", -1: "-x"}[found.direction] == long.overturned_towards
 
 
-def test_passing_alpha_and_coming_back_is_not_overturning():
+def test_passing_alpha_and_returning_is_not_overturning():
     """A block beyond alpha that the ground pushes back stands; the passing is logged, not the overturning."""
     block = from_slenderness(0.2, 3.0)
     a = np.concatenate([[0.0], np.full(60, 4.0), np.full(140, 0.0)])
@@ -176,7 +176,7 @@ def test_window_does_not_shift_times():
         assert getattr(late, key) == pytest.approx(getattr(early, key) + 7.5, abs=1e-12)
 
 
-def test_block_that_starts_loaded_beyond_the_threshold_starts_at_once():
+def test_first_sample_above_threshold_starts_rocking_at_once():
     """A record whose first sample exceeds the threshold starts rocking at its first sample."""
     outcome = solve_rock(Block(0.2, 1.0), Motion.from_arrays(np.full(100, -5.0), 0.01)).outcome
     assert outcome.rocking_start_s == 0.0
@@ -184,7 +184,7 @@ def test_block_that_starts_loaded_beyond_the_threshold_starts_at_once():
 
 
 @pytest.mark.slow
-def test_lossless_hops_without_end_are_a_clear_error(monkeypatch):
+def test_lossless_impacts_without_end_raise_solver_error(monkeypatch):
     """A restitution of 1 after a hop of microseconds never comes to rest: said in one sentence, not looped."""
     monkeypatch.setattr(integration, "_MAX_EVENTS", 2**18)
     threshold = G * 0.2
@@ -207,7 +207,7 @@ def test_lossless_hops_without_end_are_a_clear_error(monkeypatch):
         ),
     ],
 )
-def test_impossible_blocks_are_refused(sizes, says):
+def test_block_rejects_invalid_dimensions(sizes, says):
     """One sentence each."""
     with pytest.raises(BodyError, match=says):
         Block(**sizes)
@@ -224,14 +224,14 @@ def test_impossible_blocks_are_refused(sizes, says):
         {"initial": (0.0, math.inf)},
     ],
 )
-def test_impossible_options_are_refused(options):
+def test_solve_rock_rejects_invalid_options(options):
     """One sentence each."""
     with pytest.raises(ParameterError):
         solve_rock(Block(0.2, 1.0), Motion.from_arrays(np.zeros(5), 0.1), **options)
 
 
 @pytest.mark.parametrize(("alpha", "p"), [(0.0, 1.0), (1.6, 1.0), (0.3, -1.0), (math.nan, 1.0)])
-def test_impossible_slendernesses_are_refused(alpha, p):
+def test_solve_rock_rejects_invalid_slenderness(alpha, p):
     """The slenderness lies between 0 and pi/2, p is positive."""
     with pytest.raises(BodyError):
         from_slenderness(alpha, p)

@@ -30,7 +30,7 @@ def assert_same(one: Ensemble, other: Ensemble):
 
 
 @pytest.mark.parametrize("gains", [GAINS, np.array([[1.0, 0.0, 0.0]])], ids=["turned, with the vertical", "along alone"])
-def test_lanes_change_no_bit(gains):
+def test_simd_rows_equal_engine_bit_for_bit(gains):
     """Random blocks, more than there are lanes: some rest, some rock, some pass alpha, some fall; states, extrema, times, counts, stays."""
     some = 20 if len(gains) == 1 else 45
     p = parameters(rock_batch_params(BLOCKS, MOTION), 0.01)[:some]
@@ -40,7 +40,7 @@ def test_lanes_change_no_bit(gains):
 
 
 @pytest.mark.kernel
-def test_a_few_lanes_through_a_short_motion():
+def test_simd_with_empty_lanes_equals_engine():
     """Two blocks that lean: most lanes stay empty."""
     motion = Motion(MOTION.acceleration[:, 380:460], 0.01)
     p = parameters(rock_batch_params(BLOCKS, motion), 0.01)[[7, 30]]
@@ -49,7 +49,7 @@ def test_a_few_lanes_through_a_short_motion():
     assert (alone.n_events > 0).all()
 
 
-def test_lanes_begin_anywhere_and_go_on_where_they_paused(monkeypatch):
+def test_simd_with_initial_state_resumes_bit_for_bit(monkeypatch):
     """From a lean, in slices of a few steps, and through a motion that is given stretch by stretch: the same bits."""
     p = parameters(rock_batch_params(BLOCKS, MOTION, restitution=0.97), 0.01)
     start = np.column_stack([-0.5 * p[:, 4], np.linspace(-0.3, 0.3, len(p))])
@@ -61,14 +61,14 @@ def test_lanes_begin_anywhere_and_go_on_where_they_paused(monkeypatch):
     assert_same(integrate_many(ROCKING_SIMD_MODEL, MOTION, p, start, TO_LEFT, gains=GAINS), alone)
 
 
-def test_the_linear_option_is_left_to_the_engine():
+def test_linear_equation_uses_engine_bit_for_bit():
     """Slender blocks by the linear equation: the same bits, too."""
     p = parameters(rock_batch_params(BLOCKS, MOTION, linear=True), 0.01)
     assert_same(*(integrate_many(model, MOTION, p, np.zeros(2), REST, gains=GAINS) for model in (ROCKING_SIMD_MODEL, ROCKING)))
 
 
 @pytest.mark.kernel
-def test_sine_and_cosine_to_an_ulp():
+def test_simd_sine_and_cosine_match_math_to_one_ulp():
     """Within a right angle either way, as math has them."""
     for x in np.concatenate([np.linspace(-math.pi / 2, math.pi / 2, 401), [0.0, 1e-300, -1e-9]]).tolist():
         sine, cosine = sine_cosine(x)
@@ -77,7 +77,7 @@ def test_sine_and_cosine_to_an_ulp():
 
 
 @pytest.mark.kernel
-def test_terms_written_out_are_those_of_the_recurrence():
+def test_unrolled_coefficients_equal_recurrence():
     """Each coefficient, for leans, rates and ground motions drawn at random."""
     for psi, omega, lever, *ground in RNG.uniform(-1.0, 1.0, (20, 7)) * [1.4, 3.0, 2.0, 12.0, 90.0, 8.0, 200.0]:
         c = np.zeros((4, 21))

@@ -27,7 +27,7 @@ OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravit
 
 
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
-def test_many_runs_are_one_run_after_another(options):
+def test_rock_many_rows_equal_single_runs(options):
     """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
     rockers = [rock_params(block, MOTION, **options) for block in BLOCKS]
     alone = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
@@ -43,7 +43,7 @@ def test_many_runs_are_one_run_after_another(options):
     np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
 
 
-def test_arrays_of_blocks_are_the_blocks():
+def test_rock_many_with_block_array_equals_blocks():
     """Blocks that were never objects have the verdicts of those that were, on a record that ends while some of them still rock."""
     motion = motion_of(Record(tuple(Component(c.code, c.acceleration[:530]) for c in RECORD.components), 0.01), "NS")
     arrays = rock_batch_params(to_block_array(BLOCKS), motion, vertical=True)
@@ -55,7 +55,7 @@ def test_arrays_of_blocks_are_the_blocks():
     np.testing.assert_allclose(found.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone], rtol=1e-9)
 
 
-def test_runs_on_all_cores_keep_their_order():
+def test_rock_many_in_threads_keeps_order():
     """More runs than a thread takes at once come back as they were asked for, and progress reaches the end."""
     told = []
     rockers = [rock_params(BLOCKS[i % len(BLOCKS)], MOTION) for i in range(100)]
@@ -67,7 +67,7 @@ def test_runs_on_all_cores_keep_their_order():
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 37.0, 90.0, 200.0])
-def test_a_motion_is_turned_by_its_gains(azimuth):
+def test_gains_rotate_the_motion(azimuth):
     """Cos and -sin on the rows along and across are the record turned clockwise, also while the block is at rest."""
     angle = math.radians(azimuth)
     for options in ({}, {"vertical": True}):
@@ -78,7 +78,7 @@ def test_a_motion_is_turned_by_its_gains(azimuth):
         assert turned.max_rotation_ratio[0] == pytest.approx(there.max_rotation_ratio, rel=1e-9)
 
 
-def test_what_cannot_be_asked_is_refused_once_for_all_studies():
+def test_rock_many_rejects_invalid_input_like_single_run():
     """The same sentences as of a single run."""
     level = Motion(MOTION.acceleration, 0.01, record=Record(RECORD.components[:2], 0.01))
     for call, error in (

@@ -24,7 +24,7 @@ def shaking(seed=0, samples=4000, dt=0.01, vertical=0.5):
     return Motion.from_arrays(a, dt, vertical=vertical * np.roll(a, 7))
 
 
-def test_equal_friction_coefficients_do_not_chatter():
+def test_equal_friction_coefficients_end_without_chatter():
     """With kappa = 1 each slip starts from equal forces: 500 studies' rows with and without flight end without giving up."""
     points = slide_study(np.linspace(0.02, 0.4, 50).tolist(), shaking(), kappa=1.0, vertical=np.linspace(0.0, 10.0, 10).tolist())
     assert len(points) == 500
@@ -32,7 +32,7 @@ def test_equal_friction_coefficients_do_not_chatter():
     assert all(point.slips for point in points if point.mu < 0.25)
 
 
-def test_equality_sticks_in_any_unit():
+def test_plateau_equal_to_friction_limit_sticks_in_any_unit():
     """A plateau of exactly mu g moves nothing though gal and m/s^2 round it differently; 1e-12 more slides, far with a small kappa."""
     for mu in np.round(np.arange(0.01, 1.0, 0.01), 2):
         plateau = 0.01 * np.full(20, round(mu * 980.665, 6))
@@ -43,7 +43,7 @@ def test_equality_sticks_in_any_unit():
         )
 
 
-def test_a_base_in_free_fall_keeps_contact():
+def test_base_in_free_fall_keeps_contact():
     """Falling at exactly g, in any unit, is not faster than the object falls."""
     for gal in np.round(np.arange(978.0, 983.0, 0.1), 1):
         motion = Motion.from_arrays(np.zeros(20), 0.01, vertical=-0.01 * np.full(20, gal))
@@ -51,7 +51,7 @@ def test_a_base_in_free_fall_keeps_contact():
 
 
 @pytest.mark.parametrize("scale", [5.0, 6.4, 6.6, 9.0])
-def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(scale):
+def test_contact_is_lost_when_base_falls_faster_than_gravity(scale):
     """The object lifts off if and only if g + y'' becomes negative, stuck or sliding; one way only, flight is refused there."""
     motion = shaking()
     falls = (G + scale * motion.vertical).min() < 0.0
@@ -61,7 +61,7 @@ def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(scale):
             assert not solve_slide(sliding_base(mu, one_way=True), motion, vertical=scale).outcome.lifted_off
 
 
-def test_a_one_way_object_held_back_lifts_off_all_the_same():
+def test_one_way_object_at_rest_loses_contact_under_falling_base():
     """Pushed where it cannot slide, a one-way object loses contact when the base falls: refused with the time, in studies too."""
     motion = Motion.from_arrays(np.full(9, 5.0), 0.01, vertical=[0, 0, 0, -4.0, -10.0, -4.0, 0, 0, 0], name="EW")
     at = 0.03 + 0.01 * (G - 4.0) / 6.0
@@ -73,7 +73,7 @@ def test_a_one_way_object_held_back_lifts_off_all_the_same():
 
 @pytest.mark.parametrize("slope", [10.0, -10.0])
 @pytest.mark.parametrize("before", [0.0, -4.0])
-def test_an_object_flies_where_drive_and_normal_force_vanish_together(slope, before):
+def test_flight_starts_when_drive_and_normal_force_vanish_together(slope, before):
     """On a slope shaken up and down only, both are zero as the base begins to fall faster than g, stuck or sliding: it lifts off there."""
     t = np.arange(0.0, 3.0, 0.01)
     motion = Motion.from_arrays(np.where(t < 0.1, np.sign(slope) * before, 0.0), 0.01, vertical=15.0 * np.sin(8.0 * t))
@@ -86,14 +86,14 @@ def test_an_object_flies_where_drive_and_normal_force_vanish_together(slope, bef
     assert response.outcome.slips and response.outcome.lifted_off
 
 
-def test_one_way_never_goes_back():
+def test_one_way_displacement_never_decreases():
     """Without flight the displacement of a one-way slide never falls."""
     u = solve_slide(sliding_base(0.1, kappa=0.5, one_way=True), shaking())["displacement"]
     assert (np.diff(u) >= -1e-15).all()
     assert u[-1] > 0.1
 
 
-def test_still_ground_moves_nothing():
+def test_still_ground_causes_no_slip():
     """No shaking, no slip, on the steepest slope that friction holds too; every number is there."""
     still = Motion.from_arrays(np.zeros(10), 0.01)
     outcome = solve_slide(sliding_base(np.tan(np.radians(30.0)), slope_deg=30.0), still).outcome
@@ -102,7 +102,7 @@ def test_still_ground_moves_nothing():
     assert (outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m, outcome.slip_count) == (0.0, 0.0, 0.0, 0)
 
 
-def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
+def test_slope_steeper_than_kinetic_friction_slides_without_end():
     """Once in motion on an endless slope with mu_k < tan th nothing stops the object, and the outcome says so."""
     motion = Motion.from_arrays(np.concatenate([np.full(10, -5.0), np.zeros(40)]), 0.02)
     response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0), motion)
@@ -113,7 +113,7 @@ def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
     assert not sliding_base(0.3, kappa=0.9, slope_deg=12.0).never_stops
 
 
-def test_times_count_from_the_records_first_sample():
+def test_times_count_from_first_sample_of_record():
     """A motion that starts 20 s into its record reports times on the record's clock."""
     motion = shaking()
     later = Motion(motion.acceleration, motion.dt, start_s=20.0)
@@ -131,7 +131,7 @@ def test_largest_slip_between_samples_is_found():
     assert coarse.outcome.max_slip_m == pytest.approx(np.abs(dense["displacement"]).max(), rel=1e-9)
 
 
-def test_worst_direction_is_the_largest_slip_of_each_combination():
+def test_worst_direction_is_largest_slip_per_combination():
     """Of two directions the study keeps, for each friction, the one that slides further."""
     weak, strong = shaking(), Motion(1.5 * shaking(1).acceleration, 0.01, name="90")
     points = slide_study([0.05, 0.1], [weak, strong])
@@ -150,7 +150,7 @@ def test_vertical_motion_needs_a_vertical_component():
 
 
 @pytest.mark.parametrize("number", [float("nan"), float("inf")])
-def test_numbers_must_be_finite(number):
+def test_solve_slide_rejects_non_finite_numbers(number):
     """NaN and infinity are refused for every parameter."""
     motion = shaking()
     for how in (

@@ -22,7 +22,7 @@ def springs(count):
     return [SpringBlock.from_frequency(a, b, h, frequency_vertical=f, beta=beta, damping=z) for a, b, h, f, beta, z in numbers]
 
 
-def test_rows_of_blocks_on_springs_are_their_answers():
+def test_uplift_many_rows_equal_solve_uplift():
     """Every scalar of the outcome, and every warning."""
     motion = shaking(6.0, 0.01)
     motion = dataclasses.replace(motion, start_s=2.5)
@@ -40,7 +40,7 @@ def test_rows_of_blocks_on_springs_are_their_answers():
         )
 
 
-def test_one_block_under_many_factors():
+def test_uplift_many_lifts_above_uplift_scale_only():
     """A block lifts above the scale that is told, and not below; a factor of two is exact."""
     (body,), motion = springs(1), shaking(6.0, 0.01)
     scale = solve_uplift(body, motion).outcome.uplift_scale
@@ -77,7 +77,7 @@ def pushed(samples):
         ({"first": True, "spin": "ratio=0.75"}, 1121, {1, 2, 3}),
     ],
 )
-def test_rows_of_two_layer_blocks_are_their_answers(options, samples, fates):
+def test_jump_many_rows_equal_solve_jump(options, samples, fates):
     """Every scalar of the outcome, and every warning; of records that end in the middle of a chain, too, and of feet that jam."""
     blocks, contacts = layered(12)
     motion = pushed(samples)
@@ -94,7 +94,7 @@ def test_rows_of_two_layer_blocks_are_their_answers(options, samples, fates):
         assert chain_warnings(motion, found.row_chains(row, motion.start_s), contact.mu) == one.warnings
 
 
-def test_one_two_layer_block_under_many_factors():
+def test_jump_many_rocks_above_threshold_factor_only():
     """It rocks above its threshold, and not below; a factor of two is exact."""
     (block,), (contact,) = layered(1)
     motion = shaking(10.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=11)

@@ -42,7 +42,7 @@ def sine(pga, hertz, seconds, dt=0.01):
 
 
 @pytest.mark.kernel
-def test_a_block_at_rest_stays():
+def test_spring_block_at_rest_stays():
     """Nothing moves under a ground that does not move, whatever the number of points."""
     for points in (2, 3):
         response = solve_stack(block(), Motion.from_arrays(np.zeros(3), 0.01), points=points)
@@ -51,7 +51,7 @@ def test_a_block_at_rest_stays():
 
 
 @pytest.mark.slow
-def test_a_plumb_pile_at_rest_stays_for_100_s():
+def test_spring_pile_at_rest_stays_for_100_s():
     """The five-stone pile drifts by less than 0.1 mm in 100 s."""
     response = solve_stack(load_pile("wagata"), Motion.from_arrays(np.zeros(10_001), 0.01))
     drift = max(float(np.ptp(response[f"{name}_{axis}"])) for name in response.body.names for axis in "xyz")
@@ -59,7 +59,7 @@ def test_a_plumb_pile_at_rest_stays_for_100_s():
     assert all(stone.state == "standing" for stone in response.outcome.stones)
 
 
-def test_a_block_on_a_slope_slides_at_tan_equal_mu():
+def test_spring_block_on_slope_slides_above_friction_angle():
     """Just below the angle of friction a block stays; above it slides with g (sin - mu cos)."""
     mu, seconds = 0.4, 4.0
     flat = block(0.5, mu=mu)
@@ -76,7 +76,7 @@ def test_a_block_on_a_slope_slides_at_tan_equal_mu():
     assert solve_stack(flat, slope(ramp * just)).outcome.stones[0].residual_slip_m > 0.02
 
 
-def test_slow_tilt_overturns_at_the_exact_angle():
+def test_slow_tilt_overturns_at_critical_angle():
     """A ground tilted ever so slowly lets the block go at tan = B/H, to 0.1 %, towards the lower side."""
     ratio = 3.0
     critical = math.atan(1.0 / ratio)
@@ -90,7 +90,7 @@ def test_slow_tilt_overturns_at_the_exact_angle():
 
 
 @pytest.mark.parametrize("hertz", [1.0, 2.5])
-def test_mirrored_shaking_gives_the_mirror_image(hertz):
+def test_mirrored_motion_gives_mirrored_response(hertz):
     """Shaking to the other side moves every stone to the other side, to the last bit while they stand."""
     motion = sine(6.0, hertz, 3.0)
     there = solve_stack(load_pile("wagata"), motion, stop_at_fall=True)
@@ -102,7 +102,7 @@ def test_mirrored_shaking_gives_the_mirror_image(hertz):
         np.testing.assert_array_equal(there[f"{name}_tilt"], back[f"{name}_tilt"])
 
 
-def test_turning_pile_and_shaking_by_a_right_angle_changes_nothing():
+def test_quarter_turn_of_pile_and_motion_changes_nothing():
     """A square pile shaken along y does what it does along x."""
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
     along = sine(5.0, 1.5, 3.0)
@@ -113,7 +113,7 @@ def test_turning_pile_and_shaking_by_a_right_angle_changes_nothing():
 
 
 @pytest.mark.parametrize("reinforced", [False, True])
-def test_energy_never_grows_and_momentum_is_kept(reinforced):
+def test_dissipation_never_decreases_and_momentum_is_conserved(reinforced):
     """What friction and dashpots have taken never falls, through rocking, falling and coming to rest; momentum is the impulse."""
     rng = np.random.default_rng(3)
     shaking = rng.normal(size=(3, 800)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(800)
@@ -124,7 +124,7 @@ def test_energy_never_grows_and_momentum_is_kept(reinforced):
     assert outcome.overturned_any
 
 
-def test_a_toppled_block_comes_to_lie_on_its_side():
+def test_toppled_block_rests_on_its_side():
     """A block pushed over ends on the ground, flat on its side, sunk by its weight on the springs and no more."""
     response = solve_stack(block(3.0), Motion.from_arrays(np.zeros(3), 0.01), tilts={"block": 0.4})
     fate = response.outcome.stones[0]
@@ -135,7 +135,7 @@ def test_a_toppled_block_comes_to_lie_on_its_side():
 
 
 @pytest.mark.parametrize(("ratio", "falls_at"), [(3.0, 60.0), (0.5, math.degrees(math.atan(2.0) + 0.1))])
-def test_a_stone_has_fallen_when_it_leans_by_60_degrees_and_more_than_it_can(ratio, falls_at):
+def test_stone_falls_at_60_degrees_or_beyond_critical_angle(ratio, falls_at):
     """Let go beyond its balance it counts as fallen as it passes 60 degrees, a squat one 0.1 rad beyond its critical angle."""
     lean = math.atan(1.0 / ratio) + 0.02
     response = solve_stack(block(ratio, mu=2.0), Motion.from_arrays(np.zeros(3), 0.01), points=2, contact=STIFF, tilts={"block": lean})
@@ -146,7 +146,7 @@ def test_a_stone_has_fallen_when_it_leans_by_60_degrees_and_more_than_it_can(rat
     assert tilt == pytest.approx(falls_at, abs=0.5)
 
 
-def test_a_free_body_keeps_its_energy():
+def test_free_rotation_conserves_energy():
     """A block that turns about all its axes in the air keeps its energy until it lands."""
     from seisblock.models.stack.arrays import pile_arrays
     from seisblock.models.stack.frames import L, X, update_rotation_matrix, update_spin
@@ -167,7 +167,7 @@ def test_a_free_body_keeps_its_energy():
 
 
 @pytest.mark.parametrize(("shift", "falls"), [(0.85, False), (1.15, True)])
-def test_a_stone_pushed_over_the_edge_falls_when_its_centre_passes_it(shift, falls):
+def test_slab_tips_when_its_centre_passes_the_edge(shift, falls):
     """A slab slid over the border of a post tips over it once its centre of gravity is beyond, and not before."""
     post, slab = PileStone("post", 0.3, 0.3, 0.3), PileStone("slab", 0.3, 0.3, 0.06, on="post", mu=0.001)
     # a base that jumps to the side by the distance wanted: the slab, almost without friction, stays behind
@@ -183,7 +183,7 @@ def test_a_stone_pushed_over_the_edge_falls_when_its_centre_passes_it(shift, fal
     assert response.outcome.created_j < 1e-3
 
 
-def test_vertical_and_transverse_motion_can_be_left_out():
+def test_vertical_and_transverse_false_omit_those_motions():
     """Without them a run is that of the first row alone."""
     rng = np.random.default_rng(5)
     full = Motion(rng.normal(size=(3, 200)), 0.01)
@@ -193,7 +193,7 @@ def test_vertical_and_transverse_motion_can_be_left_out():
     assert not np.array_equal(solve_stack(block(), full)["block_x"], left_out["block_x"])
 
 
-def test_halving_the_step_changes_little():
+def test_halving_the_step_changes_rocking_by_less_than_1_percent():
     """The default step has converged: half of it gives the same rocking to 1 %."""
     motion = sine(4.0, 2.0, 2.0)
     body = load_pile("wagata")
@@ -211,14 +211,14 @@ def test_halving_the_step_changes_little():
         (math.nan, "positive"),
     ],
 )
-def test_a_step_that_will_not_do_is_refused(step, said):
+def test_solve_stack_rejects_unstable_or_tiny_step(step, said):
     """Beyond the stability of the stiffest contact, or so fine that the run would not end, it is an error that says what would do."""
     with pytest.raises(ParameterError, match=said):
         solve_stack(block(), sine(1.0, 1.0, 0.1), step=step)
 
 
 @pytest.mark.parametrize("points", [1, 1000])
-def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
+def test_slicing_a_spring_run_changes_no_bit(points, monkeypatch):
     """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
     motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
     whole = solve_stack(body, motion)
@@ -231,7 +231,7 @@ def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
     assert told == sorted(told) and told[-1] == (motion.samples - 1, motion.samples - 1)
 
 
-def test_created_energy_is_an_error(monkeypatch):
+def test_run_that_creates_energy_raises(monkeypatch):
     """A run that creates energy is refused, whatever it answers."""
     from seisblock.models.stack import outcome as stack_outcome
 
@@ -242,7 +242,7 @@ def test_created_energy_is_an_error(monkeypatch):
 
 
 @pytest.mark.parametrize("below", [0.4, 0.5])
-def test_flush_stones_that_slip_on_their_corners_create_no_energy(below):
+def test_flush_stones_slipping_on_corners_create_no_energy(below):
     """Points that stand on the border of the stone below keep their load as it slips to and fro; the answer does not hang on the step."""
     pile = Pile("flush", (PileStone("low", below, 0.4, 0.2), PileStone("high", 0.4, 0.4, 0.2, on="low")), mu=0.4)
     t = np.arange(0.0, 4.0, 0.01)
@@ -256,7 +256,7 @@ def test_flush_stones_that_slip_on_their_corners_create_no_energy(below):
     assert coarse.residual_slip_m["high"] == pytest.approx(fine.residual_slip_m["high"], rel=0.05)
 
 
-def test_options_out_of_range_are_refused():
+def test_solve_stack_rejects_options_out_of_range():
     """Gravity, points and stones that are not there are one sentence each."""
     motion = sine(1.0, 1.0, 0.1)
     with pytest.raises(ParameterError, match="gravity must be positive"):
@@ -268,7 +268,7 @@ def test_options_out_of_range_are_refused():
 
 
 @pytest.mark.slow
-def test_stones_that_fall_on_each_other_create_no_energy():
+def test_colliding_spring_stones_create_no_energy():
     """A lantern and a gravestone shaken to pieces: every tumble, edge on edge, keeps the books."""
     from seisblock.validation.furukawa_pile import kobe_like
 
@@ -280,7 +280,7 @@ def test_stones_that_fall_on_each_other_create_no_energy():
             assert outcome.overturned_any
 
 
-def test_turns_of_stones_are_those_of_scipy():
+def test_quaternion_rotation_equals_scipy():
     """Turned vectors, tilt and turn about the vertical, from quaternions, against rotation matrices."""
     quaternions = np.random.default_rng(3).normal(size=(50, 4))
     quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]

@@ -45,19 +45,19 @@ def slab(height, side=2.0 * R, name="block", **more):
 
 
 @pytest.mark.parametrize(("height", "lean"), RIM_CASES)
-def test_a_spinning_stone_keeps_its_lean(height, lean):
+def test_spinning_stone_keeps_lean_and_energy(height, lean):
     """Five turns of a disk, of drums and of a column, whose rates are cases of ``validate``: lean within 0.2 %, no energy from nowhere."""
     _, axis, end = roll_on_rim(drum(height), lean)
     np.testing.assert_allclose(np.arccos(axis[:, 2]), lean, rtol=2e-3)
     assert end.output.energy_ledger[CREATED] < 1e-5 * drum(height).mass * G * R
 
 
-def test_a_spinning_disk_is_moffatts():
+def test_thin_spinning_disk_follows_moffatt():
     """Of a thin disk the closed form is that of the paper, 4 g/(R sin)."""
     assert rim_rate(drum(1e-6), 0.1) == pytest.approx(math.sqrt(4.0 * G / (R * math.sin(0.1))), rel=1e-6)
 
 
-def test_a_drum_that_seems_to_rock_rolls_and_loses_nothing():
+def test_drum_rolling_through_upright_conserves_energy():
     """It leans as far on the other side, which is a case of ``validate``: a drum as high as wide turns by 230 degrees, no half turn."""
     turned, leans, _ = rock_and_roll(drum(2.0 * R))
     assert turned == pytest.approx(math.radians(230.0), abs=0.02)
@@ -65,14 +65,14 @@ def test_a_drum_that_seems_to_rock_rolls_and_loses_nothing():
 
 
 @pytest.mark.parametrize("step", [1e-3, 2.5e-3])
-def test_a_drum_that_seems_to_rock_rolls_at_any_step(step):
+def test_drum_rolling_through_upright_is_independent_of_step(step):
     """It rolls across within a tenth of a step: steps end where the lowest point of its rim has wandered far."""
     turned, leans, _ = rock_and_roll(drum(2.0 * R), 4e-3, step)
     assert 2.0 * math.pi - turned == pytest.approx(math.radians(230.9), abs=0.05)  # seen half way, it turned the short way round
     assert leans == pytest.approx(1.0, abs=0.03)
 
 
-def test_a_drum_that_wobbles_gains_nothing():
+def test_wobbling_drum_gains_no_energy():
     """Eight drums let go with any lean and spin, for ten seconds at the default step: the energy held grows by at most 0.1 %."""
     rng = np.random.default_rng(5)
     for height in R * rng.uniform(0.3, 6.0, 8):
@@ -84,35 +84,35 @@ def test_a_drum_that_wobbles_gains_nothing():
         assert end.output.energy_ledger[CREATED] < 1e-3 * stone.mass * (swing + G * (-foot[2] - 0.5 * height))
 
 
-def test_a_drum_that_rolls_down_loses_nothing():
+def test_drum_rolling_downhill_conserves_energy():
     """What it gains is a case of ``validate``."""
     _, end = roll_down_slope()
     assert end.output.energy_ledger[DISSIPATED] < 1e-6 * end.output.energy_ledger[0]
 
 
-def test_a_coin_rolls_straight_on():
+def test_upright_coin_rolls_straight():
     """Upright, at 2 m/s, it neither slows down nor turns aside."""
     time, centres = roll_on_level(1e-3)
     np.testing.assert_allclose(centres[:, 0], SPEED * time, rtol=1e-6, atol=1e-9)
     assert np.abs(centres[:, 1]).max() < 1e-4
 
 
-def test_a_drum_may_roll_far():
+def test_ground_is_unbounded_for_rolling_drum():
     """The ground has no edge within a record's reach."""
     _, centres = roll_on_level(0.4, 80.0)
     assert centres[-1, 0] > 75.0
     np.testing.assert_allclose(centres[:, 2], R, rtol=1e-3)
 
 
-def in_the_plane(stone):
+def planar_block(stone):
     """Return the block that a round stone is in the plane of its lean."""
     return Block(stone.width, stone.height, mass=stone.mass, centroid_inertia=stone.mass * float(stone.gyration_squared[1]))
 
 
-def test_a_drum_rocks_in_the_plane_as_its_block():
+def test_drum_in_plane_rocks_like_planar_block():
     """Let go from 0.6 alpha, each amplitude follows from the last by energy and the restitution of its block, within 1 %."""
     stone = drum(0.96, 0.24)
-    block = in_the_plane(stone)
+    block = planar_block(stone)
     alpha, kept = block.slenderness, block.restitution
 
     def height(lean):
@@ -130,10 +130,10 @@ def test_a_drum_rocks_in_the_plane_as_its_block():
 
 @pytest.mark.parametrize("worn", [0.0, 0.1])
 @pytest.mark.parametrize("make", [drum, slab])
-def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
+def test_stone_on_exact_base_overturns_at_respond_threshold(make, worn):
     """Round and square, sharp and worn: just below the threshold of its block in the plane it stands, just above it falls."""
     stone = make(0.72, 0.24)
-    plane, pile = in_the_plane(stone).with_wear(worn), Pile("one", (stone,), mu=1.0).with_wear(worn)
+    plane, pile = planar_block(stone).with_wear(worn), Pile("one", (stone,), mu=1.0).with_wear(worn)
 
     def falls(pga):
         return bool(solve_respond(plane, cycle(pga, 1.5), mu=1.0).outcome.overturned)
@@ -150,7 +150,7 @@ def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
 
 
 @pytest.mark.parametrize("law", ["rigid", "springs"])
-def test_a_worn_stone_stands_over_the_edge_of_a_wider_one(law):
+def test_worn_stone_pivots_at_overhang_of_wider_stone(law):
     """It turns about its own worn edges and the sharp one of the stone below; on springs it fell to the side that was worn by neither."""
     lower, upper = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower")
     pile = Pile("over", (lower, upper), mu=2.0).with_wear(0.2)
@@ -162,7 +162,7 @@ def test_a_worn_stone_stands_over_the_edge_of_a_wider_one(law):
 
 
 @pytest.mark.parametrize("degrees", [20.0, 45.0])
-def test_a_column_leans_alike_in_every_direction(degrees):
+def test_column_response_is_isotropic(degrees):
     """Shaken along any azimuth, its lean is the one along x, turned."""
     pile, shaking = Pile("one", (drum(0.8, 0.26),), mu=1.0), cycle(4.0, 1.5)
     along = solve_stack(pile, shaking)
@@ -182,7 +182,7 @@ PILES = {
 
 
 @pytest.mark.parametrize("name", PILES)
-def test_round_stones_rest_on_others_and_move_without_creating_energy(name):
+def test_round_stones_keep_rest_momentum_and_energy(name):
     """At rest they stay; shaken along three axes they keep momentum, and create less than 1e-3 of the energy of a fall."""
     pile = Pile(name, PILES[name], mu=0.6)
     rest = solve_stack(pile, still(2.0)).outcome
@@ -197,7 +197,7 @@ def test_round_stones_rest_on_others_and_move_without_creating_energy(name):
     assert max(shaken.max_tilt_rad.values()) > 1e-4 or max(shaken.residual_slip_m.values()) > 1e-4
 
 
-def test_a_column_stands_and_says_where_it_falls():
+def test_bundled_column_stands_at_rest_and_reports_fall_direction():
     """The bundled column of drums and a capital stands still, and falls under strong shaking to a side that is said."""
     column = load_pile("column")
     assert all(stone.is_round for stone in column.stones[:-1])
@@ -215,7 +215,7 @@ def test_a_column_stands_and_says_where_it_falls():
         (slab(0.4), {"points": 5, "inset": 0.1}, "edge wear requires contact at the edges"),
     ],
 )
-def test_what_round_and_worn_bases_do_not_know_is_refused(stone, more, said):
+def test_solve_stack_rejects_unsupported_options_of_round_and_worn_bases(stone, more, said):
     pile = Pile("one", (stone,)).with_wear(more.pop("inset", 0.0))
     with pytest.raises(ParameterError, match=said):
         solve_stack(pile, still(0.1), **more)

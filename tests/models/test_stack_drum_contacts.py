@@ -39,7 +39,7 @@ def roll_against(along, turned, restitution):
 
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.1, 0.9])
 @pytest.mark.parametrize(("along", "turned"), [(0.42, 0.0), (0.45, 0.0), (0.49, 0.0), (0.42, 0.1), (0.44, -0.1)])
-def test_a_drum_that_comes_beside_the_end_of_one_that_lies_meets_its_side(along, turned, restitution):
+def test_drum_sliding_past_end_of_lying_drum_contacts_its_side(along, turned, restitution):
     """As long as its centre was beyond the other's end it was met only face on face: it sank into its side, and was pushed out of it."""
     end, mass = roll_against(along, turned, restitution)
     low, high = end.track.centres[:, 0], end.track.centres[:, 1]

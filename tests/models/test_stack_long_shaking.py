@@ -23,7 +23,7 @@ def noise(seed, factor=1.0, seconds=SECONDS):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize(("name", "factor"), [("lantern", 1.0), ("wagata", 2.0)])
-def test_fallen_stones_that_are_shaken_on_create_no_energy(name, factor, seed):
+def test_fallen_stones_under_long_shaking_create_no_energy(name, factor, seed):
     """Friction split within the step, asked of stones that lie on each other, once pressed without end (1e22 J)."""
     outcome = solve_stack(load_pile(name), noise(seed, factor), law="rigid").outcome
     assert outcome.overturned_any
@@ -32,7 +32,7 @@ def test_fallen_stones_that_are_shaken_on_create_no_energy(name, factor, seed):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
-def test_drums_that_are_shaken_on_create_no_energy(seed):
+def test_drums_under_long_shaking_create_no_energy(seed):
     """Drums wobble on each other for minutes; such friction then gave up to 1e10 J in a step, and 2e-3 of what was lost in all."""
     outcome = solve_stack(load_pile("column"), noise(seed), law="rigid").outcome
     assert outcome.overturned_any

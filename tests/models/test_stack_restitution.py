@@ -14,7 +14,7 @@ from seisblock.records import Motion
 
 @pytest.mark.parametrize("seed", [1, 2, 7, 15])
 @pytest.mark.parametrize("ratio", [0.5, 0.8, 0.95, 1.0])
-def test_each_impact_leaves_the_ratio_that_was_given(ratio, seed):
+def test_impacts_of_free_rocking_have_given_restitution(ratio, seed):
     """Twenty blocks of any size: a third stopped dead at one impact or other, held by the corners that had left.
 
     With a ratio of 1 one impact in 600 was plastic: of two corners that pressed alike, one had done nothing in a step of microseconds.
@@ -35,7 +35,7 @@ def test_each_impact_leaves_the_ratio_that_was_given(ratio, seed):
         assert rocks_on or leans[-1] * ratio**2 < 0.04 * alpha
 
 
-def test_no_impact_leaves_another_ratio_at_the_default_step():
+def test_impacts_at_default_step_have_given_restitution():
     """Two hundred slender blocks: one impact in 300 pressed on one corner alone in the instant before, and left up to 0.25 too much."""
     dice, impacts = np.random.default_rng(5), 0
     for _ in range(200):
@@ -61,7 +61,7 @@ def shaking(dice, peak, seconds=20.0, dt=0.01):
     return Motion(peak * np.array([[1.0], [1.0], [0.5]]) * rows / np.abs(rows).max(axis=1, keepdims=True), dt)
 
 
-def test_a_ratio_that_was_given_creates_no_energy():
+def test_given_restitution_creates_no_energy():
     """Newton's law across a joint and friction may: 1.6e-3 of its weight times its height at any step, for which a pile was refused."""
     dice, fell = np.random.default_rng(6), 0
     for _ in range(24):
@@ -77,7 +77,7 @@ def test_a_ratio_that_was_given_creates_no_energy():
     assert fell >= 6
 
 
-def test_a_ratio_that_was_given_knows_no_sides():
+def test_given_restitution_keeps_mirror_and_quarter_turn_symmetry():
     """A square column under the mirrored or turned record does the mirrored or the turned: of forty, as chaotic as they are, most do.
 
     Where what the law asked for hung on the order of the corners five of forty did.

@@ -57,7 +57,7 @@ def after_one_impact(response, alpha, start):
 
 @pytest.mark.parametrize(("start", "step"), [(0.6, None), (0.1, None), (0.6, 5e-3), (0.1, 5e-4)])
 @pytest.mark.parametrize("ratio", [3.0, 4.0, 6.0])
-def test_free_rocking_is_housners(ratio, start, step):
+def test_free_rocking_of_rigid_stone_follows_housner(ratio, start, step):
     """Six impacts, of large and of small rocking, at any step: times within 0.2 %, amplitudes within 0.1 % of the closed form.
 
     A step that passes over an impact leaves the weight on the edge that strikes: -54 % after six impacts of the small rocking.
@@ -77,7 +77,7 @@ def test_free_rocking_is_housners(ratio, start, step):
 
 
 @pytest.mark.parametrize(("hertz", "limit"), [(1.0, 3.82), (2.0, 4.57)])
-def test_a_stone_on_its_edges_topples_where_respond_topples(hertz, limit):
+def test_rigid_stone_overturns_at_respond_threshold(hertz, limit):
     """Threshold amplitudes under one cycle of a sine agree within 0.3 %: just below both stand, just above both fall."""
     plane, pile = Block(WIDTH, 3.0 * WIDTH), block(mu=1.0)
 
@@ -94,7 +94,7 @@ def test_a_stone_on_its_edges_topples_where_respond_topples(hertz, limit):
 
 
 @pytest.mark.parametrize("given", [None, 0.7, 0.95])
-def test_an_impact_leaves_what_is_asked_of_it(given):
+def test_impact_has_housner_or_given_restitution(given):
     """Without a restitution Housner's ratio is left of the turning; with one, that, whether more or less than Housner's."""
     alpha = math.atan(0.25)
     response = solve_stack(block(4.0, mu=5.0), still(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
@@ -105,7 +105,7 @@ def test_an_impact_leaves_what_is_asked_of_it(given):
 
 
 @pytest.mark.parametrize(("points", "contact"), [(5, None), (5, PileContact()), (5, PileContact(stiffness=1e9))])
-def test_what_a_grid_makes_of_a_base_is_what_it_does(points, contact):
+def test_contact_grid_uses_reported_base_width_and_restitution(points, contact):
     """The stone falls from beyond the lean that the narrower base says, and an impact leaves of it what the answer says."""
     stone = block(3.0).stones[0]
     found = compute_effective_base(stone, points, contact, None, G)
@@ -119,7 +119,7 @@ def test_what_a_grid_makes_of_a_base_is_what_it_does(points, contact):
 
 
 @pytest.mark.parametrize("elsewhere", [0.4, 0.8])
-def test_a_block_on_a_slope_slides_with_kinetic_friction(elsewhere):
+def test_rigid_block_on_slope_slides_with_kinetic_friction(elsewhere):
     """Below the angle of static friction it stays; beyond it slides with g (sin - mu_k cos), whatever other joints of the pile have."""
     static, kinetic, seconds = 0.4, 0.3, 3.0
     ramp = np.minimum(np.arange(0.0, seconds, 0.01), 1.0)
@@ -139,7 +139,7 @@ def test_a_block_on_a_slope_slides_with_kinetic_friction(elsewhere):
 
 
 @pytest.mark.parametrize("name", ["wagata", "lantern"])
-def test_energy_is_lost_and_momentum_kept_as_stones_fall_on_each_other(name):
+def test_colliding_rigid_stones_lose_energy_and_conserve_momentum(name):
     """Through rocking, sliding, tumbling and coming to rest; the impulse is the momentum; who fell lies flat."""
     rng = np.random.default_rng(3)
     shaking = np.cumsum(rng.normal(size=(3, 600)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(600), axis=1) * 0.2
@@ -149,7 +149,7 @@ def test_energy_is_lost_and_momentum_kept_as_stones_fall_on_each_other(name):
     assert outcome.overturned_any
 
 
-def test_a_pile_at_rest_stays():
+def test_rigid_pile_below_thresholds_stays():
     """Five stones under a shaking that moves none of them stay within a hundredth of a millimetre."""
     time = np.arange(0.0, 5.0, 0.01)
     response = solve_stack(load_pile("wagata"), Motion.from_arrays(1.5 * np.sin(12.0 * time), 0.01))
@@ -157,7 +157,7 @@ def test_a_pile_at_rest_stays():
     assert all(stone.state == "standing" for stone in response.outcome.stones)
 
 
-def test_what_lies_still_carries_what_is_asked_of_it_or_moves():
+def test_sleeping_stones_carry_load_or_wake():
     """A stone that rocks on two that lie rocks as on the ground; a joint that has to slide or to open under it does."""
     stones = (PileStone("foot", 0.5, 0.5, 0.25), PileStone("middle", 0.36, 0.36, 0.25, on="foot"))
     head = PileStone("block", WIDTH, WIDTH, 3.0 * WIDTH)
@@ -173,7 +173,7 @@ def test_what_lies_still_carries_what_is_asked_of_it_or_moves():
     )
 
 
-def test_turning_pile_and_shaking_by_a_right_angle_changes_little():
+def test_quarter_turn_of_rigid_pile_and_motion_changes_little():
     """A square pile shaken along y does what it does along x, to what the order of the points leaves."""
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
     along = cycle(4.0, 1.5)
@@ -183,7 +183,7 @@ def test_turning_pile_and_shaking_by_a_right_angle_changes_little():
     assert one.outcome.max_tilt_rad["head"] == pytest.approx(other.outcome.max_tilt_rad["head"], rel=5e-3)
 
 
-def test_where_the_run_pauses_changes_no_bit(monkeypatch):
+def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
     """Slices of a few steps end with the same state and books as one slice."""
     motion, body = cycle(6.0, 2.0), load_pile("wagata")
     whole = solve_stack(body, motion)
@@ -204,19 +204,19 @@ def test_where_the_run_pauses_changes_no_bit(monkeypatch):
         ({"step": 1e-9}, "is out of range for the pile"),
     ],
 )
-def test_options_that_do_not_go_together_are_refused(more, said):
+def test_solve_stack_rejects_conflicting_options(more, said):
     """Each in one sentence."""
     with pytest.raises(ParameterError, match=said):
         solve_stack(block(), cycle(1.0, 1.0), **more)
 
 
-def test_springs_refuse_a_pile_that_slides_easier_than_it_clings():
+def test_contact_springs_reject_kinetic_friction():
     with pytest.raises(ParameterError, match="has a kinetic friction coefficient, but contact springs use a single one"):
         solve_stack(block().with_kinetic_friction(0.1), cycle(1.0, 1.0), law="springs")
 
 
 @pytest.mark.parametrize("seed", [13, 24, 43, 150, 152, 164, 188])
-def test_stones_that_are_shaken_down_create_no_energy(seed):
+def test_collapsing_rigid_piles_create_no_energy(seed):
     """Piles that made up to 600 times their own energy while corners and edges pushed stones out of each other one by one."""
     outcome = solve_stack(*shaken(seed), law="rigid").outcome
     assert max(outcome.max_tilt_rad.values()) > 0.1
@@ -225,7 +225,7 @@ def test_stones_that_are_shaken_down_create_no_energy(seed):
 
 
 @pytest.mark.slow
-def test_two_hundred_piles_create_no_energy():
+def test_random_rigid_piles_create_no_energy():
     """At most 1e-4 of its weight times its height in any of them, as many of which fall as stand."""
     fell = []
     for pile, shaking in map(shaken, range(200)):
@@ -237,7 +237,7 @@ def test_two_hundred_piles_create_no_energy():
 
 
 @pytest.mark.parametrize(("component", "factor"), [("NS", 1.5), ("EW", 1.2), ("EW", 1.5)])
-def test_a_stone_that_falls_off_a_wide_base_creates_no_energy(component, factor):
+def test_stone_falling_off_wide_base_creates_no_energy(component, factor):
     """Falls that rigid stones left to springs, with a warning: they are followed to the end now."""
     found = solve_stack(STONES, motion(component, factor))
     assert (found.options["law"], found.warnings) == ("rigid", ())
@@ -245,7 +245,7 @@ def test_a_stone_that_falls_off_a_wide_base_creates_no_energy(component, factor)
     assert found.outcome.created_j < 5e-4 * found.outcome.lost_j
 
 
-def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monkeypatch):
+def test_created_energy_falls_back_to_finer_steps_then_springs(monkeypatch):
     """Should a run create energy, no verdict is lost, and the warning says who gave it; rigid stones alone refuse at last."""
     refused = []
 
@@ -271,7 +271,7 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
     assert "solved with contact springs, since rigid contact failed" in found.warnings[0]
 
 
-def test_what_turns_under_a_stone_is_no_slip_of_it():
+def test_rotation_of_support_is_not_counted_as_slip():
     """A beam held by a post that turns, at the middle of their joint, has not slid over it, however far off its own centre is."""
     posts = [PileStone(name, 0.3, 0.3, 0.9, on="ground", offset=(x, 0.0)) for name, x in (("left", -0.6), ("right", 0.6))]
     pile = pile_arrays(

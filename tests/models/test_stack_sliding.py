@@ -41,7 +41,7 @@ def slide(shaking, kinetic, fine=500):
 
 @pytest.mark.parametrize("kinetic", [0.31, STATIC])
 @pytest.mark.parametrize(("pga", "hertz"), [(5.0, 1.0), (6.0, 2.0), (8.0, 4.0)])
-def test_a_slab_slips_as_far_as_its_events_say(pga, hertz, kinetic):
+def test_sliding_slab_matches_event_solution(pga, hertz, kinetic):
     """Within 1 % of the largest slip at the default step.
 
     Friction by the velocity at the end of a step missed by 2 to 7 % where kinetic friction is less, and by 3 % at 4 Hz where it is not.
@@ -56,7 +56,7 @@ def test_a_slab_slips_as_far_as_its_events_say(pga, hertz, kinetic):
     np.testing.assert_allclose(found["slab_x"][: kept.size], expected[kept], atol=0.01 * np.abs(expected).max())
 
 
-def slide_as_one(shaking, fine=200):
+def slide_as_one_body(shaking, fine=200):
     """Return the way along and across of slabs with one friction in all joints, m, as one body: implicit steps, shorter than a pile's."""
     way, speed, h, found = 0j, 0j, DT / fine, []
     level, up = (shaking[0] + 1j * shaking[1]).tolist(), shaking[2].tolist()
@@ -76,7 +76,7 @@ def slide_as_one(shaking, fine=200):
     ("pga", "hertz", "across", "up"), [(9.5, 2.1, 0.0, 0.0), (8.0, 3.9, 0.0, 0.0), (9.5, 3.2, 0.0, 3.0), (9.5, 3.9, 6.0, 0.0)]
 )
 @pytest.mark.parametrize("number", [2, 3])
-def test_slabs_with_one_friction_slide_as_one(number, pga, hertz, across, up):
+def test_slabs_with_equal_friction_slide_as_one_body(number, pga, hertz, across, up):
     """Within 1 % of the largest slip at the default step: what stands on a slab clings to it where it turns.
 
     Where all that might stop in a step were braked for all of it, the upper ones were off by 2 to 19 % (not three along two axes).
@@ -89,7 +89,7 @@ def test_slabs_with_one_friction_slide_as_one(number, pga, hertz, across, up):
     names = ["base", "middle", "top"][:number]
     slabs = [PileStone(name, size, size, 0.1, on=on) for name, size, on in zip(names, sizes, ["ground", *names], strict=False)]
     found = solve_stack(Pile("slabs", tuple(slabs), mu=STATIC), Motion(shaking, DT))
-    expected = slide_as_one(shaking)
+    expected = slide_as_one_body(shaking)
     kept = np.round(found.time / DT).astype(int)
     kept = kept[kept < len(time)]
     most = np.hypot(*expected.T).max()
@@ -98,7 +98,7 @@ def test_slabs_with_one_friction_slide_as_one(number, pga, hertz, across, up):
             np.testing.assert_allclose(found[f"{name}_{axis}"][: kept.size], expected[kept, k], atol=0.01 * most)
 
 
-def test_a_slab_that_turns_as_it_slides_slips_as_far_as_in_fine_steps():
+def test_turning_and_sliding_slab_matches_fine_steps():
     """Under two sines of unlike frequency half of 24 slabs within 1 % of the largest slip, nine of ten within 3 %, at the default step.
 
     Where the turn of a slip was not followed within a step, half of such slabs were within 3 %, and nine of ten within 13 %.
@@ -110,7 +110,7 @@ def test_a_slab_that_turns_as_it_slides_slips_as_far_as_in_fine_steps():
         one, other = 2.0 * math.pi * dice.uniform(0.6, 6.0, 2)
         rows = pga * np.array([np.sin(one * time), across * np.sin(other * time + 1.0), np.zeros(time.size)]) * np.minimum(time, 1.0)
         found = solve_stack(Pile("slab", (PileStone("slab", size, size, 0.1),), mu=STATIC), Motion(rows, DT))
-        expected = slide_as_one(rows, fine=100)
+        expected = slide_as_one_body(rows, fine=100)
         kept = np.round(found.time / DT).astype(int)
         kept = kept[kept < len(time)]
         way = np.array([found["slab_x"], found["slab_y"]]).T[: kept.size]

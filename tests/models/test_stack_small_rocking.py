@@ -23,7 +23,7 @@ def cycles(slender, hertz, beyond):
 
 
 @pytest.mark.parametrize(("slender", "hertz"), [(5.0, 2.0), (6.0, 2.0), (6.0, 3.0)])
-def test_rocking_just_past_uplift_is_followed_at_the_default_step(slender, hertz):
+def test_rocking_just_above_uplift_matches_respond_at_default_step(slender, hertz):
     """Within 5 %: flights of some steps, whose impacts are slow because little draws a slender stone back, had ended all of it."""
     motion = cycles(slender, hertz, 1.1)
     stone = PileStone("stone", WIDTH, WIDTH, slender * WIDTH)

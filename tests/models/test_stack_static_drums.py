@@ -14,7 +14,7 @@ from seisblock.records import Motion
 DT = 0.005
 
 
-def held(acceleration, azimuth):
+def push_and_hold(acceleration, azimuth):
     """Return ground that is pushed gently, and then held, m/s^2."""
     part = np.clip(np.arange(0.0, 3.0, DT), 0.0, 1.0)
     push = acceleration * (3.0 * part**2 - 2.0 * part**3)
@@ -23,7 +23,7 @@ def held(acceleration, azimuth):
 
 @pytest.mark.parametrize("mu", [0.7, 1.5, 3.0, 5.0])
 @pytest.mark.parametrize("drums", [1, 2])
-def test_drums_that_are_pushed_below_their_threshold_gain_nothing(drums, mu):
+def test_drums_pushed_below_threshold_gain_no_energy(drums, mu):
     """Great friction lifts what it should hold: sweeps that did not end gave one such pair in four up to 1e53 m/s."""
     dice = np.random.default_rng(round(10 * mu) + drums)
     for _ in range(12):
@@ -31,7 +31,7 @@ def test_drums_that_are_pushed_below_their_threshold_gain_nothing(drums, mu):
         height = slender * diameter / drums
         stones = [PileStone(f"d{i}", diameter, diameter, height, shape="round", on=f"d{i - 1}" if i else "ground") for i in range(drums)]
         push = dice.uniform(0.9, 0.98) / slender * G
-        pile, motion = Pile("drums", tuple(stones), mu=mu), held(push, dice.uniform(0.0, 6.28))
+        pile, motion = Pile("drums", tuple(stones), mu=mu), push_and_hold(push, dice.uniform(0.0, 6.28))
         for stop in (True, False):
             outcome = solve_stack(pile, motion, law="rigid", stop_at_fall=stop).outcome
             weight = sum(stone.mass for stone in stones) * G * slender * diameter
@@ -48,7 +48,7 @@ def noise(dice, peak, seconds=12.0, dt=0.01):
 
 
 @pytest.mark.parametrize("mu", [1.6, 3.0, 5.0])
-def test_shaken_stones_that_cannot_slide_gain_nothing(mu):
+def test_shaken_stones_with_high_friction_gain_no_energy(mu):
     """Piles of two or three that rock and fall: seven in ten were left to springs, since sweeps that did not end gave them energy."""
     dice, fell = np.random.default_rng(7), 0
     for _ in range(8):
@@ -68,7 +68,7 @@ def test_shaken_stones_that_cannot_slide_gain_nothing(mu):
 MU, WIDTH = 0.5, 0.6
 
 
-def piled(kinds, height, kinetic):
+def stacked_stones(kinds, height, kinetic):
     """Return stones of one width on each other, drums and square ones, whose joints hold more than the ground does."""
     stones = []
     for i, kind in enumerate(kinds):
@@ -95,11 +95,11 @@ ROUND, SQUARE = "round", "rectangular"
         (4 * (ROUND,), 1.5, 0.9),
     ],
 )
-def test_stones_that_are_held_by_static_friction_do_not_slide(kinds, reserve, push, kinetic):
+def test_stones_below_static_friction_do_not_slide(kinds, reserve, push, kinetic):
     """Whatever the direction: points of a round face that go round with the push went without their forces, and kinetic friction let go."""
-    stones = piled(kinds, WIDTH / (MU * reserve * len(kinds)), kinetic)
+    stones = stacked_stones(kinds, WIDTH / (MU * reserve * len(kinds)), kinetic)
     for azimuth in (0.0, 7.0, 17.0, 45.0, 90.0, 133.0, 211.0, 300.0):
-        outcome = solve_stack(Pile("pile", stones), held(push * MU * G, math.radians(azimuth))).outcome
+        outcome = solve_stack(Pile("pile", stones), push_and_hold(push * MU * G, math.radians(azimuth))).outcome
         assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
         assert max(outcome.max_tilt_rad.values()) < 1e-4
 
@@ -115,12 +115,12 @@ def test_shaken_drums_below_static_friction_do_not_slide():
             middle = 0.5 * (low + high)
             demand = np.max(np.hypot(*(middle * shaking[:2])) / np.maximum(G + middle * shaking[2], 0.1))
             low, high = (middle, high) if demand < push * MU else (low, middle)
-        stones = piled(count * (ROUND,), WIDTH / (MU * dice.uniform(1.05, 1.4) * count), 0.4)
+        stones = stacked_stones(count * (ROUND,), WIDTH / (MU * dice.uniform(1.05, 1.4) * count), 0.4)
         outcome = solve_stack(Pile("drums", stones), Motion(low * shaking, 0.01)).outcome
         assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
 
 
-def test_steps_that_do_not_come_to_rest_are_told():
+def test_unconverged_steps_of_extreme_mass_ratio_are_reported():
     """A stone bears one three thousand times as heavy: it creeps and is told; a thousand times, less in fine steps; thirty: it rests."""
     push, slips = 0.1 * G, {}
     for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 1e-3), (3000.0, None)):

@@ -18,7 +18,7 @@ STEPS = 2
 """Of an interval of 5 ms, as the step that is taken by default."""
 
 
-def thrown(count, places, velocities, *, spins=None, turns=None, restitution=PLASTIC_RESTITUTION, seconds=0.5):
+def throw_stones(count, places, velocities, *, spins=None, turns=None, restitution=PLASTIC_RESTITUTION, seconds=0.5):
     """Throw equal stones, from centres, with velocities, turns and spins; return how they went."""
     stones = tuple(PileStone(f"s{i}", WIDTH, WIDTH, HEIGHT, on=f"s{i - 1}" if i else "ground") for i in range(count))
     pile = pile_arrays(Pile("thrown", stones, mu=0.5), None, 2, restitution)
@@ -33,7 +33,7 @@ def thrown(count, places, velocities, *, spins=None, turns=None, restitution=PLA
     return end, end.output.energy_ledger[CREATED] / weight
 
 
-def depth(end):
+def greatest_depth(end):
     """Return how deep below ground, m, a corner of any stone ever was."""
     quaternions = end.track.quaternions.reshape(-1, 4)
     up = Rotation.from_quat(np.roll(quaternions, -1, axis=1)).as_matrix()[:, 2]
@@ -42,45 +42,45 @@ def depth(end):
 
 
 @pytest.mark.parametrize("speed", [10.0, 16.0, 24.0])
-def test_a_stone_that_lands_fast_does_not_sink_into_the_ground(speed):
+def test_fast_landing_does_not_penetrate_ground(speed):
     """Where stones are near each other was looked for within a centimetre: from 6 m/s on one came up to a step deep into the ground."""
     dice = np.random.default_rng(3)
     for _ in range(10):
         places, falls = [[0.0, 0.0, 0.5 + 0.1 * dice.random()]], [[0.0, 0.0, -speed]]
-        end, created = thrown(1, places, falls, turns=[0.3 * dice.normal(size=3)], spins=[dice.normal(size=3)])
-        assert depth(end) < 1e-4
+        end, created = throw_stones(1, places, falls, turns=[0.3 * dice.normal(size=3)], spins=[dice.normal(size=3)])
+        assert greatest_depth(end) < 1e-4
         assert created < 1e-4
 
 
 @pytest.mark.parametrize("gap", [0.0, 2e-6, 2e-5, 2e-4, 2e-3, 8e-3])
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
-def test_stones_that_land_just_behind_each_other_do_not_sink_into_each_other(gap, restitution):
+def test_successive_landings_do_not_penetrate(gap, restitution):
     """One was not looked for that came near in the step in which the other landed; or it was pressed away within a hundredth of a step."""
     dice = np.random.default_rng(3)
     for _ in range(20):
         turn, spin, rise, fall = 0.01 * dice.normal(size=3), dice.normal(size=3), 0.3 + 0.1 * dice.random(), np.array([0.0, 0.0, -4.0])
         arm = (HEIGHT + gap) * Rotation.from_rotvec(turn).as_matrix()[:, 2]
         places, velocities = [[0.0, 0.0, rise], [arm[0], arm[1], rise + arm[2]]], [fall, fall + np.cross(spin, arm)]
-        end, _created = thrown(2, places, velocities, turns=[turn, turn], spins=[spin, spin], restitution=restitution)
-        assert depth(end) < 1e-4
+        end, _created = throw_stones(2, places, velocities, turns=[turn, turn], spins=[spin, spin], restitution=restitution)
+        assert greatest_depth(end) < 1e-4
         assert np.linalg.norm(np.diff(end.track.centres, axis=1), axis=2).min() > HEIGHT - 1e-5
 
 
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.5])
-def test_a_stone_that_is_driven_on_does_not_sink_into_the_next(restitution):
+def test_driven_stone_does_not_penetrate_its_neighbour(restitution):
     """Neither of the two had moved, so that nothing seemed to come near within the step."""
     dice, z = np.random.default_rng(3), 0.5 * HEIGHT
     for _ in range(10):
         before, behind = 0.02 + 0.02 * dice.random(), 0.002 + 0.003 * dice.random()
         places = [[-WIDTH - before, 0.0, z], [0.0, 0.0, z], [WIDTH + behind, 0.0, z]]
-        end, created = thrown(3, places, [[6.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], restitution=restitution)
+        end, created = throw_stones(3, places, [[6.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], restitution=restitution)
         assert np.diff(end.track.centres[..., 0], axis=1).min() > WIDTH - 1e-4
         assert end.track.centres[-1, 2, 0] > places[2][0] + 0.1
         assert created < 1e-4
 
 
 @pytest.mark.parametrize("seed", [135017, 139531, 212558])
-def test_a_stone_that_all_but_lies_is_not_thrown_up_by_great_friction(seed):
+def test_almost_flat_stone_with_high_friction_does_not_rebound(seed):
     """Sweeps had come to rest where friction drives what it should brake: once in forty thousand such states."""
     dice = np.random.default_rng(seed)
     width = dice.uniform(0.3, 1.0)
@@ -105,9 +105,9 @@ HANGING = [
 
 
 @pytest.mark.parametrize(("turn", "place", "spin", "velocity"), HANGING)
-def test_an_edge_that_rocks_across_another_lands_on_it(turn, place, spin, velocity):
+def test_edge_rocking_across_edge_lands_without_penetration(turn, place, spin, velocity):
     """Where it crossed at one end, the other end was passed over once it had come down: it sank in for a step, and was pushed out."""
     places, still_one = [[0.0, 0.0, 0.5 * HEIGHT], place], np.zeros(3)
-    end, created = thrown(2, places, [still_one, velocity], turns=[still_one, turn], spins=[still_one, spin])
+    end, created = throw_stones(2, places, [still_one, velocity], turns=[still_one, turn], spins=[still_one, spin])
     assert created < 2e-6
-    assert depth(end) < 1e-5
+    assert greatest_depth(end) < 1e-5

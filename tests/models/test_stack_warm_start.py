@@ -10,7 +10,7 @@ from seisblock.models.stack.spring_contact import ACTIVE, CACHED_FORCE, CACHED_S
 from seisblock.models.stack.warm_start import distribute_load, has_lost_loaded_point, sum_joint_load
 
 
-def faced(dice):
+def rotated_body(dice):
     """Return a body that has turned."""
     body = np.zeros(BODY)
     body[Q : Q + 4] = dice.normal(size=4)
@@ -19,7 +19,7 @@ def faced(dice):
     return body, body[16:25].reshape(3, 3)
 
 
-def ring(count, radius, turn):
+def rim_points(count, radius, turn):
     """Return points on a rim, that remember nothing."""
     slots = np.zeros((16, SLOT))
     angles = turn + 2.0 * math.pi * np.arange(count) / count
@@ -28,18 +28,18 @@ def ring(count, radius, turn):
     return slots
 
 
-def sums(slots, axes, field):
+def force_and_moment(slots, axes, field):
     """Return force and moment about the middle, in the partner's axes, of what points remember."""
     force = slots[:, field : field + 3] @ axes
     return force.sum(axis=0), np.cross(slots[:, POSITION : POSITION + 3], force).sum(axis=0)
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_force_moment_and_twist_remain(seed):
+def test_warm_start_preserves_force_moment_and_twist(seed):
     """Of forces of both steps, whichever points there are, wherever a load presses among them."""
     dice = np.random.default_rng(seed)
-    body, axes = faced(dice)
-    old, new = ring(4, 0.3, dice.uniform(0.0, 6.28)), ring(int(dice.integers(4, 9)), 0.3, dice.uniform(0.0, 6.28))
+    body, axes = rotated_body(dice)
+    old, new = rim_points(4, 0.3, dice.uniform(0.0, 6.28)), rim_points(int(dice.integers(4, 9)), 0.3, dice.uniform(0.0, 6.28))
     points = int(np.count_nonzero(np.hypot(new[:, POSITION], new[:, POSITION + 1])))
     old[:4, ACTIVE] = 1.0
     old[2, CACHED_SLIDING] = 1.0
@@ -50,14 +50,14 @@ def test_force_moment_and_twist_remain(seed):
     assert sum_joint_load(old, body, loads)
     assert distribute_load(points, new, loads, body)
     for field in (CACHED_FORCE, PREVIOUS_FORCE):
-        for before, after in zip(sums(old, axes, field), sums(new, axes, field), strict=True):
+        for before, after in zip(force_and_moment(old, axes, field), force_and_moment(new, axes, field), strict=True):
             assert after == pytest.approx(before, abs=1e-12)
     assert np.all(new[:points, CACHED_SLIDING] == 1.0) and np.all(new[:points, ACTIVE] == 1.0)
 
 
-def test_points_that_stay_keep_their_forces():
+def test_matched_points_keep_their_forces():
     """Only where one that bore something is left without one near it are forces shared out."""
-    old, stays, turned = ring(4, 0.3, 0.0), ring(4, 0.3, 1e-4), ring(4, 0.3, 0.1)
+    old, stays, turned = rim_points(4, 0.3, 0.0), rim_points(4, 0.3, 1e-4), rim_points(4, 0.3, 0.1)
     old[:4, ACTIVE] = 1.0
     old[1, CACHED_FORCE + 2] = 1.0
     assert not has_lost_loaded_point(4, stays, old, 3e-4)
@@ -66,10 +66,10 @@ def test_points_that_stay_keep_their_forces():
     assert not has_lost_loaded_point(4, turned, old, 3e-4)
 
 
-def test_two_points_cannot_share():
+def test_two_or_collinear_points_get_no_distributed_load():
     """They, and points on one line, bear no moment across it; points on a rim that bore nothing have nothing to share."""
-    body, _ = faced(np.random.default_rng(1))
-    slots, loads = ring(2, 0.3, 0.0), np.zeros((2, 18))
+    body, _ = rotated_body(np.random.default_rng(1))
+    slots, loads = rim_points(2, 0.3, 0.0), np.zeros((2, 18))
     loads[0, 2] = loads[0, 6] = 1.0
     assert not distribute_load(2, slots, loads, body)
     assert not sum_joint_load(slots, body, loads)

@@ -26,7 +26,7 @@ SLENDER = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta
 @pytest.mark.parametrize(
     ("ratio", "phi", "rho"), [(0.6, 30.0, 90.0), (1.0, 30.0, 60.0), (1.75, 30.0, 60.0), (1.83, 30.0, 60.0), (2.7, 10.0, 80.0)]
 )
-def test_harmonic_threshold_is_the_time_domains(ratio, phi, rho):
+def test_harmonic_uplift_threshold_matches_time_domain(ratio, phi, rho):
     """Below 0.98 of the harmonic threshold no corner opens; above 1.02 those opens that the threshold names."""
     body = SpringBlock.from_ratios(1.0, 0.707, frequency_vertical=2.0, damping=0.10)
     thresholds = uplift_thresholds(body, [ratio], phi_deg=phi, rho_deg=rho, damping="dashpots")[:, 0]
@@ -38,7 +38,7 @@ def test_harmonic_threshold_is_the_time_domains(ratio, phi, rho):
     assert above.outcome.corner in governing
 
 
-def test_corner_1_lifts_first_where_the_paper_looks_at_corner_4():
+def test_corner_1_lifts_first_with_vertical_motion():
     """With a vertical part there are frequencies at which the corner opposite to the paper's lifts first, in time too."""
     body = SpringBlock.from_ratios(1.0, 0.707, frequency_vertical=2.0, damping=0.05)
     ratio = 1.7
@@ -63,7 +63,7 @@ def _energy(states, body, modes):
     return kinetic + elastic + G * z
 
 
-def test_undamped_free_rocking_keeps_its_energy():
+def test_undamped_free_rocking_conserves_energy():
     """After the ground has come to rest an undamped block lifts and lands many times and loses less than 1e-10 of its energy."""
     body = dataclasses.replace(SLENDER, damping=0.0)
     pulse = shaking(1.0, 0.01, peaks=(5.0, 4.0, 2.0)).acceleration
@@ -77,7 +77,7 @@ def test_undamped_free_rocking_keeps_its_energy():
     np.testing.assert_allclose(energy, energy[0], rtol=1e-10)
 
 
-def test_stiff_springs_are_a_rigid_block_that_rocks():
+def test_stiff_springs_converge_to_rigid_rocking():
     """The first excursion tends, as 1 over the frequency of the springs, to that of a rigid block about its edge (no P-delta)."""
     a, h, dt = 0.6, 1.8, 0.002
     time = dt * np.arange(501)
@@ -97,7 +97,7 @@ def test_stiff_springs_are_a_rigid_block_that_rocks():
     assert all(later < 0.7 * earlier for earlier, later in itertools.pairwise(errors))
 
 
-def test_the_scale_at_which_a_record_just_lifts():
+def test_uplift_scale_separates_contact_from_uplift():
     """A record at 0.9999 of its uplift scale lifts nothing; at 1.0001 it does."""
     motion = shaking(6.0, 0.01)
     scale = solve_uplift(SLENDER, motion).outcome.uplift_scale
@@ -106,7 +106,7 @@ def test_the_scale_at_which_a_record_just_lifts():
         assert solve_uplift(SLENDER, scaled).outcome.uplifts is lifts
 
 
-def test_mirror_image():
+def test_mirrored_motion_exchanges_corners():
     """Reversing the motion along x exchanges corners 1 and 3, 2 and 4."""
     motion = shaking(3.0, 0.01)
     there = solve_uplift(SLENDER, motion)
@@ -116,7 +116,7 @@ def test_mirror_image():
     np.testing.assert_allclose(back["rotation"], -there["rotation"], rtol=0, atol=1e-12)
 
 
-def test_similarity():
+def test_scaled_block_and_motion_give_similar_response():
     """A block four times as large, shaken half as fast, moves four times as far at the same angles."""
     motion = shaking(3.0, 0.01)
     small = solve_uplift(SLENDER, motion)
@@ -126,7 +126,7 @@ def test_similarity():
     assert big.outcome.max_uplift_m == pytest.approx(4.0 * small.outcome.max_uplift_m, rel=1e-9)
 
 
-def test_halving_the_sampling_interval_of_a_piecewise_linear_motion_changes_nothing():
+def test_resampling_piecewise_linear_motion_changes_nothing():
     """The same polygon with a vertex added in each side is the same motion."""
     motion = shaking(3.0, 0.01)
     coarse = np.arange(motion.samples)
@@ -137,7 +137,7 @@ def test_halving_the_sampling_interval_of_a_piecewise_linear_motion_changes_noth
     assert two.contact_changes == one.contact_changes
 
 
-def test_the_mass_scales_forces_and_nothing_else():
+def test_mass_scales_forces_only():
     """A block described by its frequencies moves the same whatever its mass; forces are proportional to it."""
     motion = shaking(3.0, 0.01)
     heavy = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707, mass=5000.0)
@@ -147,7 +147,7 @@ def test_the_mass_scales_forces_and_nothing_else():
     assert five.max_contact_force_ratio == pytest.approx(one.max_contact_force_ratio, rel=1e-9)
 
 
-def test_what_is_reported_is_what_the_histories_hold():
+def test_outcome_agrees_with_channels_and_phases():
     """Uplifts, forces, durations and shares in the outcome are those of the channels and phases."""
     response = solve_uplift(SLENDER, shaking(4.0, 0.01))
     outcome = response.outcome
@@ -167,7 +167,7 @@ def test_what_is_reported_is_what_the_histories_hold():
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_contact_changes_are_real(seed):
+def test_contact_changes_are_separated_by_more_than_round_off(seed):
     """No corner parts and meets again within round-off of one instant, however close to a sample the change is."""
     response = solve_uplift(SLENDER, shaking(5.0, 0.01, seed=seed))
     for corner in "1234":
@@ -177,7 +177,7 @@ def test_contact_changes_are_real(seed):
 
 
 @pytest.mark.parametrize("rows", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 3.0), (1.0, 0.0, 1.0)])
-def test_corners_that_cross_together_stay_together(rows):
+def test_symmetric_corners_move_identically(rows):
     """Under motion along one side, or straight up, corners that are images of each other move alike to the last bit."""
     motion = shaking(6.0, 0.01, peaks=(9.0, 9.0, 9.0))
     stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=1.0, damping=0.3)
@@ -195,7 +195,7 @@ def test_corners_that_cross_together_stay_together(rows):
             assert np.array_equal(u[1], u[3])
 
 
-def test_at_rest_nothing_moves():
+def test_block_at_rest_carries_a_quarter_of_weight_per_corner():
     """Without motion the block stays at its static settlement and each corner carries a quarter of the weight."""
     outcome = solve_uplift(SLENDER, Motion(np.zeros((3, 50)), 0.01)).outcome
     assert not outcome.uplifts
@@ -207,7 +207,7 @@ def test_at_rest_nothing_moves():
 
 
 @pytest.mark.kernel
-def test_a_hop_of_the_whole_block():
+def test_upward_jolt_throws_block_off_all_springs():
     """A sharp upward jolt that is taken away throws the whole block off its springs, and it falls back with gravity."""
     up = np.zeros((3, 40))
     up[2, :10] = 40.0
@@ -218,7 +218,7 @@ def test_a_hop_of_the_whole_block():
     assert contact_name(9) == "on corners 1 4"
 
 
-def test_a_landing_is_felt_by_its_dashpot_at_once():
+def test_landing_corner_force_starts_at_dashpot_force():
     """A corner that comes down presses with c times its speed at that instant, before its spring does; without a dashpot with nothing."""
     up = np.zeros((3, 200))
     up[2, :10], up[2, 10:14] = 40.0, -60.0
@@ -239,7 +239,7 @@ def test_a_landing_is_felt_by_its_dashpot_at_once():
         assert response.outcome.max_contact_force_n >= force
 
 
-def test_a_large_lean_is_said_to_be_beyond_the_model():
+def test_large_tilt_warns_beyond_model_validity():
     """Beyond a tenth of the slenderness the outcome says that the model does not hold, and the answer points to rock (N16)."""
     response = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(9.0, 9.0, 3.0)))
     assert any("seisblock rock" in message for message in response.warnings)
@@ -254,7 +254,7 @@ def test_a_large_lean_is_said_to_be_beyond_the_model():
     assert weak.lean_ratio < 0.1
 
 
-def test_a_motion_that_round_off_decides_is_said_to_be_one():
+def test_motion_sensitive_to_round_off_is_reported():
     """Two thousand contact changes on stiff springs amplify round-off to the size of the answer, which then says so."""
     stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=0.707)
     found = solve_uplift(stiff, shaking(60.0, 0.01))
@@ -264,7 +264,7 @@ def test_a_motion_that_round_off_decides_is_said_to_be_one():
 
 
 @pytest.mark.parametrize("frequency", [50.0, 400.0])
-def test_a_quiet_end_of_a_record_is_no_trouble(frequency):
+def test_quiet_end_of_record_does_not_slow_integration(frequency):
     """Motions that have died away to nothing neither stop nor slow the integration."""
     pulse = shaking(1.0, 0.01).acceleration
     motion = Motion(np.hstack([pulse, np.zeros((3, 3000))]), 0.01)
@@ -273,7 +273,7 @@ def test_a_quiet_end_of_a_record_is_no_trouble(frequency):
     assert response["uplift_1"][-1] == pytest.approx(-body.static_settlement(), rel=1e-9)
 
 
-def test_a_record_without_vertical_component_is_solved_and_says_so():
+def test_record_without_vertical_component_is_solved_and_reported():
     """Without a vertical component the vertical motion is zero, and the answer says so."""
     motion = shaking(2.0, 0.01)
     record = Record((Component("NS", motion.transverse), Component("EW", motion.horizontal)), 0.01)

@@ -33,7 +33,7 @@ def pictures(count):
         yield picture
 
 
-def test_gif_holds_every_picture_at_true_speed(tmp_path):
+def test_gif_has_every_frame_at_true_speed(tmp_path):
     """Twenty pictures a second are 50 ms each."""
     write_frames(pictures(12), tmp_path / "a.gif")
     with Image.open(tmp_path / "a.gif") as image:
@@ -42,7 +42,7 @@ def test_gif_holds_every_picture_at_true_speed(tmp_path):
         assert image.info["loop"] == 0
 
 
-def test_gif_holds_of_each_picture_what_is_new(tmp_path):
+def test_gif_stores_only_changes_between_frames(tmp_path):
     """What stands still is packed once, however much of it there is; what is seen is every picture as it was drawn."""
     ground = np.random.default_rng(0).integers(0, 2, (60, 90)) * 255
     shown = []
@@ -63,14 +63,14 @@ def test_gif_holds_of_each_picture_what_is_new(tmp_path):
 
 
 @pytest.mark.skipif(find_ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
-def test_mp4_is_a_film(tmp_path):
+def test_mp4_has_even_size_and_all_frames(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""
     write_frames(pictures(9), tmp_path / "a.mp4")
     assert b"ftyp" in (tmp_path / "a.mp4").read_bytes()[:16]
     assert subprocess.run([find_ffmpeg(), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
 
 
-def test_an_mp4_needs_no_ffmpeg_of_the_system(tmp_path, monkeypatch):
+def test_mp4_uses_bundled_ffmpeg(tmp_path, monkeypatch):
     """The package imageio-ffmpeg brings one along; where it lacks its program, it is as if it were not there."""
     package = types.SimpleNamespace(get_ffmpeg_exe=lambda: "its-own-ffmpeg")
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -85,7 +85,7 @@ def test_an_mp4_needs_no_ffmpeg_of_the_system(tmp_path, monkeypatch):
     assert find_ffmpeg() is None
 
 
-def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
+def test_mp4_without_ffmpeg_raises_with_remedy(tmp_path, monkeypatch):
     """It says what is missing and what works instead, and leaves no file."""
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(atomic, "find_spec", lambda name: None)
@@ -95,13 +95,13 @@ def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["a.avi", "a", "nowhere/a.gif"])
-def test_impossible_names_are_refused(tmp_path, name):
+def test_animate_rejects_unknown_suffix_and_missing_directory(tmp_path, name):
     """Other suffixes and missing directories are errors of the user."""
     with pytest.raises(OutputError):
         write_frames(pictures(3), tmp_path / name)
 
 
-def test_interruption_leaves_the_old_file(tmp_path):
+def test_interrupted_animation_keeps_existing_file(tmp_path):
     """A failure half way keeps what was there and leaves nothing beside it."""
     (tmp_path / "a.gif").write_bytes(b"old")
 
@@ -116,7 +116,7 @@ def test_interruption_leaves_the_old_file(tmp_path):
 
 
 @pytest.mark.slow
-def test_five_seconds_of_rocking_are_a_hundred_pictures_that_move(tmp_path, response):
+def test_five_seconds_of_rocking_give_100_different_frames(tmp_path, response):
     """Twenty pictures a second, and the block is elsewhere in a later one."""
     animate_rocking(response, tmp_path / "rock.gif")
     with Image.open(tmp_path / "rock.gif") as image:
@@ -126,7 +126,7 @@ def test_five_seconds_of_rocking_are_a_hundred_pictures_that_move(tmp_path, resp
         assert np.abs(np.asarray(image.convert("RGB")).astype(int) - first).max() > 100
 
 
-def test_long_answers_play_faster():
+def test_long_response_plays_faster_and_states_speed():
     """An hour is shown in at most 1200 pictures, and the speed is said."""
     times, speed = frame_times(0.0, 3600.0)
     assert len(times) <= MAX_FRAMES
@@ -134,7 +134,7 @@ def test_long_answers_play_faster():
     assert times[-1] == 3600.0
 
 
-def test_block_turns_about_the_corner_in_contact():
+def test_rocking_block_pivots_at_corner_in_contact():
     """The right corner stays when it leans to +x, the left one when to -x; at alpha the centre is above the corner."""
     block = Block(0.4, 1.0, centroid_offset=0.05)
     right, left = block.slendernesses
@@ -145,7 +145,7 @@ def test_block_turns_about_the_corner_in_contact():
     assert corners(block, 0.2)[:, 1].min() > -1e-15
 
 
-def test_fall_after_the_record_is_shown_to_its_end():
+def test_overturning_after_record_is_animated_to_rest():
     """A block that overturns only after the record lies down in the picture, too."""
     pulse = 4.0 * np.sin(np.pi * np.arange(61) / 60)
     short = solve_rock(Block(0.24, 0.8), Motion.from_arrays(1.4 * pulse, 0.01))

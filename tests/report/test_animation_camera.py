@@ -31,7 +31,7 @@ def seen_from(azimuth, points):
 
 @pytest.mark.parametrize("model", ["stack", "uplift"])
 @pytest.mark.parametrize("between", [0.0, 0.5])
-def test_all_that_lies_on_the_ground_is_in_the_picture_from_each_side(model, between):
+def test_view_box_contains_all_stones_from_each_azimuth(model, between):
     """Ground and stones on it are in the box of each direction and between two; the box of the first view was taken for all."""
     scene, known = film(model, 100).scene, boxes(model)
     lying = [solid.corners_at(-1) for solid in scene.solids]
@@ -44,7 +44,7 @@ def test_all_that_lies_on_the_ground_is_in_the_picture_from_each_side(model, bet
         assert left < across.min() and across.max() < end and bottom < rise.min() and rise.max() < top
 
 
-def test_one_view_would_not_do():
+def test_view_box_of_first_azimuth_is_too_narrow_for_others():
     """What a viewer at the first place sees is too narrow a box for one who walked around what has fallen."""
     known = boxes("stack")
     assert (np.abs(known - known[0]).max(axis=1) > 0.2).any()

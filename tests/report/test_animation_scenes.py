@@ -54,12 +54,12 @@ def during(film, name):
     return inside
 
 
-def test_a_turn_to_plus_x_moves_the_top_to_plus_x():
+def test_positive_rotation_moves_top_to_plus_x():
     """Positive is clockwise, seen with x to the right and z up."""
     np.testing.assert_allclose(rotate(np.array([[0.0, 1.0]]), 0.1), [[np.sin(0.1), np.cos(0.1)]], atol=1e-15)
 
 
-def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
+def test_rocking_keeps_one_corner_fixed_and_flight_none(film):
     """The pivot is where it was, the flight is free of the floor, and no foot is ever below the ground."""
     left, right = film.scene.trails
     rocking, flying = during(film, "rocking"), during(film, "flight")
@@ -69,7 +69,7 @@ def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
     assert min(left.z.min(), right.z.min()) > -0.3 - 1e-6
 
 
-def test_the_feet_end_where_the_answer_says(film, jumped):
+def test_corner_paths_end_at_total_displacement(film, jumped):
     """The path of each foot ends at the total displacement, 0.3 m further down."""
     total = jumped.outcome.chains[0].total_displacement_m
     for trail in film.scene.trails:
@@ -77,13 +77,13 @@ def test_the_feet_end_where_the_answer_says(film, jumped):
         assert trail.z[-1] == pytest.approx(-0.3, abs=1e-6)
 
 
-def test_the_ground_moves_as_its_displacement(film, jumped):
+def test_ground_shift_equals_record_displacement(film, jumped):
     """The shift is the record's displacement on the baseline of PGD."""
     moved = ground_history(jumped.motion.horizontal, jumped.motion.dt).displacement
     np.testing.assert_allclose(film.scene.shift, np.interp(film.time, jumped.motion.time, moved), atol=1e-15)
 
 
-def test_everything_stays_in_the_picture(film):
+def test_view_box_contains_every_corner_of_every_frame(film):
     """The box holds every corner of every picture, ground displacement included."""
     left, right, bottom, top = film.scene.extent
     for index in range(0, film.time.size, 7):
@@ -93,7 +93,7 @@ def test_everything_stays_in_the_picture(film):
                 assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
 
 
-def test_a_page_holds_the_film_and_fetches_nothing(film):
+def test_animation_page_is_self_contained(film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
     page = animation_html(film, AnimationOptions(slow=4.0))
     data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
@@ -105,7 +105,7 @@ def test_a_page_holds_the_film_and_fetches_nothing(film):
     assert len(page) < 150_000
 
 
-def test_titles_are_text_and_not_markup():
+def test_animation_page_escapes_titles():
     """A body named like a tag cannot break the page."""
     body = Body((Piece(rectangle(0, 1, 0, 1)),), *np.zeros((3, 2)))
     film = Animation(
@@ -116,7 +116,7 @@ def test_titles_are_text_and_not_markup():
 
 
 @pytest.mark.slow
-def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
+def test_slow_option_multiplies_frame_count(jumped, tmp_path):
     """--slow 4 takes four times the pictures, of which each stands as long."""
     for slow in (1.0, 4.0):
         animate_jump(jumped, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
@@ -126,7 +126,7 @@ def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
     assert [format_speed(1.0), format_speed(0.25), format_speed(2.0)] == ["real time", "1/4 × real time", "2 × real time"]
 
 
-def test_drawing_tells_how_far_it_is(tmp_path):
+def test_animation_reports_progress_per_frame(tmp_path):
     """Progress ends at the number of pictures, which is that of the response's length in real time."""
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
@@ -135,7 +135,7 @@ def test_drawing_tells_how_far_it_is(tmp_path):
     assert told[-1][0] == told[-1][1] > 50
 
 
-def test_the_rocking_block_stands_on_its_pivot():
+def test_rocking_block_stands_on_its_pivot():
     """Leaning to +x the right foot is on the ground and the left one above it."""
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
@@ -149,17 +149,17 @@ def test_the_rocking_block_stands_on_its_pivot():
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 @pytest.mark.parametrize("width", [390, 1280])
-def test_a_browser_draws_the_page(film, tmp_path, width):
+def test_animation_page_runs_in_browser(film, tmp_path, width):
     """The script runs: the clock shows the time, and the scene is not empty."""
     path = tmp_path / "film.html"
     path.write_text(animation_html(film, AnimationOptions()) + "<script>document.title = String(byId('scene').width > 300)</script>")
-    shown = browsed(path, tmp_path, width)
+    shown = render_in_browser(path, tmp_path, width)
     assert re.search(r'id="clock">2[67]\.\d{3} s<', shown)
     assert "<title>true</title>" in shown
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
-def test_the_longest_number_beside_a_strip_is_not_cut(film, tmp_path):
+def test_axis_numbers_of_page_are_not_clipped(film, tmp_path):
     """Numbers end left of their strip and begin right of the page's edge, however many digits they have."""
     tiny = replace(film, strips=(Strip("x (m)", (Line(film.time, np.linspace(0.0, -0.000602, film.time.size)),)),))
     path = tmp_path / "film.html"
@@ -169,10 +169,10 @@ def test_the_longest_number_beside_a_strip_is_not_cut(film, tmp_path):
       draw(); document.title = JSON.stringify(told.filter(each => each[0].includes("0.000602")).map(each => each[1] >= 0));
     </script>"""
     path.write_text(animation_html(tiny, AnimationOptions()) + seen)
-    assert "<title>[true]</title>" in browsed(path, tmp_path, 390)
+    assert "<title>[true]</title>" in render_in_browser(path, tmp_path, 390)
 
 
-def browsed(path, folder, width):
+def render_in_browser(path, folder, width):
     """Return a page as a browser has it after its script has run."""
     return subprocess.run(
         [

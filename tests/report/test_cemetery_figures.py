@@ -15,7 +15,7 @@ from seisblock.validation.furukawa_surveys import SURVEYS
 AOYAMA = read_cemetery("aoyama.csv")
 
 
-def test_figs_14_and_15_hold_every_stone():
+def test_slenderness_histograms_contain_every_stone():
     """The bars add up to one, and the share above falls from one to none through the printed shares."""
     (axis,) = figure_14(AOYAMA).axes
     assert sum(bar.get_height() for bar in axis.patches) == pytest.approx(1.0)
@@ -26,7 +26,7 @@ def test_figs_14_and_15_hold_every_stone():
 
 
 @pytest.mark.parametrize("reinforced", [False, True])
-def test_figs_16_to_19_draw_the_rates(reinforced):
+def test_rate_curves_equal_computed_rates(reinforced):
     """Six curves hold the rate at each PGA; the surveyed rates stand at their PGA."""
     figure = figure_16(AOYAMA, reinforced=reinforced, surveys=SURVEYS)
     (axis,) = figure.axes
@@ -40,7 +40,7 @@ def test_figs_16_to_19_draw_the_rates(reinforced):
     assert points == [(pytest.approx(s.pga_gal), pytest.approx(s.rate)) for s in SURVEYS]
 
 
-def test_fig_20_sets_surveys_against_curves():
+def test_survey_points_lie_on_rate_curves():
     """Each survey stands at the rate of the curve, once without and once with dowels."""
     (axis,) = figure_20(AOYAMA).axes
     offsets = [tuple(scatter.get_offsets()[0]) for scatter in axis.collections]
@@ -48,7 +48,7 @@ def test_fig_20_sets_surveys_against_curves():
 
 
 @pytest.mark.parametrize(("compared", "panels"), [(False, 2), (True, 3)])
-def test_the_figure_of_a_shaking(compared, panels):
+def test_cemetery_figure_has_stones_curves_and_shaking_point(compared, panels):
     """Stones, curves and the point of a shaking; a further panel where dowels are compared."""
     method, shaking = AssessmentMethod(), Shaking(7.25, 2.75)
     found = assess_cemetery(AOYAMA, shaking, method, reinforced_cemetery=AOYAMA.with_dowels() if compared else None)
@@ -59,7 +59,7 @@ def test_the_figure_of_a_shaking(compared, panels):
 
 
 @pytest.mark.parametrize("criterion", ["furukawa", "simulate"])
-def test_the_point_of_a_shaking_is_in_view(criterion):
+def test_shaking_point_lies_within_axes(criterion):
     """However strong the shaking and whatever is drawn beside it, its point lies within the panel."""
     method, shaking = AssessmentMethod(criterion), Shaking(30.0, 2.0)
     found = assess_cemetery(AOYAMA, shaking, method)

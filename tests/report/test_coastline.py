@@ -40,7 +40,7 @@ def installed(tmp_path, monkeypatch):
     importlib.invalidate_caches()
 
 
-def test_the_stretches_of_a_part(installed):
+def test_coastline_segments_lie_within_region(installed):
     """What lies inside, each with its neighbours; of lakes nothing; places beyond 180 degrees by either of their names."""
     island, cape = coastlines(138.5, 139.5, 34.5, 35.5)
     np.testing.assert_allclose(island, ISLAND, atol=1e-4)
@@ -53,7 +53,7 @@ def test_the_stretches_of_a_part(installed):
     assert coastlines(0.0, 1.0, 0.0, 1.0) == []
 
 
-def test_figure_and_page_draw_it(installed):
+def test_map_figure_and_page_draw_coastline(installed):
     """Under the points, and where it is: in kilometres from the middle on the page."""
     found, subject = stations()
     axis = figure(found, subject).axes[0]

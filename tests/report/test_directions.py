@@ -34,7 +34,7 @@ NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("model", all_but_slow(PRESENTERS, set(PRESENTERS) - {"stack"}))
-def test_a_model_names_directions_after_the_record(model, lang):
+def test_models_name_directions_after_record_components(model, lang):
     """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
     found = response(model)
     with use_locale(lang):
@@ -55,7 +55,7 @@ def test_a_model_names_directions_after_the_record(model, lang):
         assert re.search(r"[+-]NS\b", " ".join(told))
 
 
-def test_a_side_is_a_component_or_an_azimuth():
+def test_direction_name_is_component_or_azimuth():
     """The sign, or a document's word for it; an azimuth is turned round; nothing has no side."""
     assert [direction_label("EW", sign) for sign in (1.0, -1.0, "+x", "-x", "+", "-")] == ["+EW", "-EW"] * 3
     assert [direction_label("37", sign) for sign in (1, -1)] == ["azimuth 37", "azimuth 217"]
@@ -67,7 +67,7 @@ def test_a_side_is_a_component_or_an_azimuth():
         assert (phase_label("slip backward", "EW"), phase_label("rocks to +x", "127")) == ("-EW へ滑動", "方位 127° へロッキング")
 
 
-def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():
+def test_fall_direction_is_azimuth_or_axis():
     """+y is 90 degrees counter-clockwise of +x: west of north, north of east; the azimuth runs clockwise from north."""
     row = np.array([0.0, 1.0])
     record = Record((Component("NS", row, 0.0), Component("EW", row, 90.0), Component("UD", row)), 0.01)

@@ -24,7 +24,7 @@ AS_GIVEN = {"text/samples.py", "json/infer.py", "figures/style.py", "html/report
 """Peaks in the unit of a list, a formula as a paper prints it, the example of a doctest, gravity in SI as it is given."""
 
 
-def test_no_unit_is_written_elsewhere():
+def test_units_are_defined_in_units_display_only():
     """Every other text of this room takes its unit from there."""
     found = {str(path.relative_to(ROOM)) for path in ROOM.rglob("*.py") if WRITTEN.search(path.read_text(encoding="utf-8"))}
     shown = {name for name in found if not name.startswith("exports/")}  # files in the layouts of others have their units
@@ -43,13 +43,13 @@ def test_no_unit_is_written_elsewhere():
         ((), "cm"),
     ],
 )
-def test_millimetres_are_for_what_is_small_throughout(lengths, unit):
+def test_length_unit_is_mm_below_one_cm(lengths, unit):
     """Below 1 cm, as it would be written: mm; nothing at all is no centimetre. In SI always m."""
     assert length_unit(lengths, gal=True).name == unit
     assert length_unit(lengths, gal=False).name == "m"
 
 
-def test_a_length_is_written_to_what_can_be_read_off():
+def test_format_length_uses_decimals_of_unit():
     """Each unit has its decimals, a tape's in words; nothing has no sign, and what is not known is a dash."""
     assert [format_length(each) for each in (0.21534, 0.0047, -1e-9, 0.0)] == ["21.5 cm", "4.70 mm", "0.00 mm", "0.0 cm"]
     unit = length_unit([0.2], gal=True)
@@ -58,7 +58,7 @@ def test_a_length_is_written_to_what_can_be_read_off():
 
 
 @pytest.mark.parametrize("model", all_but_slow(PRESENTERS, {"slide", "rock", "jump"}))
-def test_figure_and_film_speak_of_the_same_units(model):
+def test_figure_and_animation_use_same_units(model):
     """What the panels of a figure are in, the strips of its film are in, too; in SI nothing else is left."""
     for gal, wanted in ((True, {"gal", "kine", "cm", "mm"}), (False, {"m/s²", "m/s", "m"})):
         drawn = response_figure([response(model)], gal=gal)
@@ -72,7 +72,7 @@ def units_in(texts):
     return set(re.findall(r"\((mm|cm|m|gal|kine|m/s|m/s²)\)", " ".join(texts)))
 
 
-def test_a_figure_of_small_slips_is_in_millimetres():
+def test_slide_figure_of_small_slip_uses_mm():
     """The unit is that of what is drawn: a hundredth of what the body slid."""
     found = response("slide")
     scaled = [replace(each, values=0.01 * each.values) if each.name == "displacement" else each for each in found.channels]

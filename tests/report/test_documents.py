@@ -108,7 +108,7 @@ def documents(tmp_path_factory):
 
 
 @pytest.mark.parametrize("line", EVERY)
-def test_a_document_is_what_its_schema_says(line, documents):
+def test_documents_validate_against_their_schema(line, documents):
     """Types, required keys, and the name of the schema; null only where the schema admits it; and no key that the schema does not know."""
     schema = json_schema(line.split()[0])
     jsonschema.Draft202012Validator.check_schema(schema)
@@ -120,7 +120,7 @@ def test_a_document_is_what_its_schema_says(line, documents):
 
 
 @pytest.mark.parametrize("line", EVERY)
-def test_an_answer_cites_what_its_command_relies_on(line, documents):
+def test_citations_of_document_are_listed_by_cite(line, documents):
     """The papers of a document are among those that `cite COMMAND` prints; ``validate`` those of its cases."""
     command, cited = line.split()[0], documents(line)["citations"]
     assert len(set(cited)) == len(cited)
@@ -128,7 +128,7 @@ def test_an_answer_cites_what_its_command_relies_on(line, documents):
     assert bool(cited) is (command not in {"samples"})
 
 
-def test_every_command_has_a_schema_and_every_kind_an_example(documents):
+def test_every_document_kind_has_schema_and_example(documents):
     """A command without schema writes no document; each kind of document is among those validated."""
     assert set(COMMANDS) - WITHOUT_DOCUMENT == set(DOCUMENTS) == set(VERSIONS)
     for command in DOCUMENTS:
@@ -138,13 +138,13 @@ def test_every_command_has_a_schema_and_every_kind_an_example(documents):
 
 
 @pytest.mark.parametrize("command", list(DOCUMENTS))
-def test_no_key_changes_unless_the_version_does(command):
+def test_document_keys_equal_stored_keys(command):
     """What is written down in ``keys`` still holds, or the version was stepped; what is new is written down too."""
     assert gone(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
     assert stored(command) == lines(command), "write the keys down: python -m tests.report.document_keys"
 
 
-def test_a_key_that_changes_is_noticed(monkeypatch):
+def test_changed_keys_are_detected(monkeypatch):
     """A renamed key, a changed type and a key that may now be missing are named; with another version they are not."""
     before = ["seisblock/slide/1", "SlideDocument.results[].slips boolean", "SlideDocument.results[].way_m number"]
     monkeypatch.setattr("tests.report.document_keys.stored", lambda command: before)
@@ -158,7 +158,7 @@ def test_a_key_that_changes_is_noticed(monkeypatch):
 
 
 @pytest.mark.parametrize("command", list(DOCUMENTS))
-def test_every_number_names_its_unit(command):
+def test_numeric_keys_name_their_unit(command):
     """In its own key, in a key above it, in a key ``unit`` beside it; or it is a pure number."""
     paths = dict(line.rsplit(" ", 1) for line in lines(command)[1:])
     silent = []
@@ -171,7 +171,7 @@ def test_every_number_names_its_unit(command):
 
 
 @pytest.mark.parametrize("command", ["rock", "slide", "jump", "uplift", "stack", "measure"])
-def test_keys_say_what_they_mean(command):
+def test_schema_keys_have_descriptions(command):
     """Results carry the docstrings of the library: most keys have a description, none is left as markup."""
     definitions = json_schema(command)["$defs"]
     shapes = [shape for definition in definitions.values() for shape in definition.get("properties", {}).values()]
@@ -182,7 +182,7 @@ def test_keys_say_what_they_mean(command):
     assert {shape.get("unit") for key, shape in keys.items() if key.endswith("_s")} <= {"s", "m/s", "rad/s"}
 
 
-def test_the_schema_is_printed_and_the_list_costs_nothing():
+def test_schema_command_prints_schema_and_list():
     """`seisblock schema rock` prints JSON; without a command the names and versions; an unknown command is a usage error."""
     printed = CliRunner().invoke(main, ["schema", "rock"])
     assert json.loads(printed.stdout) == json_schema("rock")
@@ -190,7 +190,7 @@ def test_the_schema_is_printed_and_the_list_costs_nothing():
     assert CliRunner().invoke(main, ["schema", "report"]).exit_code == 2
 
 
-def test_values_of_other_kinds_are_written_plainly():
+def test_encode_handles_numpy_paths_messages_and_nan():
     """Texts that remember their template, paths, and numpy's numbers and arrays; what is not a number is null; anything else is refused."""
     values = {
         "text": lazy_gettext("{name} falls", name="A"),
@@ -203,7 +203,7 @@ def test_values_of_other_kinds_are_written_plainly():
         to_builtins(1j)
 
 
-def test_several_records_are_a_list_and_each_result_says_which(documents):
+def test_documents_of_several_records_index_each_result(documents):
     """One record stands by itself; of several, `record_index` is the place in the list."""
     one, two = documents("slide --mu 0.2"), documents("slide --mu 0.2 synthetic_knet.EW synthetic_jma --component EW")
     assert isinstance(one["record"], dict) and "record_index" not in one["results"][0]

@@ -63,14 +63,14 @@ def film(model, pictures=200, **options):
     return FILMS[model](found, np.linspace(*SPANS[model](found), pictures), **options)
 
 
-def test_each_model_has_a_film():
+def test_every_model_has_an_animation():
     """What moves is seen moving, and each film is under test here."""
     assert [name for name, face in PRESENTERS.items() if face.film is not None] == list(PRESENTERS)
     assert set(FILMS) == set(PRESENTERS)
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_pictures_draw_the_true_curve(model):
+def test_frames_draw_every_point_of_the_curve(model):
     """F1: the curves in .gif and .mp4 hold every point of the response in view."""
     found, stage = response(model), build_figure(film(model))
     stage.fig.canvas.draw()
@@ -82,7 +82,7 @@ def test_pictures_draw_the_true_curve(model):
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_pages_draw_the_true_curve(model):
+def test_pages_draw_every_point_of_the_curve(model):
     """F1: so do the curves of a page; each point of the response in view lies on the line, to a 300th of the strip's height."""
     found = response(model)
     data = data_of(animation_html(film(model), AnimationOptions()))
@@ -113,7 +113,7 @@ def data_of(page):
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_a_film_says_which_record_it_shows(model):
+def test_animation_titles_name_the_record(model):
     """Station, local time and direction stand above pictures and pages as above figures."""
     shown = film(model)
     assert build_figure(shown).fig.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
@@ -124,7 +124,7 @@ def test_a_film_says_which_record_it_shows(model):
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("model", FILMS)
-def test_no_text_of_a_picture_lies_on_another(model, lang):
+def test_frame_texts_do_not_overlap(model, lang):
     """Titles, clock, legends and labels stand by themselves, within the picture."""
     with use_locale(lang):
         stage = build_figure(film(model))
@@ -138,7 +138,7 @@ def test_no_text_of_a_picture_lies_on_another(model, lang):
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_pages_are_told_in_the_language_spoken(model):
+def test_animation_pages_are_translated(model):
     """Title, notes, legends and labels of the player; and a page of a long record stays small enough to send."""
     with use_locale("ja"):
         page = animation_html(film(model, 3000), AnimationOptions())
@@ -148,7 +148,7 @@ def test_pages_are_told_in_the_language_spoken(model):
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_accelerations_are_in_the_unit_asked_for(model):
+def test_acceleration_strip_uses_requested_unit(model):
     """--si: the strip of the ground is in m/s2, its thresholds too."""
     (gal, si) = (film(model, gal=gal).strips[0] for gal in (True, False))
     assert (gal.label, si.label) == ("a (gal)", "a (m/s²)")
@@ -157,7 +157,7 @@ def test_accelerations_are_in_the_unit_asked_for(model):
 
 
 @pytest.mark.parametrize(("gal", "unit", "size"), [(True, "cm", 0.01), (False, "m", 1.0)])
-def test_the_enlarged_window_tells_places_in_the_unit_asked_for(gal, unit, size):
+def test_magnified_window_uses_requested_unit(gal, unit, size):
     """cm, or with --si m, in pictures; a page's bar of scale knows which, too."""
     shown = film("jump", 40)
     stage = build_figure(shown, gal=gal)
@@ -171,7 +171,7 @@ def test_the_enlarged_window_tells_places_in_the_unit_asked_for(gal, unit, size)
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_the_cursor_is_whole_in_the_first_and_in_the_last_picture(model):
+def test_cursor_is_drawn_in_first_and_last_frame(model):
     """It stands on the edge of its strips there: every row of them has it, and it has a head."""
     shown = film(model, 3)
     first, middle, last = (np.asarray(picture, dtype=int) for picture in animation_frames(shown, 1.0, AnimationOptions()))
@@ -190,7 +190,7 @@ def test_the_cursor_is_whole_in_the_first_and_in_the_last_picture(model):
 
 @pytest.mark.parametrize("gal", [True, False])
 @pytest.mark.parametrize("model", FILMS)
-def test_a_bar_tells_the_scale_of_the_scene(model, gal):
+def test_scale_bar_length_equals_its_label(model, gal):
     """As in the page: a round length, drawn as long as its text says, in each picture, within the scene."""
     shown = film(model, 3, gal=gal)
     stage = build_figure(shown, gal=gal)
@@ -209,7 +209,7 @@ def test_a_bar_tells_the_scale_of_the_scene(model, gal):
 
 
 @pytest.mark.parametrize("model", FILMS)
-def test_a_key_names_the_bands_of_the_strips(model):
+def test_legend_names_every_shaded_band_once(model):
     """Whatever is shaded in a picture is named in it, once."""
     shown = film(model, 2)
     wanted = {shown.phase_label(phase.name) for phase in shown.visible_phases if phase.name in shown.colours}
@@ -219,7 +219,7 @@ def test_a_key_names_the_bands_of_the_strips(model):
 
 
 @pytest.mark.parametrize("model", ["respond", "slide", "jump"])
-def test_the_path_on_a_page_keeps_its_furthest_points(model, monkeypatch):
+def test_thinned_path_keeps_its_extremes(model, monkeypatch):
     """F1: however many points a path has, what is left of them reaches as far to all sides."""
     shown = film(model, 40)
     (path, *_) = shown.scene.trails
@@ -233,7 +233,7 @@ def test_the_path_on_a_page_keeps_its_furthest_points(model, monkeypatch):
         assert (min(drawn[axis]), max(drawn[axis])) == pytest.approx((whole.min(), whole.max()), abs=5.1e-6)
 
 
-def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
+def test_long_animation_is_limited_to_maximum_frames():
     """It plays faster and says so."""
     times, speed = frame_times(0.0, 300.0)
     assert len(times) <= MAX_FRAMES and speed == 8.0
@@ -242,13 +242,13 @@ def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
     assert all(isinstance(picture, Image.Image) for picture in pictures) and pictures[0].size == pictures[-1].size
 
 
-def test_what_did_not_happen_has_no_strip():
+def test_animation_at_rest_has_acceleration_strip_only():
     """Before anything moves the ground's acceleration is all there is."""
     found = response("rock")
     assert [strip.label for strip in FILMS["rock"](found, np.linspace(0.0, 5.0, 20)).panels] == ["a (gal)"]
 
 
-def test_stones_are_where_the_response_has_them():
+def test_stone_corners_equal_response_channels():
     """Each corner of each stone in a picture is that of the channels, on ground that moves along and up as its displacement."""
     found = response("stack")
     shown = film("stack", 60)
@@ -265,7 +265,7 @@ def test_stones_are_where_the_response_has_them():
 
 
 @pytest.mark.parametrize("model", ["stack", "uplift"])
-def test_the_ground_stays_in_the_picture(model):
+def test_ground_stays_within_view_box(model):
     """However far it moves, the patch of ground lies within the box that is shown."""
     scene = film(model, 100).scene
     left, right, bottom, _ = scene.extent()
@@ -274,7 +274,7 @@ def test_the_ground_stays_in_the_picture(model):
         assert left <= x.min() and x.max() <= right and bottom <= z.min()
 
 
-def test_no_stone_in_sight_comes_to_lie_beside_the_ground():
+def test_ground_patch_extends_below_fallen_stones():
     """The patch of ground is as wide as what has fallen; it was as wide as the foot alone, and stones hung in the air beside it."""
     scene = film("stack", 20).scene
     (left, front), (right, back) = scene.patch[[0, 2], :2]
@@ -285,7 +285,7 @@ def test_no_stone_in_sight_comes_to_lie_beside_the_ground():
     assert left < beside[..., 0].min() and beside[..., 0].max() < right and front < beside[..., 1].min() and beside[..., 1].max() < back
 
 
-def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():
+def test_visible_faces_are_drawn_back_to_front():
     """A convex body shows a face if and only if its outward normal points to the viewer; far ones are drawn before near ones."""
     scene, ahead = film("stack", 20).scene, view_axes()[2]
     faces = list(scene.faces(0, 0.0))
@@ -293,7 +293,7 @@ def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():
     assert len(faces) == 3 * len(scene.solids) and depths == sorted(depths)
 
 
-def test_the_path_of_a_foot_is_that_of_the_answer_however_few_the_pictures():
+def test_corner_path_equals_response_with_few_frames():
     """F1: the path behind the foot runs through every point of the response, and ends where the foot is in the picture."""
     found, shown = response("jump"), film("jump", 40)
     scene, body = shown.scene, shown.scene.bodies[0]
@@ -309,7 +309,7 @@ def test_the_path_of_a_foot_is_that_of_the_answer_however_few_the_pictures():
     np.testing.assert_allclose([x[-1], z[-1]], body.corners_at(corner[None], 30)[0] + [scene.shift[30], 0.0], atol=1e-4)
 
 
-def test_a_fallen_stone_is_marked_from_its_fall_on():
+def test_fallen_stone_changes_colour_at_fall_time():
     """Its edges change colour at the time of the answer."""
     found = response("stack")
     fell = {stone.name: stone.fell_at_s for stone in found.outcome.stones}
@@ -318,7 +318,7 @@ def test_a_fallen_stone_is_marked_from_its_fall_on():
         assert solid.fell_s == (math.inf if fell[name] is None else fell[name])
 
 
-def test_a_drum_that_rolls_on_is_not_followed():
+def test_animation_ends_seconds_after_last_fall():
     """Film and figure end some seconds after the last fall, though the fallen drums of a column roll for as long as they are followed."""
     found = solve_stack(load_pile("column"), motion_of(scale(crop(read("synthetic_jma.csv"), 24.0, 36.0), 1.2), "NS"))
     last = max(stone.fell_at_s for stone in found.outcome.stones)
@@ -327,7 +327,7 @@ def test_a_drum_that_rolls_on_is_not_followed():
     assert last < stack.motion_interval(found, margin=1.5)[1] <= last + 3.5
 
 
-def test_a_corner_is_drawn_in_the_air_when_it_is():
+def test_uplifted_corner_is_marked():
     """Uplift: the mark of each corner tells whether its spring is let go of; the block stands on its corners' heights, magnified."""
     found, shown = response("uplift"), film("uplift", 400)
     factor = uplift.magnification(found)
@@ -338,7 +338,7 @@ def test_a_corner_is_drawn_in_the_air_when_it_is():
         np.testing.assert_allclose(spring.top[:, 2] - spring.free, factor * rise, atol=1e-12)
 
 
-def test_the_block_on_springs_leans_as_its_corners_rise():
+def test_uplift_tilt_agrees_with_corner_heights():
     """The turn of the cuboid and the heights of its corners, found independently, agree to the curvature of the turn."""
     shown = film("uplift", 100)
     (block,), springs = shown.scene.solids, shown.scene.springs
@@ -348,13 +348,13 @@ def test_the_block_on_springs_leans_as_its_corners_rise():
 
 
 @functools.cache
-def magnified():
+def uplift_magnification():
     return uplift.magnification(response("uplift"))
 
 
-def test_small_motion_is_magnified_by_a_round_factor():
+def test_small_motion_is_magnified_by_round_factor():
     """1, 2 or 5 times a power of ten, such that lean and rise just stay within what is drawn; the page says by how much."""
-    factor, found = magnified(), response("uplift")
+    factor, found = uplift_magnification(), response("uplift")
     digits = factor / 10.0 ** math.floor(math.log10(factor) + 1e-9)
     assert min(abs(digits - step) for step in (1.0, 2.0, 5.0)) < 1e-9
     rise = max(float(np.abs(found[f"uplift_{i}"]).max()) for i in (1, 2, 3, 4))
@@ -365,7 +365,7 @@ def test_small_motion_is_magnified_by_a_round_factor():
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 @pytest.mark.parametrize("model", ["stack", "uplift"])
-def test_a_browser_draws_a_scene_in_space(model, tmp_path):
+def test_3d_animation_page_runs_in_browser(model, tmp_path):
     """The script runs: the clock stands where the address says, scene and curves are drawn, and nothing runs off the page."""
     probe = """<script>
     const inked = id => { const { width, height } = byId(id), pen = byId(id).getContext("2d");
@@ -387,7 +387,7 @@ def worn_block_that_falls():
     return solve_rock(block, motion("NS", 1.6)), solve_respond(block, motion("NS", 1.6), mu=0.7)
 
 
-def test_a_worn_block_that_falls_lies_on_the_ground():
+def test_worn_block_comes_to_rest_on_ground():
     """Nothing of it is ever below, nor does it float: it leaves the edge it turned about, and lies on its bevel, then on its side."""
     for found in worn_block_that_falls():
         assert found.outcome.overturned
@@ -399,7 +399,7 @@ def test_a_worn_block_that_falls_lies_on_the_ground():
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("model", FILMS)
-def test_no_label_is_higher_than_its_strip(model, lang):
+def test_strip_labels_fit_their_strips(model, lang):
     """Labels of strips below each other do not run into one another; a foot that is nowhere in the window is not in its key."""
     with use_locale(lang):
         stage = build_figure(film(model, pictures=2))

@@ -41,7 +41,7 @@ ALWAYS_GAL = {"a record", "a motion", "response spectrum", "field test", "as fig
 """A notebook's, and the papers'."""
 
 
-def test_every_kind_of_figure_is_looked_at():
+def test_every_figure_function_is_listed():
     """A new function that returns a figure belongs into the list, or nothing here would look at it."""
     assert {function for function, _ in EVERY.values()} == drawing_functions()
     assert len(EVERY) >= 30
@@ -72,7 +72,7 @@ def letters(name, *, gal):
 
 @pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
 @pytest.mark.parametrize("name", EVERY)
-def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
+def test_figure_texts_do_not_overlap_or_leave_canvas(name, lang):
     """F3: every text that is drawn stands by itself, within the figure; and no zero has a sign."""
     assert crowded(drawn(name, lang), read(name, lang)) == []
     assert not [text.get_text() for text in read(name, lang) if MINUS_NOTHING.search(text.get_text())]
@@ -80,7 +80,7 @@ def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
-def test_a_journals_column_holds_it(name):
+def test_figures_fit_journal_column_widths(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
     with use_locale("ja"):
         figure = EVERY[name][1](True)
@@ -100,7 +100,7 @@ TOO_SMALL = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
-def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatch):
+def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
     """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
     monkeypatch.setattr(min_size, "RELATIVE_TOLERANCE", 0.5)  # the first size that will do, not the least
     with use_locale("en"):
@@ -124,7 +124,7 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
 @pytest.mark.slow
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift", "uplift, two"])
-def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):
+def test_panels_stack_vertically_at_column_width(name, lang):
     """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
     with use_locale(lang):
         high = 0.4 if name == "uplift, two" else 0.235  # that one has twelve panels
@@ -137,7 +137,7 @@ def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("number", [3, 4])
-def test_a_key_does_not_lie_on_a_curve_of_a_small_figure(number, lang):
+def test_legend_of_small_figure_moves_above_axes(number, lang):
     """Letters shrink less than a figure: a key that had room among the curves goes above them."""
     with use_locale(lang):
         figure = EVERY[f"as fig. {number} of Okumura"][1](True)
@@ -149,13 +149,13 @@ def test_a_key_does_not_lie_on_a_curve_of_a_small_figure(number, lang):
 
 
 @pytest.mark.parametrize("name", ["fragility", "fragility of nine"])
-def test_the_key_of_a_fragility_hides_no_curve(name):
+def test_fragility_legend_covers_no_curve(name):
     """Curves rise to the right: the key stands in the corner that they leave."""
     figure = drawn(name, "en")
     assert [axis for axis in figure.axes if axis.get_legend() and figure.legend_covers_curve(axis.get_legend())] == []
 
 
-def test_nine_risks_differ_and_are_all_named():
+def test_nine_risk_curves_are_distinct_and_labelled():
     """Each has a line of its own, and its name stands within the figure."""
     figure = drawn("risk of nine", "ja")
     curves = figure.axes[1].lines
@@ -164,7 +164,7 @@ def test_nine_risks_differ_and_are_all_named():
 
 
 @pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
-def test_no_key_covers_a_title_within_a_page(lang):
+def test_legend_does_not_cover_title_in_report(lang):
     """A figure that is narrowed for a page lifts its titles over the keys, with the tails of their letters."""
     with use_locale(lang):
         figure = EVERY["measure"][1](True)
@@ -178,7 +178,7 @@ def test_no_key_covers_a_title_within_a_page(lang):
 
 
 @pytest.mark.parametrize("name", OF_THE_RECORD)
-def test_the_title_says_which_record(name):
+def test_figure_title_names_record_and_time(name):
     """F3, P4: station and local time stand above every figure of a record; a name is text, not mathematics (R15)."""
     figure = drawn(name, "en")
     assert figure.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST")
@@ -186,7 +186,7 @@ def test_the_title_says_which_record(name):
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_accelerations_have_one_unit(name):
+def test_figure_uses_one_acceleration_unit(name):
     """F3: gal or m/s², as asked, never both; and what is drawn in m/s² is a hundredth of what is drawn in gal."""
     assert not having(UNITS[1], letters(name, gal=True))
     if having(UNITS[0], letters(name, gal=True)) and name not in ALWAYS_GAL:
@@ -196,7 +196,7 @@ def test_accelerations_have_one_unit(name):
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_no_panel_or_legend_is_empty(name):
+def test_figures_have_no_empty_panel_or_legend(name):
     """F3: what did not happen has neither."""
     for axis in drawn(name, "en").axes:
         assert axis.has_data() or axis.get_label() == "<colorbar>"
@@ -205,7 +205,7 @@ def test_no_panel_or_legend_is_empty(name):
 
 
 @pytest.mark.parametrize("name", EVERY)
-def test_what_a_legend_tells_apart_differs_in_grey(name):
+def test_legend_entries_differ_in_greyscale(name):
     """F3: no two entries of a legend differ in hue alone: in dash, marker or lightness they do, for every eye and every printer."""
     figure = drawn(name, "en")
     keys = [axis.get_legend_handles_labels() for axis in figure.axes if axis.get_legend()]
@@ -236,7 +236,7 @@ def lightness(colour):
     return (116.0 * np.cbrt(y) - 16.0) / 100.0 if y > 0.008856 else 9.033 * y
 
 
-def test_the_guards_see_what_they_are_for():
+def test_layout_checks_detect_known_faults():
     """A text put on another, one beyond the edge, and two greys alike are found."""
     figure = EVERY["sliding"][1](True)
     figure.text(0.5, 0.5, "one text here")

@@ -14,7 +14,7 @@ SMALL = {"en": "less than 1 % of the overturning angle", "ja": "転倒限界角�
 
 
 @pytest.mark.parametrize("lang", SMALL)
-def test_a_lean_below_a_hundredth_is_told_alike_in_text_and_report(lang):
+def test_tilt_below_one_percent_has_same_text_everywhere(lang):
     """The line of the text, the line on the page's card and the sentence below it; none of them says 0 %."""
     found = response("rock")
     faint = replace(found, outcome=replace(found.outcome, overturned=False, overturned_towards=None, rocks=True, max_rotation_ratio=0.004))
@@ -25,7 +25,7 @@ def test_a_lean_below_a_hundredth_is_told_alike_in_text_and_report(lang):
     assert not [text for text in told if " 0 %" in text]
 
 
-def test_a_share_of_a_governing_answer_has_the_same_words():
+def test_best_estimate_uses_same_share_text():
     """What rocks a little while it slides."""
     found = response("respond")
     time = {**found.outcome.time_in_mode_s, "rock": 1.0}
@@ -35,7 +35,7 @@ def test_a_share_of_a_governing_answer_has_the_same_words():
 
 
 @pytest.mark.parametrize(("lang", "said"), [("en", "NS: slides less than 0.01 mm in total."), ("ja", "NS：滑動 合計 0.01 mm 未満")])
-def test_what_slides_a_micrometre_has_not_slid_by_nothing(lang, said):
+def test_tiny_slip_is_not_reported_as_zero(lang, said):
     """The sentence of ``slide``, as that of ``jump`` does; the card of a report does, too."""
     found = response("slide")
     faint = dict.fromkeys(("max_slip_m", "path_m", "residual_slip_m", "final_slip_m"), 1e-6)
@@ -46,7 +46,7 @@ def test_what_slides_a_micrometre_has_not_slid_by_nothing(lang, said):
         assert "0.01 mm" in verdict(ModelResponse("slide", changed, None, None))
 
 
-def test_a_figure_of_rocking_says_what_happened():
+def test_rock_figure_title_states_outcome():
     """As that of the governing answer does: above the ground motion."""
     found = response("rock")
     for fell, told in ((True, ": overturned; "), (False, ": rocking; ")):
@@ -56,7 +56,7 @@ def test_a_figure_of_rocking_says_what_happened():
         assert any(told in title for title in titles), titles
 
 
-def test_a_response_shows_itself_in_a_line():
+def test_response_repr_is_one_line():
     """Model, body, direction, the first facts and how it ended; of many things the page says how many it leaves out."""
     found = response("respond")
     assert len(repr(found)) < 300 and repr(found).startswith("<Response respond of ") and "overturned=" in repr(found)

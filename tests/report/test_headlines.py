@@ -17,7 +17,7 @@ from seisblock.report.text.threshold import SLIDES, threshold_text
 from tests.report.long_record import PAVILION, motion
 
 
-def test_what_keeps_still_says_what_it_would_take():
+def test_no_motion_headline_states_factor_to_move():
     """Whatever rests answers with the shaking that would move it, and with how many times the record's peak that is."""
     still = motion("NS", 0.1)
     peak = np.abs(still.horizontal).max()
@@ -34,13 +34,13 @@ def test_what_keeps_still_says_what_it_would_take():
     assert threshold_text(SLIDES, (0.2, 0.2), above, gravity=10.0, gal=False) == "sliding threshold 2.0000 m/s²"
 
 
-def _told(sentence):
+def _stated_factor(sentence):
     """Return how many times the record a sentence says that it takes."""
     return float(re.search(r"([^\s(]+) times this record", sentence).group(1))
 
 
 @pytest.mark.parametrize("component", ["10", "280"])
-def test_what_keeps_still_under_vertical_motion_moves_from_the_factor_told_on(component):
+def test_factor_to_move_holds_with_vertical_motion(component):
     """The vertical motion takes weight off and adds it: the factor told is that of both together, in each model that has it."""
     still = motion_of(read("hanmer_springs_2016"), component)
     stronger = {
@@ -49,24 +49,24 @@ def test_what_keeps_still_under_vertical_motion_moves_from_the_factor_told_on(co
         lambda m: solve_slide(SlidingBase(0.4), m, vertical=True): (slide_sentence, lambda outcome: outcome.slips),
     }
     for solve, (say, moves) in stronger.items():
-        factor = _told(say(solve(still)))
+        factor = _stated_factor(say(solve(still)))
         assert factor != pytest.approx(0.4 * 9.80665 / np.abs(still.horizontal).max(), rel=0.02)
         assert not moves(solve(replace(still, rows=0.99 * factor * still.rows)).outcome)
         assert moves(solve(replace(still, rows=1.01 * factor * still.rows)).outcome)
 
 
 @pytest.mark.parametrize("offset", [-0.02, 0.02])
-def test_a_block_with_a_weaker_side_is_told_the_factor_of_the_peak_that_pushes_it_there(offset):
+def test_factor_to_move_uses_peak_towards_weaker_side(offset):
     """The record's larger peak may push to the stronger side."""
     still, block = motion_of(read("elcentro_1940_ns.csv"), "NS"), Block(0.24, 0.72, centroid_offset=offset)
     still = replace(still, rows=0.5 * still.rows)
-    factor = _told(first_line(solve_rock(block, still)))
-    assert factor == _told(respond_verdict(solve_respond(block, still, mu=0.6)))
+    factor = _stated_factor(first_line(solve_rock(block, still)))
+    assert factor == _stated_factor(respond_verdict(solve_respond(block, still, mu=0.6)))
     assert not solve_rock(block, replace(still, rows=0.99 * factor * still.rows)).outcome.rocks
     assert solve_rock(block, replace(still, rows=1.01 * factor * still.rows)).outcome.rocks
 
 
-def test_a_ratio_of_all_but_one_shows_on_which_side_it_is():
+def test_ratio_near_one_shows_enough_digits():
     """1.00 stands and 1.00 falls are not told apart: there are as many digits as it takes."""
     for demand, told in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
         assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == told

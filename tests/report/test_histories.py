@@ -64,7 +64,7 @@ def deviation(axis, line, time, values):
 
 
 @pytest.mark.parametrize("model", SOLVED)
-def test_each_point_in_view_is_drawn(model):
+def test_history_draws_every_point_in_view(model):
     """F1: no curve is thinned before it is cut to what is shown; what was computed and what the artists hold are compared."""
     found = response(model)
     figure = response_figure([found])
@@ -76,7 +76,7 @@ def test_each_point_in_view_is_drawn(model):
         assert min(deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
 
 
-def test_the_drawing_on_file_is_the_response(tmp_path):
+def test_svg_path_equals_response_within_half_pixel(tmp_path):
     """F1: the path in an .svg, taken back to seconds and degrees, is nowhere half a pixel from the response."""
     found = response("jump")
     figure = response_figure([found])
@@ -96,7 +96,7 @@ def test_the_drawing_on_file_is_the_response(tmp_path):
     assert np.abs(np.interp(found.time[inside], *data.T) - tilt).max() < 2.0 * pixel
 
 
-def test_a_flight_is_drawn_as_its_parabola():
+def test_flight_is_drawn_as_parabola():
     """Between two samples a body in the air is where gravity and the ground, as straight as its samples, bring it."""
     found = response("jump")
     time, drawn = interpolate_phases(found)
@@ -120,7 +120,7 @@ def test_a_flight_is_drawn_as_its_parabola():
     assert np.ptp(x - path - np.polyval(np.polyfit(t, x - path, 1), t)) < 1e-6
 
 
-def test_short_rocking_is_drawn_as_its_arc():
+def test_rocking_between_samples_is_drawn_as_arc():
     """Between samples it leans as on a motion of ten times the samples that runs along the same straight lines; chords do not."""
     time = np.arange(61) * 0.01
     push = np.where(time < 0.03, 9.0, -4.0)
@@ -136,7 +136,7 @@ def test_short_rocking_is_drawn_as_its_arc():
         assert np.abs(np.interp(truth.time[inside], found.time, found[name]) - true).max() > 0.03 * high
 
 
-def test_a_closer_look_draws_more():
+def test_narrower_view_is_not_thinned():
     """What is thinned in one view is whole in a narrower one."""
     figure = measure_figure(record(), measure(record()))
     axis = next(axis for axis in figure.axes if axis.get_title(loc="left").startswith("NS   PGV"))
@@ -161,7 +161,7 @@ def test_thinning_keeps_extremes_and_gaps():
     assert np.isnan(y[(x >= 20_000) & (x < 20_400)]).all()
 
 
-def test_a_quiet_stretch_keeps_its_points_beside_a_crowd():
+def test_thinning_keeps_points_of_quiet_part():
     """Where ten thousand hops share a second, the minute before it is drawn as finely as ever; every point of a bin in time counts."""
     quiet, crowd = np.arange(0.0, 60.0, 0.02), np.linspace(60.0, 61.0, 300_000)
     time, values = np.concatenate([quiet, crowd]), np.sin(np.concatenate([quiet, 500.0 * crowd]))
@@ -171,7 +171,7 @@ def test_a_quiet_stretch_keeps_its_points_beside_a_crowd():
     assert np.interp(quiet, x, y) == pytest.approx(np.sin(quiet), abs=1e-3)
 
 
-def test_the_title_says_what_was_done():
+def test_title_lists_processing_steps():
     """What was done to the samples is named, without its particulars; a title that is too long is cut, and ends in the figure."""
     prepared = Preparation(highpass_hz=0.1, scale=1.23456789).apply(record())
     figure = response_figure([solve_slide(SlidingBase(0.15), motion_of(prepared, "37"))])
@@ -182,7 +182,7 @@ def test_the_title_says_what_was_done():
     assert figure.heading.get_window_extent().x1 <= figure.bbox.width
 
 
-def test_a_long_record_opens_on_what_matters():
+def test_long_record_view_contains_all_motion():
     """The view holds all motion; the whole record stands as a strip above it, and not where the view shows all of it."""
     found = response("slide")
     figure = response_figure([found])
@@ -195,14 +195,14 @@ def test_a_long_record_opens_on_what_matters():
     assert len(response_figure([solve_slide(SlidingBase(0.15), short)]).axes) == 3
 
 
-def test_the_strip_of_a_window_is_not_the_whole_record():
+def test_overview_strip_of_cropped_record_is_labelled():
     """What was cut out of a record is said to be that, in the strip above its strong part."""
     for shown, told in ((record(), "NS, full record"), (crop(record(), 40.0, 200.0), "NS, cropped record")):
         strip, *_ = response_figure([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
         assert strip.get_title(loc="left").startswith(told)
 
 
-def test_each_phase_that_can_be_seen_is_shaded():
+def test_visible_phases_are_shaded():
     """F1: what is too short for a band is so in what is shown, not in the whole of a long record."""
     found = response("rock")
     (axis,) = [axis for axis in response_figure([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
@@ -214,7 +214,7 @@ def test_each_phase_that_can_be_seen_is_shaded():
     assert len(shaded) > len([phase for phase in shaded if phase.duration_s > found.time[-1] / 2000]) > 3
 
 
-def test_what_did_not_happen_has_no_panel():
+def test_block_at_rest_has_ground_motion_panel_only():
     """F3: a block at rest has its ground motion and nothing empty beside it."""
     at_rest = solve_rock(Block(0.8, 1.0), motion())
     axes = response_figure([at_rest]).axes
@@ -233,7 +233,7 @@ def test_what_did_not_happen_has_no_panel():
     ],
     ids=["rock", "slide", "respond", "jump"],
 )
-def test_a_faint_record_fills_its_panel(solve, told):
+def test_weak_record_fills_its_panel(solve, told):
     """A record of 3 gal is no line between limits of 300: the panel is as high as what shakes, and its key says where the limits are."""
     faint = motion("NS", 0.007)
     _, axis = response_figure([solve(faint)]).axes
@@ -244,7 +244,7 @@ def test_a_faint_record_fills_its_panel(solve, told):
 
 
 @pytest.mark.parametrize("height", [0.7, 0.74, 0.78, 0.82, 0.9, 2.4])
-def test_the_edge_of_falling_is_named_where_it_is_in_sight(height):
+def test_overturning_limit_is_labelled_only_when_visible(height):
     """F3: the phase plane of a block that leans a little shows no edge, and its legend names none."""
     figure = response_figure([solve_rock(Block(0.3, height), motion())])
     plane = next(axis for axis in figure.axes if axis.get_ylabel() == "θ'/(p α)")

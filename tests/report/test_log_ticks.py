@@ -16,7 +16,7 @@ from seisblock.report.figures.log_ticks import MAX_TICKS, round_ticks
         (41.0, 49.0, ["42", "44", "46", "48"]),
     ],
 )
-def test_round_numbers(low, high, named):
+def test_log_ticks_are_round_numbers(low, high, named):
     """As many digits of each decade as there is room for; within one digit even steps; the axis reaches as far as before."""
     axis = Figure().subplots()
     axis.set_xscale("log")
@@ -26,7 +26,7 @@ def test_round_numbers(low, high, named):
     assert axis.get_xlim() == (low, high)
 
 
-def test_there_are_always_some_and_never_too_many():
+def test_log_ticks_number_two_to_seven():
     """Two to seven, over ranges from a hundredth of a decade to five of them."""
     dice = np.random.default_rng(0)
     for _ in range(40):

@@ -19,7 +19,7 @@ def data_of(page):
     return json.loads(re.search(r'<script type="application/json" id="stations">(.*?)</script>', page, re.S)[1])
 
 
-def test_every_station_is_where_it_is():
+def test_map_page_places_stations_at_true_distances():
     """Kilometres from the middle, as far from the epicentre as on the sphere, north above; a row for each that has an answer."""
     found, subject = stations(StationCemetery(AOYAMA))
     page = map_page(found, subject)
@@ -34,7 +34,7 @@ def test_every_station_is_where_it_is():
     assert "b.csv: cut short" in page and "a.csv" in page
 
 
-def test_the_date_line_is_no_edge():
+def test_map_page_crosses_date_line():
     """Stations on both sides of it lie as far apart on the page as 41 degrees further west."""
     found, subject = stations()
     here, there = (data_of(map_page(each, subject)) for each in (found, across_the_date_line(found)))
@@ -42,7 +42,7 @@ def test_the_date_line_is_no_edge():
         assert other["at"] == pytest.approx(one["at"], abs=0.002)
 
 
-def test_an_epicentre_on_the_other_side_of_the_earth_is_off_the_map():
+def test_distant_epicentre_is_left_off_map_page():
     """The stations fill the page as without one; one near by is on it."""
     found, subject = stations(StationCemetery(AOYAMA))
     far = replace(found, earthquake=replace(found.earthquake, latitude_deg=-30.0, longitude_deg=-70.0))
@@ -51,14 +51,14 @@ def test_an_epicentre_on_the_other_side_of_the_earth_is_off_the_map():
         assert len(page["framed"]) == len(found.mapped) + beside and page["epicentre"]
 
 
-def test_it_opens_without_network():
+def test_map_page_loads_nothing():
     """No address but the name of SVG's vocabulary; nothing is loaded."""
     page = map_page(*stations())
     assert set(re.findall(r"https?://[^\s\"'<)]+", page)) <= {"http://www.w3.org/2000/svg"}
     assert not re.search(r"<(?:link|img|iframe)\b|\bsrc=|@import|fetch\(|XMLHttpRequest", page)
 
 
-def test_names_are_text():
+def test_map_page_escapes_station_names():
     """A station's name from a file is neither a tag nor the end of the data."""
     found, _ = stations()
     evil = replace(found.answers[0], name="</script><script>alert(1)</script>", failure="<b>no</b>")
@@ -67,7 +67,7 @@ def test_names_are_text():
     assert data_of(page)["points"][0]["name"].endswith("</script><script>alert(1)</script>")
 
 
-def test_japanese_and_nowhere():
+def test_map_page_in_japanese_without_places_is_a_table():
     """In Japanese its own words are; without a place there is a table and no map."""
     found, subject = stations(StationCemetery(AOYAMA))
     with use_locale("ja"):

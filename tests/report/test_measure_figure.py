@@ -9,7 +9,7 @@ from seisblock.report.figures.measure import measure_figure
 
 
 @pytest.mark.parametrize("codes", [("NS",), ("NS", "EW", "UD")])
-def test_panels(codes):
+def test_measure_figure_has_panels_per_component_and_spectra(codes):
     """Acceleration and velocity of each component, and two spectra."""
     rng = np.random.default_rng(0)
     record = Record([Component(code, rng.standard_normal(500)) for code in codes], 0.01)
@@ -18,7 +18,7 @@ def test_panels(codes):
     assert [line.get_label() for line in figure.axes[-1].get_lines()] == list(codes)
 
 
-def test_no_peak_is_lost_in_a_long_record():
+def test_measure_figure_draws_single_sample_peak():
     """One sample of 200 000 stands out, and is drawn."""
     a = np.zeros(200_000)
     a[123_457] = -7.0
@@ -30,7 +30,7 @@ def test_no_peak_is_lost_in_a_long_record():
     assert longest < 10_000
 
 
-def test_a_record_at_rest_can_be_drawn():
+def test_measure_figure_draws_zero_record():
     """Zeros have no logarithm; the figure is drawn all the same."""
     record = Record((Component("NS", np.zeros(1000)),), 0.01)
     figure = measure_figure(record, measure(record))
@@ -38,7 +38,7 @@ def test_a_record_at_rest_can_be_drawn():
     assert figure.axes[-1].get_yscale() == "linear"
 
 
-def test_the_smoothing_drawn_is_the_smoothing_used():
+def test_measure_figure_names_smoothing_window():
     """The title of the Fourier panel names the window of the answer."""
     record = Record((Component("NS", np.sin(np.arange(2000) * 0.1)),), 0.01)
     figure = measure_figure(record, measure(record, conventions=Conventions(fourier_smoothing_hz=0.5)))

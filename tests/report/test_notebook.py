@@ -32,7 +32,7 @@ def response(request):
     return SOLVED[request.param]()
 
 
-def test_it_shows_its_outcome_and_its_figure(response):
+def test_repr_html_has_outcome_table_and_figure(response):
     """The table holds every number with its unit in words, and the figure is data."""
     text = response._repr_html_()
     assert "data:image/" in text and "<script" not in text
@@ -44,14 +44,14 @@ def test_it_shows_its_outcome_and_its_figure(response):
     assert not any(row.endswith(("_m", "_s")) for row in rows)
 
 
-def test_plot_is_a_figure_that_a_notebook_can_draw(response):
+def test_plot_returns_figure_with_png_repr(response):
     """A Figure, not pyplot's, that gives its own .png."""
     figure = response.plot()
     assert isinstance(figure, Figure)
     assert figure._repr_png_().startswith(b"\x89PNG")
 
 
-def test_a_data_frame_has_a_column_per_channel(response):
+def test_to_dataframe_has_column_per_channel(response):
     """Time first, then channels with their unit, as many rows as times."""
     pytest.importorskip("pandas")
     frame = response.to_dataframe()
@@ -59,7 +59,7 @@ def test_a_data_frame_has_a_column_per_channel(response):
     assert len(frame.columns) == 1 + len(response.channels)
 
 
-def test_a_model_without_a_figure_says_so():
+def test_plot_of_unsupported_model_lists_supported_models():
     """The message lists those that have one."""
     unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None)
     with pytest.raises(ParameterError, match="rock, slide, jump, uplift, stack"):
@@ -79,7 +79,7 @@ VALUES = {
 
 
 @pytest.mark.parametrize("kind", VALUES)
-def test_what_has_no_body_shows_itself_too(kind):
+def test_records_motions_and_spectra_have_repr_html(kind):
     """A record, a motion and spectra have a title, numbers with units in words, and a figure."""
     value = VALUES[kind](seisblock.motion_of(seisblock.read("synthetic_jma.csv"), "EW"))
     assert type(value).__name__ == kind
@@ -89,7 +89,7 @@ def test_what_has_no_body_shows_itself_too(kind):
     assert value.plot()._repr_png_().startswith(b"\x89PNG")
 
 
-def test_measures_are_a_table():
+def test_measures_repr_html_is_a_table():
     """A column per component, and the intensity; they hold no samples, so there is no figure."""
     record = seisblock.read("synthetic_jma.csv")
     answer = seisblock.measure(record)

@@ -60,20 +60,20 @@ def holds(axis, x, y):
 
 
 @pytest.mark.slow
-def test_criteria_are_bars_as_long_as_their_ratio():
+def test_criteria_bars_equal_demand_ratios():
     """A bar for each criterion of each component, in the order of the card."""
     for axis, card in zip(axes_of("criteria"), cards(), strict=True):
         assert [bar.get_width() for bar in axis.patches] == pytest.approx([row.demand / row.threshold for row in card.rows])
 
 
-def test_a_sliding_spectrum_is_its_points():
+def test_sliding_spectrum_curves_equal_results():
     """Friction and cm; what holds has no point."""
     (axis,) = axes_of("sliding")
     for _, points in slides():
         assert holds(axis, [p.mu for p in points], [100.0 * p.max_slip_m or np.nan for p in points])
 
 
-def test_a_study_is_its_curves():
+def test_slide_study_curves_equal_results():
     """One curve per ratio of frictions, cm."""
     (axis,) = axes_of("study")
     (points,) = study(mu=(0.1, 0.2, 0.3), kappa=(0.5, 1.0))
@@ -82,7 +82,7 @@ def test_a_study_is_its_curves():
         assert holds(axis, [p.mu for p in mine], [100.0 * p.max_slip_m for p in mine])
 
 
-def test_factors_are_their_curve_and_their_solutions():
+def test_scale_factor_figure_shows_curve_and_solutions():
     """Displacement against the factor, and a point at each factor that gives what was observed."""
     for axis, (_, found) in zip(axes_of("factors"), factors(), strict=True):
         scales, values = found.curve
@@ -91,7 +91,7 @@ def test_factors_are_their_curve_and_their_solutions():
         assert not solutions or holds(axis, solutions, [100.0 * found.observed_m] * len(solutions))
 
 
-def test_a_record_is_its_samples():
+def test_record_figure_contains_every_peak():
     """Every peak of each component stands in its panel, gal."""
     for axis, part in zip(axes_of("a record"), record().components, strict=True):
         values = 100.0 * part.acceleration
@@ -99,7 +99,7 @@ def test_a_record_is_its_samples():
         assert (curve[:, 1].min(), curve[:, 1].max()) == pytest.approx((values.min(), values.max()))
 
 
-def test_fragilities_are_their_lognormals():
+def test_fragility_curves_equal_lognormals():
     """Each curve of the answer, at its kine."""
     axis = axes_of("fragility")[0]
     for curve in fragilities().curves:
@@ -107,7 +107,7 @@ def test_fragilities_are_their_lognormals():
         assert len(shown) == 1 and len(shown[0]) > 50
 
 
-def test_risks_are_their_hazard_and_fragilities():
+def test_risk_figure_shows_hazard_and_fragilities():
     """The mean hazard above, each fragility in the middle, at the same kine."""
     above, middle, _ = axes_of("risk")
     found, hazard = risks()
@@ -117,7 +117,7 @@ def test_risks_are_their_hazard_and_fragilities():
 
 
 @pytest.mark.slow
-def test_a_rocking_spectrum_is_its_map():
+def test_rocking_spectrum_cells_equal_results():
     """Dark where blocks fall, and elsewhere as blue as they lean."""
     for axis, (_, found) in zip(axes_of("rocking"), spectra(), strict=False):
         state, lean = (np.ma.filled(mesh.get_array().astype(float), np.nan) for mesh in axis.collections[:2])
@@ -127,7 +127,7 @@ def test_a_rocking_spectrum_is_its_map():
 
 
 @pytest.mark.slow
-def test_a_rose_is_its_directions():
+def test_azimuth_rose_bars_equal_results():
     """A bar towards each azimuth, as long as the body leans there or goes, both sides of what stands."""
     lean, path = axes_of("respond, all azimuths")
     found = every_azimuth("respond")
@@ -137,7 +137,7 @@ def test_a_rose_is_its_directions():
     assert len(lean.patches) == len(path.patches)
 
 
-def test_a_rose_names_the_side_to_which_the_worst_falls():
+def test_azimuth_rose_labels_fall_side():
     """What falls to 330 in the plane of azimuth 150 has its bar there, and its name above; what stands has both sides, and the plane's."""
     t = np.arange(300) * 0.01
     worst = solve_rock(Block(0.3, 0.9), Motion.from_arrays(6.0 * np.sin(4.0 * t), 0.01, name="150"))
@@ -154,7 +154,7 @@ def test_a_rose_names_the_side_to_which_the_worst_falls():
 
 
 @pytest.mark.slow
-def test_harmonic_regions_are_their_curves():
+def test_harmonic_region_curves_equal_results():
     """A over g against the frequency, and a point at each of their troughs."""
     axis = axes_of("harmonic")[0]
     for region in regions(damping=(0.02, 0.05)):
@@ -162,13 +162,13 @@ def test_harmonic_regions_are_their_curves():
 
 
 @pytest.mark.slow
-def test_a_map_of_modes_is_its_cells():
+def test_mode_map_cells_equal_results():
     """Each cell is the worst mode of its friction and its slenderness."""
     for axis, (_, found) in zip(axes_of("modes"), maps(), strict=False):
         assert np.array_equal(np.asarray(axis.collections[0].get_array()), found.governing)
 
 
-def test_an_estimate_is_its_medians_and_its_intervals():
+def test_shaking_estimate_points_equal_results():
     """A point and the two ends of its interval at each frequency asked for, gal; the likelihoods are one at their largest."""
     left, right = axes_of("estimate")
     *_, estimates = estimated()
@@ -183,7 +183,7 @@ def test_an_estimate_is_its_medians_and_its_intervals():
         assert low < curve[curve[:, 1].argmax(), 0] < high
 
 
-def test_a_fit_is_its_draws_and_its_outcomes():
+def test_fit_figure_shows_draws_and_outcomes():
     """Each parameter's median and the share of its draws per bin; each outcome at its shaking, none twice."""
     found = fitted_block()
     *known, calibration, outcomes = EVERY["fit"][1](True).axes
@@ -204,7 +204,7 @@ def test_a_fit_is_its_draws_and_its_outcomes():
         assert holds(calibration, [step.mean_probability], [step.share])
 
 
-def test_a_scan_is_its_plan_and_its_azimuths():
+def test_scan_figure_shows_plan_and_azimuths():
     """The polygons are the base and what carries, seen from above; the roses alpha and p towards each degree, closed."""
     body = scan_body("boulder.ply", inset=0.1).body
     plan, alpha, p = axes_of("a scan")
@@ -225,7 +225,7 @@ def polygon_area(corners):
     return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
-def test_a_plane_is_its_cells():
+def test_slip_plane_cells_equal_results():
     """The slip of each slope and friction, in the unit of the bar, a panel per ratio of frictions."""
     (bar,) = {axis.get_ylabel() for axis in axes_of("plane") if axis.get_label() == "<colorbar>"}
     units = {"max. sliding displacement (cm)": 100.0, "max. sliding displacement (m)": 1.0}[bar]
@@ -242,7 +242,7 @@ def test_a_plane_is_its_cells():
                 )
 
 
-def test_a_criterion_is_its_thresholds_and_its_levels():
+def test_criterion_figure_shows_thresholds_and_levels():
     """Each threshold at its PGA, gal, and the level of each frequency, beside those of the rigid block."""
     left, right = axes_of("criterion")
     found, rigid, scaled = criterion()
@@ -255,7 +255,7 @@ def test_a_criterion_is_its_thresholds_and_its_levels():
         assert holds(right, list(levels), [100.0 * level for level in levels.values()])
 
 
-def test_a_field_test_is_its_rates():
+def test_field_comparison_bars_equal_rates():
     """A bar per survey, and a marker per model and survey, at the rate that the model gives."""
     (axis,) = axes_of("field test")
     assert [bar.get_height() for bar in axis.patches] == list(SURVEYED_RATES)
@@ -264,7 +264,7 @@ def test_a_field_test_is_its_rates():
         assert sum(np.allclose(values, field_rates(model.key)) for values in shown) == 1
 
 
-def test_rates_of_a_cemetery_are_those_of_the_formula():
+def test_cemetery_rates_equal_formula():
     """Curves of fig. 16 and points of fig. 20 against single rates; the share above each H/B of fig. 14 against a count."""
     (distribution,), (curves,), (points,) = (axes_of(f"as fig. {number}") for number in (14, 16, 20))
     (above,) = [curve for curve in drawn(distribution) if len(curve) > 50]
@@ -282,7 +282,7 @@ def test_rates_of_a_cemetery_are_those_of_the_formula():
         assert (pytest.approx(overturning_rate(AOYAMA, survey.pga, survey.frequency).rate), survey.rate) in where
 
 
-def test_the_key_of_rates_names_the_curve_of_each_component():
+def test_rate_legend_matches_component_colours():
     """What is red in the panel is red in the key, in the same line, with the mark of its point."""
     _, axis = axes_of("rate")
     shown = [each for each in rates() if each.component in ("NS", "EW")]
@@ -293,13 +293,13 @@ def test_the_key_of_rates_names_the_curve_of_each_component():
         assert holds(axis, [100.0 * point.pga_m_s2 for point in own], [point.rate for point in own])
 
 
-def test_a_card_says_of_which_block_it_is():
+def test_criteria_title_names_block_and_size():
     """The title of the criteria names the block and its size, as the table does."""
     assert criteria_figure(cards()).heading.get_text().endswith("block 0.3 × 0.9 m")
 
 
 @pytest.mark.parametrize(("gal", "told"), [(True, "displacement > 5 cm"), (False, "displacement > 0.05 m")])
-def test_a_limit_of_slip_is_told_in_the_unit_of_the_figure(gal, told):
+def test_slip_limit_uses_figure_unit(gal, told):
     """F: cm, or with --si m, in the key of the figure and in the table's sentence."""
     found = fragilities()
     found = replace(found, curves=(replace(found.curves[0], limit="slip=0.05m"), *found.curves[1:]))
@@ -308,7 +308,7 @@ def test_a_limit_of_slip_is_told_in_the_unit_of_the_figure(gal, told):
     assert f"stone, {told}" in verdict(found, found.curves[0], gal=gal)
 
 
-def test_a_phase_plane_has_no_corners_but_at_impacts():
+def test_phase_plane_is_smooth_between_impacts():
     """Between two samples the state goes as it turns: what is drawn is that of samples ten times as close, to a 200th of the plane."""
     time = np.arange(301) * 0.01
     coarse = Motion.from_arrays(3.4 * np.sin(2.0 * np.pi * 2.7 * time), 0.01)

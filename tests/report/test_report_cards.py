@@ -24,7 +24,7 @@ def effect(name, fell_at, share):
     return ModelResponse("respond", told, None, None, BestEstimate(told, known, True))
 
 
-def test_the_direction_in_which_most_versions_fall_is_the_worst():
+def test_worst_direction_has_highest_probability():
     """NS falls later than EW, and in half of the versions, not in an eighth: the card opens with NS, and tells of EW, too."""
     north, east = effect("NS", 49.66, 0.46), effect("EW", 47.52, 0.12)
     for both in ([north, east], [east, north]):
@@ -38,7 +38,7 @@ def test_the_direction_in_which_most_versions_fall_is_the_worst():
         assert max(both, key=rank) is north
 
 
-def test_the_share_goes_before_the_verdict_as_given():
+def test_directions_sort_by_probability_before_nominal_outcome():
     """Where more versions fall is worse, whatever the object does as it was given; then how soon it falls. All that fall are told."""
     falls, stands, soon = effect("NS", 49.0, 0.1), effect("EW", None, 0.4), effect("UP", 40.0, 0.1)
     assert sorted([falls, soon, stands], key=rank, reverse=True) == [stands, soon, falls]
@@ -49,7 +49,7 @@ def test_the_share_goes_before_the_verdict_as_given():
 
 
 @pytest.mark.parametrize(("share", "said"), [(0.0, "3 % of those predicted 0/20"), (0.5, ""), (1.0, "2 % of those predicted 20/20")])
-def test_none_and_all_are_told_with_what_they_are_worth(share, said):
+def test_shares_of_zero_and_one_carry_interval(share, said):
     """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
     found = effect("NS", None if share == 0.0 else 40.0, share)
     assert said in "".join(share_caveat(found)) and bool(said) == any("shaking-table runs" in text for text in card_text([found])[1])
@@ -57,7 +57,7 @@ def test_none_and_all_are_told_with_what_they_are_worth(share, said):
     assert "3 % of those predicted 0/20 did overturn" in scatter_text([found])
 
 
-def test_a_body_that_nobody_varied_is_told_without_shares():
+def test_card_without_samples_has_no_shares():
     """Neither a caveat nor what was varied."""
     found = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
     assert not list(share_caveat(found)) and scatter_text([found]) == ""

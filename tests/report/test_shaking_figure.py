@@ -13,7 +13,7 @@ from tests.lengths import all_but_slow
 
 
 @pytest.mark.parametrize("bias", all_but_slow([0.0, 0.33], {0.0}))
-def test_the_likelihood_is_drawn_with_the_bias_that_was_asked_for(bias):
+def test_likelihood_curve_includes_requested_bias(bias):
     """The curve's highest point lies where the estimate does."""
     rules = Assumptions(bias=bias, frequency_error=0.0)
     survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)

@@ -22,7 +22,7 @@ def response():
 
 
 @pytest.mark.parametrize("slope", [-25.0, 0.0, 25.0])
-def test_the_way_along_the_base_is_as_long_as_the_slip(slope):
+def test_slide_path_length_equals_slip(slope):
     """Along a slope the distance from the start is the slip, downhill on both sides."""
     slip = np.linspace(-0.4, 0.9, 27)
     x, z, turn = position_on_base(SlidingBase(0.8, 0.8, slope), slip)
@@ -31,7 +31,7 @@ def test_the_way_along_the_base_is_as_long_as_the_slip(slope):
     np.testing.assert_allclose(turn, math.radians(slope))
 
 
-def test_beyond_the_foot_the_way_is_level():
+def test_slide_path_is_level_beyond_foot():
     """The path is continuous at the foot, and level behind it."""
     base = SlidingBase(0.8, 0.8, 30.0, slope_length=0.5)
     slip = np.array([0.5 - 1e-9, 0.5, 0.5 + 1e-9, 2.0])
@@ -41,7 +41,7 @@ def test_beyond_the_foot_the_way_is_level():
     assert list(turn[2:]) == [0.0, 0.0]
 
 
-def test_the_object_is_where_the_answer_has_it(response):
+def test_object_position_equals_relative_displacement(response):
     """On level ground x is the relative displacement, the base is under it at every picture."""
     film = slide_animation(response, response.time)
     np.testing.assert_array_equal(film.scene.bodies[0].x, response["displacement"])
@@ -51,7 +51,7 @@ def test_the_object_is_where_the_answer_has_it(response):
 
 
 @pytest.mark.slow
-def test_it_is_written(response, tmp_path):
+def test_slide_animation_is_written_as_gif_and_page(response, tmp_path):
     """As a .gif and as a page."""
     animate_slide(response, tmp_path / "slide.gif", AnimationOptions())
     with use_locale("ja"):

@@ -30,7 +30,7 @@ def panel_of(found, quantity):
 
 
 @pytest.mark.parametrize("quantity", ["tilt", "slip"])
-def test_no_two_stones_share_colour_and_dashes(quantity):
+def test_stones_have_distinct_line_styles(quantity):
     """A stone is told from the twelve others, in the figure as in the film."""
     found = tower(MOST)
     lines = [line for line in panel_of(found, quantity).get_lines() if line.get_label().startswith("stone")]
@@ -40,7 +40,7 @@ def test_no_two_stones_share_colour_and_dashes(quantity):
 
 
 @pytest.mark.parametrize(("count", "columns"), [(1, 1), (3, 3), (5, 5), (6, 3), (8, 4), (11, 4), (12, 4)])
-def test_the_key_has_lines_of_even_length(count, columns):
+def test_legend_rows_are_balanced(count, columns):
     """Six names stand three and three, not five and one."""
     (key,) = (each for each in (panel.get_legend() for panel in response_figure([tower(count)]).axes[2:]) if each is not None)
     assert len(key.get_texts()) == count
@@ -48,7 +48,7 @@ def test_the_key_has_lines_of_even_length(count, columns):
 
 
 @pytest.mark.parametrize("language", ["en", "ja"])
-def test_what_fell_is_told_clear_of_curves_and_key(language):
+def test_fall_text_is_clear_of_curves_and_legend(language):
     """The sentence stands above the panel of the tilts, within its width, and the key elsewhere."""
     found = solve_stack(load_pile("lantern"), motion_of(crop(read("synthetic_jma.csv"), 24.0, 28.0), "NS"))
     with use_locale(language):
@@ -70,7 +70,7 @@ def plain(text):
     return "".join(text.split())
 
 
-def test_a_fallen_stone_is_drawn_until_it_falls():
+def test_curves_of_fallen_stone_end_at_fall():
     """Film and figure draw its tilt until its fall, its slip until 0.2 s before, and the figure lays nothing over the dashed lines."""
     found = response("stack")
     (fell,) = (stone for stone in found.outcome.stones if stone.state == "fallen")

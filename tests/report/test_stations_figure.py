@@ -16,7 +16,7 @@ from seisblock.studies.map.surveyed_places import SurveyComparison, SurveyedPlac
 from tests.report.long_record import AOYAMA, stations
 
 
-def test_points_are_the_stations():
+def test_station_points_equal_results():
     """Longitudes, latitudes and rates of all that have a place, the worst drawn last; the epicentre is the star."""
     found, subject = stations(StationCemetery(AOYAMA))
     axis = figure(found, subject).axes[0]
@@ -27,7 +27,7 @@ def test_points_are_the_stations():
     assert star.get_offsets().data.tolist() == [[139.0, 35.0]]
 
 
-def test_the_scale_bar_is_as_long_as_it_says():
+def test_scale_bar_length_equals_its_label():
     """Its ends lie so many kilometres apart on the map, and a degree is as wide as at that latitude."""
     found, _ = stations()
     made = figure(found, None)
@@ -54,7 +54,7 @@ def across_the_date_line(found):
     return Stations((*moved, lost), replace(found.earthquake, longitude_deg=180.0), found.origin_told)
 
 
-def test_a_map_across_the_date_line_is_as_wide_as_elsewhere():
+def test_map_across_date_line_keeps_distances():
     """The same distances as 41 degrees further west, longitudes told from -180 to 180; what is not on the Earth is on no map."""
     found, _ = stations()
     there = across_the_date_line(found)
@@ -68,7 +68,7 @@ def test_a_map_across_the_date_line_is_as_wide_as_elsewhere():
     assert all(abs(float(label.get_text().replace("\N{MINUS SIGN}", "-"))) <= 180.0 for label in axes[1].get_xticklabels())
 
 
-def test_without_a_subject_the_colours_are_the_shaking():
+def test_map_without_body_is_coloured_by_shaking():
     """In gal, or m/s^2, up to the largest."""
     found, _ = stations()
     for gal, unit in ((True, 0.01), (False, 1.0)):
@@ -78,7 +78,7 @@ def test_without_a_subject_the_colours_are_the_shaking():
 
 
 @pytest.mark.parametrize(("west", "south"), [(0.0, 0.02), (0.02, 0.0), (-0.02, -0.01), (0.0, 0.0)])
-def test_the_worst_station_has_its_name_however_near_the_epicentre(west, south):
+def test_worst_station_is_labelled_near_epicentre(west, south):
     """The answer names it first; surveyed places have theirs, and no name stands on another."""
     found, subject = stations(StationCemetery(AOYAMA))
     worst = replace(found.answers[0], latitude=35.0 - south, longitude=139.0 - west)
@@ -92,7 +92,7 @@ def test_the_worst_station_has_its_name_however_near_the_epicentre(west, south):
     assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if overlap_area(tuple(one), tuple(other)) > 0.0]
 
 
-def test_where_it_falls_as_given_the_rim_is_thick():
+def test_nominal_overturning_has_thick_outline():
     """A station at which no version falls, and the body itself does, is told from one at which it stands; the label says how."""
     subject = StationBody(load_block("gravestone"), {"mu": 0.6}, runs=20)
     found, _ = stations()
@@ -106,7 +106,7 @@ def test_where_it_falls_as_given_the_rim_is_thick():
 
 
 @pytest.mark.parametrize(("corner", "expected"), [((0, 0), 0.68), ((1, 0), 0.03)])
-def test_the_scale_hides_no_station(corner, expected):
+def test_scale_bar_covers_no_station(corner, expected):
     """It stands in a corner that is free: a station in the southwest, or in the southeast, stays in sight, with its name."""
     found, subject = stations(StationCemetery(AOYAMA))
     kept = [(139.0, 35.0), (139.36, 35.3)] if corner == (0, 0) else [(139.36, 35.0), (139.0, 35.3)]

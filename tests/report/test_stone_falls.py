@@ -67,12 +67,12 @@ def lantern(*names, each=0.05, azimuth=0.0):
         (lantern("hoju", "kasa", azimuth=None), "All stones above hibukuro fell together at 3.20 s, approximately to -x+y."),
     ],
 )
-def test_falls_are_one_sentence(answer, sentence):
+def test_falls_are_described_in_one_sentence(answer, sentence):
     """Together within half a second and to one side, or one after the other in the order of time."""
     assert describe_falls(answer) == sentence
 
 
-def test_a_pile_of_many_stones_is_one_short_sentence(tmp_path):
+def test_falls_of_many_stones_are_counted(tmp_path):
     """Nobody reads twenty names: they are counted."""
     file = tmp_path / "tower.toml"
     stone = '[[stone]]\nname = "s{}"\nwidth = 0.5\ndepth = 0.5\nheight = 0.1\n'
@@ -84,7 +84,7 @@ def test_a_pile_of_many_stones_is_one_short_sentence(tmp_path):
 @pytest.mark.parametrize(
     ("azimuth", "point"), [(0, "N"), (11, "N"), (12, "NNE"), (34, "NE"), (180, "S"), (214, "SW"), (348, "NNW"), (349, "N")]
 )
-def test_an_azimuth_has_its_point_of_the_compass(azimuth, point):
+def test_azimuth_maps_to_nearest_compass_point(azimuth, point):
     """The nearest of sixteen, whatever +x is; in Japanese, too."""
     assert [direction_with_compass(plus_x - azimuth, motion_towards(plus_x)) for plus_x in (0.0, 117.0)] == [
         f"azimuth {azimuth} ({point})"
@@ -96,7 +96,7 @@ def test_an_azimuth_has_its_point_of_the_compass(azimuth, point):
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("pile", ["wagata", "lantern", "column"])
-def test_the_table_has_the_side_of_each_fall_in_80_columns(pile, lang, monkeypatch):
+def test_fall_table_has_side_within_80_columns(pile, lang, monkeypatch):
     """Of a record of more than 100 s, too; where north is not known the side is one of the axes."""
     monkeypatch.setenv("COLUMNS", "80")
     names = load_pile(pile).names[1:]

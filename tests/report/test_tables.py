@@ -24,7 +24,7 @@ def shown(*parts, width=80):
     return screen.file.getvalue().splitlines()
 
 
-def test_twelve_directions_stand_in_whole_numbers():
+def test_wide_table_wraps_between_columns():
     """A column per direction goes on below; nothing is broken within a number, and the names of the rows are there each time."""
     found = response("rock")
     with use_locale("en"):
@@ -35,13 +35,13 @@ def test_twelve_directions_stand_in_whole_numbers():
     assert list(itertools.chain.from_iterable(peaks)) == ["450.0"] * 12
 
 
-def test_what_fits_is_one_table():
+def test_table_that_fits_is_not_split():
     """Nothing is cut that has room, and a column that has none is shown all the same."""
     made = side_by_side("", ["", *"abc"], [["row", 1.0, 2.0, 3.0]])
     assert [sum("row" in text for text in shown(made, width=width)) for width in (80, 26, 18)] == [1, 2, 3]
 
 
-def test_a_number_stays_with_its_unit():
+def test_numbers_are_not_split_from_units():
     """In both languages, on a terminal and on a page."""
     for text in (
         "a change of the record by less than 2 % changes it",
@@ -53,7 +53,7 @@ def test_a_number_stays_with_its_unit():
     assert "98\N{NO-BREAK SPACE}% (94\N{NO-BREAK SPACE}% to" in render_page("base.html", "98 % (94 % to 99 %)")
 
 
-def test_a_jump_of_a_thousandth_of_a_millimetre_is_not_none():
+def test_tiny_jump_is_not_written_as_zero():
     """What is written as nothing has not moved at all."""
     found = response("jump")
     near = replace(found, outcome=replace(found.outcome, final_displacement_m=-4e-6))
@@ -61,7 +61,7 @@ def test_a_jump_of_a_thousandth_of_a_millimetre_is_not_none():
         assert "less than 0.01 mm to -NS" in jump_verdict(near)
 
 
-def test_many_fragilities_begin_with_a_verdict():
+def test_fragility_table_starts_with_first_and_last_body():
     """The body that falls first, and the one that falls last."""
     study = fragilities(names=NAMES, limits=("overturn",))
     first, *_, last = sorted(study.curves, key=lambda curve: curve.median)
@@ -71,7 +71,7 @@ def test_many_fragilities_begin_with_a_verdict():
     assert lines[1].startswith(f"highest of 9: {last.body}, overturning: median PGV {100 * last.median:.3g} kine")
 
 
-def test_wide_cells_stand_on_the_right_as_numbers_do():
+def test_wide_cells_are_right_aligned():
     """Words in Japanese and lengths with their units end where the numbers of their column end."""
     lines = shown(table("", ["", "NS"], [["結果", "ロッキング"], ["縁", "1.0 cm, 0.2 cm"], ["最大傾斜", "7.347"]]))
     ends = {display_width(each.rstrip()) for each in lines if each.rstrip().endswith(("ロッキング", "0.2 cm", "7.347"))}

@@ -30,7 +30,7 @@ RECORD = scale(crop(read("synthetic_jma.csv"), 22.0, 32.0), 0.42)
 
 
 @pytest.mark.parametrize("body", [Block(0.2, 0.72), Block(0.24, 0.72, centroid_offset=0.02), BOULDER], ids=["block", "two-sided", "scan"])
-def test_rocking_in_every_direction_is_that_of_single_runs(body):
+def test_rock_azimuths_equal_single_runs(body):
     """The same verdict, side, time of lying down and largest lean over alpha as one motion after the other."""
     found = rock_directions(body, RECORD, step_deg=22.5)
     assert {each.overturned for each in found} == {True, False}
@@ -44,7 +44,7 @@ def test_rocking_in_every_direction_is_that_of_single_runs(body):
         assert each.slenderness_rad == pytest.approx(one.slenderness_rad, rel=1e-12)
 
 
-def test_a_free_standing_scan_in_every_direction_is_that_of_single_runs():
+def test_respond_azimuths_of_scan_equal_single_runs():
     """Verdict, largest lean, displacements and end as one motion after the other, each with its own arms."""
     for each in respond_directions(BOULDER, RECORD, mu=0.35, step_deg=45.0):
         motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
@@ -56,7 +56,7 @@ def test_a_free_standing_scan_in_every_direction_is_that_of_single_runs():
         assert each.final_displacement_m == pytest.approx(one.final_displacement_m, rel=1e-6, abs=1e-9)
 
 
-def test_the_worst_direction_comes_first():
+def test_azimuths_sort_worst_first():
     """Falls before leans, sooner falls before later ones, larger leans before smaller ones."""
     found = rock_directions(BOULDER, RECORD, step_deg=15.0)
     fallen = [each.overturning_time_s for each in found if each.overturned]
@@ -65,14 +65,14 @@ def test_the_worst_direction_comes_first():
     assert fallen == sorted(fallen) and leaning == sorted(leaning, reverse=True)
 
 
-def test_directions_run_over_what_differs():
+def test_azimuth_range_follows_body_symmetry():
     """Half the circle for a block of two equal sides and for a scan, which stands where it stands; all of it for a block that is turned."""
     assert make_azimuth_sweep(Block(0.24, 0.72), RECORD, step_deg=10.0).azimuths.tolist() == [10.0 * i for i in range(18)]
     assert len(make_azimuth_sweep(BOULDER, RECORD, step_deg=10.0).blocks) == 18
     assert len(make_azimuth_sweep(Block(0.24, 0.72, centroid_offset=0.01), RECORD, step_deg=10.0).blocks) == 36
 
 
-def test_a_scan_meets_the_opposite_motion_with_the_other_side():
+def test_scan_at_opposite_azimuth_falls_to_same_side():
     """Towards the opposite azimuth, the same fall to the same side of the compass, at the same time."""
     here, there = (motion_of(RECORD, name) for name in ("45", "225"))
     one, other = (solve_rock(BOULDER.block_for_motion(motion), motion).outcome for motion in (here, there))
@@ -81,7 +81,7 @@ def test_a_scan_meets_the_opposite_motion_with_the_other_side():
     assert one.overturning_time_s == pytest.approx(other.overturning_time_s, abs=1e-6)
 
 
-def test_what_has_no_directions_is_refused():
+def test_azimuths_reject_single_horizontal_and_invalid_step():
     """A record of one horizontal, and a step that leads nowhere."""
     with pytest.raises(ComponentError, match="two horizontal components"):
         rock_directions(BOULDER, read("elcentro_1940_ns.csv"))
@@ -90,7 +90,7 @@ def test_what_has_no_directions_is_refused():
             make_azimuth_sweep(BOULDER, RECORD, step_deg=step)
 
 
-def test_a_spectrum_of_all_directions_is_the_worst_of_theirs():
+def test_spectrum_all_azimuths_equals_worst_of_single():
     """Leans are the largest, falls count their directions, and the worst one is that of the first fall, or of the largest lean."""
     sizes, alphas = [0.4, 1.0, 3.0], [0.12, 0.2, 0.3, 0.5]
     found = rocking_spectrum_all_azimuths(sizes, alphas, RECORD, step_deg=45.0)
@@ -112,7 +112,7 @@ def test_a_spectrum_of_all_directions_is_the_worst_of_theirs():
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.09])
-def test_versions_of_a_body_that_stands_keep_something_to_stand_on(offset):
+def test_samples_keep_centre_of_gravity_inside_base(offset):
     """A body whose centre of gravity lies 10 mm inside its base has versions, and other models, though a tenth of its width is more."""
     block, motion = Block(0.2, 0.6, centroid_offset=offset), motion_of(RECORD, "NS")
     assert wear_within(block, 0.1) == pytest.approx(0.04 if offset else 0.1)

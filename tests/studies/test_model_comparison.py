@@ -40,7 +40,7 @@ def opinions(found):
     return {opinion.model: opinion for opinion in found.opinions}
 
 
-def test_the_models_of_one_stone_differ_by_a_factor_near_two():
+def test_models_of_gravestone_differ_by_factor_two():
     """A gravestone under El Centro falls by two of five models, whose factors lie a factor of 1.98 apart."""
     found = compare_models(STONE, MOTION)
     assert (found.falls, found.models, found.unanimous) == (2, 5, False)
@@ -51,14 +51,14 @@ def test_the_models_of_one_stone_differ_by_a_factor_near_two():
     assert found.spread == pytest.approx(1.98, abs=0.01)
 
 
-def test_closed_forms_are_their_threshold_over_the_peak():
+def test_closed_form_factor_is_threshold_over_peak():
     """The factor of eq. (9) is its PGA over the record's, at the record's own PGA/(2 pi PGV)."""
     measured = measure(RECORD, ("NS",)).components[0]
     level = float(overturning_pga(STONE.height / STONE.width, measured.equivalent_frequency_hz.pga_pgv))
     assert opinions(compare_models(STONE, MOTION))[GRAVESTONES].factor == pytest.approx(level / measured.pga_m_s2, rel=1e-9)
 
 
-def test_simulated_factors_are_first_falls():
+def test_simulated_factor_is_first_overturning_factor():
     """At the factor the block falls, a little below it stands, and no factor that was looked at below it lets it fall."""
     found = opinions(compare_models(STONE, MOTION))
     for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.with_wear(DEFAULT_WEAR))):
@@ -69,14 +69,14 @@ def test_simulated_factors_are_first_falls():
     assert found[WORN_BLOCK].factor < found[SHARP_BLOCK].factor
 
 
-def test_an_inset_of_its_own_is_the_worn_one():
+def test_given_inset_is_compared_with_sharp_edges():
     """A block that says how worn it is is compared with its own edges made sharp."""
     found = opinions(compare_models(STONE.with_wear(0.2), MOTION))
     assert found[SHARP_BLOCK] == opinions(compare_models(STONE, MOTION))[SHARP_BLOCK]
     assert found[WORN_BLOCK].factor < opinions(compare_models(STONE, MOTION))[WORN_BLOCK].factor
 
 
-def test_only_gravestones_ask_the_criterion_made_for_them():
+def test_gravestone_criterion_applies_to_gravestones_only():
     """A cabinet and a slab have four models; a stone of the criterion's width and proportions has the one made for it."""
     assert opinions(compare_models(STONE, MOTION))[GRAVESTONES].made_for_it
     for other in (Block(0.8, 1.9), Block(0.25, 0.25), Block(0.25, 2.0)):
@@ -91,20 +91,20 @@ def test_further_models_are_counted():
     assert (more.falls, more.models, more.spread) == (alone.falls + 1, alone.models + 1, alone.spread)
 
 
-def test_a_stone_that_is_held_has_one_fate():
+def test_fixed_top_stone_is_not_compared():
     """Where the top stone of a pile is fixed nobody is asked what it would do."""
     pile = load_pile("wagata")
     held = replace(pile, fixed=(pile.names[-1],))
     assert compare_pile_models(Response("stack", None, MOTION, held)) is None
 
 
-def test_no_shaking_no_disagreement():
+def test_zero_motion_overturns_in_no_model():
     """A motion that is zero throughout lets nothing fall, by nobody's account."""
     found = compare_models(STONE, Motion.from_arrays(np.zeros(100), 0.01))
     assert (found.falls, found.spread, found.unanimous) == (0, None, True)
 
 
-def test_rates_of_one_cemetery():
+def test_cemetery_rates_differ_by_model():
     """By each model another share of Aoyama's stones falls; worn blocks fall more than sharp ones."""
     cemetery = read_cemetery("aoyama.csv")
     motion = motion_of(read("synthetic_jma.csv"), "NS")
@@ -116,7 +116,7 @@ def test_rates_of_one_cemetery():
     assert [each.model for each in rates_by_model(cemetery.with_dowels(), 4.2, 1.2, weak)] == [GRAVESTONES]
 
 
-def test_a_closed_form_says_of_which_frequency_and_edges_it_is():
+def test_closed_form_states_frequency_and_edges():
     """The half sine names the motion's PGA/(2 pi PGV); worn edges and those of the drawing have factors of their own, and say which."""
     frequency = measure(RECORD, ("NS",)).components[0].equivalent_frequency_hz.pga_pgv
     sharp, worn = (opinions(compare_models(stone, MOTION)) for stone in (STONE, STONE.with_wear(0.1)))

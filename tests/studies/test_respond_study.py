@@ -26,7 +26,7 @@ def share(block, motion, **options):
 
 
 @pytest.mark.parametrize(("width", "height", "mu"), [(0.24, 0.8, 0.6), (0.24, 0.8, 0.1), (0.5, 0.5, 0.3)])
-def test_versions_that_do_not_differ_are_the_verdict(width, height, mu):
+def test_respond_probability_without_variation_equals_outcome(width, height, mu):
     """With nothing varied the share is that of the single run, 0 or 1, and every quantile is its displacement."""
     block = Block(width, height)
     outcome = solve_respond(block, PULSE, mu=mu, settle_s=20.0).outcome
@@ -37,7 +37,7 @@ def test_versions_that_do_not_differ_are_the_verdict(width, height, mu):
         assert set(found.final_displacement_m.values()) == {outcome.final_displacement_m}
 
 
-def test_versions_are_uniform_within_their_half_widths(monkeypatch):
+def test_respond_samples_are_uniform_within_half_widths(monkeypatch):
     """Friction, restitution, amplitude and direction fill their ranges evenly and never leave them; normal ones would do neither."""
     asked = []
 
@@ -62,7 +62,7 @@ def test_versions_are_uniform_within_their_half_widths(monkeypatch):
         assert kstest(change, uniform(-1.0, 2.0).cdf).pvalue > 0.01, name
 
 
-def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(monkeypatch):
+def test_respond_probability_is_independent_of_thread_count(monkeypatch):
     """Versions are drawn before they are handed out."""
     answers = []
     for cores in (1, 3):
@@ -72,7 +72,7 @@ def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(monkeypatc
     assert share(Block(0.24, 0.8), PULSE, mu=0.5, seed=8) != answers[0]
 
 
-def test_more_shaking_never_makes_it_surer_to_stand():
+def test_respond_probability_increases_with_shaking():
     """The share of falls goes from none to all as the pulse grows."""
     shares = [
         share(Block(0.24, 0.8), Motion.from_arrays(factor * PULSE.horizontal, PULSE.dt), mu=0.8).overturned for factor in (0.3, 0.8, 2.0)
@@ -80,7 +80,7 @@ def test_more_shaking_never_makes_it_surer_to_stand():
     assert shares[0] == 0.0 and shares[2] == 1.0 and shares == sorted(shares)
 
 
-def test_samples_of_worn_edges_known_exactly_are_the_body():
+def test_respond_samples_with_exact_wear_keep_it():
     """With a tolerance of nothing a worn body stays as worn as it is."""
     block = Block(0.24, 0.8).with_wear(0.2)
     sharp = ParameterVariation(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
@@ -89,19 +89,19 @@ def test_samples_of_worn_edges_known_exactly_are_the_body():
 
 
 @pytest.mark.parametrize("width", [("size", 1.0), ("mu", -0.1), ("inset", 1.0), ("azimuth_deg", 200.0)])
-def test_impossible_widths_are_refused(width):
+def test_respond_probability_rejects_invalid_half_widths(width):
     """Shares lie below 1."""
     with pytest.raises(ParameterError, match="spread"):
         ParameterVariation(**dict([width]))
 
 
-def test_no_runs_are_refused():
+def test_respond_probability_rejects_zero_runs():
     """A share of nothing is none."""
     with pytest.raises(ParameterError, match="number of runs must be an integer of at least 1"):
         share(Block(0.24, 0.8), PULSE, mu=0.5, runs=0)
 
 
-def test_the_interval_is_clopper_and_pearsons():
+def test_probability_interval_is_clopper_pearson():
     """Its ends are the probabilities at which so few, or so many, falls have 2.5 %."""
     from scipy.stats import binom
 
@@ -112,7 +112,7 @@ def test_the_interval_is_clopper_and_pearsons():
     assert binom.cdf(count, 60, found.interval[1]) == pytest.approx(0.025, rel=1e-6)
 
 
-def test_directions_are_those_of_single_runs():
+def test_respond_azimuths_equal_single_runs():
     """Each azimuth is what `--component` of that azimuth gives, and the worst comes first."""
     record = read("synthetic_jma.csv")
     block, options = Block(0.45, 1.8), {"mu": 0.3, "settle_s": 20.0}
@@ -124,7 +124,7 @@ def test_directions_are_those_of_single_runs():
     assert [each.overturned for each in found] == sorted((each.overturned for each in found), reverse=True)
 
 
-def test_every_pair_of_surfaces_has_its_source():
+def test_friction_table_entries_cite_a_source():
     """Each cites a reference with a locator, and kinetic friction is not above static."""
     for name, pair in SURFACES.items():
         key, _, locator = pair.source.strip("[").partition("]_ ")

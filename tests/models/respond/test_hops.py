@@ -17,7 +17,7 @@ from seisblock.report.text.respond import verdict
 from tests.models.respond.cases import SLENDER, followed, leaning, sequence, still
 
 
-def test_rocking_dies_out_in_geometric_hops():
+def test_free_rocking_on_still_ground_decays_geometrically_to_rest():
     """Housner's block on still ground: swings shorten by the restitution down to v_z, then it rests, on time to 1e-9 s."""
     response = solve_respond(SLENDER, still(), mu=2.0, initial=leaning(SLENDER, 0.02))
     outcome = response.outcome
@@ -35,7 +35,7 @@ def test_rocking_dies_out_in_geometric_hops():
     assert len(times) == pytest.approx(expected + 2, abs=2)
 
 
-def test_a_ball_like_bounce_ends_when_the_series_says():
+def test_flat_drop_with_restitution_rests_at_sum_of_geometric_series():
     """Flat drops with restitution e come to rest after t (1 + e)/(1 - e); the smallest hop followed is below 1e-22 m."""
     e, fall = 0.5, 0.1
     setting, run = followed(Block(0.5, 0.5), still(), mu=0.5, restitution=e, initial=(0.0, 0.25 + fall, 0.0, 0.0, 0.0, 0.0))
@@ -49,7 +49,7 @@ def test_a_ball_like_bounce_ends_when_the_series_says():
     assert setting.small_rate < rates[-1]
 
 
-def test_hops_on_one_corner_while_it_leans():
+def test_leaning_block_hops_on_one_corner_then_rocks():
     """A leaning block that hops on its foot stops hopping and rocks on; the hops shrink by e to below 1e-20 m."""
     block = Block(0.5, 1.0)
     _, run = followed(block, still(3.0), mu=2.0, restitution=0.3, initial=_above(block, 0.2, 1e-3))
@@ -70,7 +70,7 @@ NEARLY_LOSSLESS = {"mu": 0.5, "restitution": 0.99999}
 """Hops that shrink by 1e-5 take more impacts than are followed."""
 
 
-def test_hops_without_end_are_given_up():
+def test_restitution_near_one_ends_with_unresolved_status():
     """A restitution near 1: a status and a sentence, within seconds; what is said first is that there is no answer."""
     response = solve_respond(SLENDER, still(1.0), **NEARLY_LOSSLESS, initial=leaning(SLENDER, 1e-8), settle_s=10.0, sensitivity=False)
     assert response.status is Status.TOO_MANY_EVENTS
@@ -80,7 +80,7 @@ def test_hops_without_end_are_given_up():
     assert "no result: run stopped at" in verdict(response, gal=True)
 
 
-def test_runs_that_were_given_up_are_no_answers():
+def test_respond_many_excludes_unresolved_runs():
     """Among many, a run that was given up is none that stands: a study asks for answers alone."""
     settings = [respond_params(SLENDER, **NEARLY_LOSSLESS), respond_params(SLENDER, mu=0.5)]
     fates = respond_many(settings, still(1.0), initial=leaning(SLENDER, 1e-8), settle_s=10.0)
@@ -89,7 +89,7 @@ def test_runs_that_were_given_up_are_no_answers():
         fates.require_complete()
 
 
-def test_strong_shaking_brings_an_object_to_rest_many_times():
+def test_strong_noise_with_many_impacts_is_solved_to_the_end():
     """Half a minute of strong noise along two axes makes hundred thousands of impacts; the object is followed to its end, alone or not."""
     noise = np.random.default_rng(0).standard_normal((2, 1501))
     motion = Motion.from_arrays(3.0 * noise[0], 0.02, vertical=4.0 * noise[1])
@@ -101,7 +101,7 @@ def test_strong_shaking_brings_an_object_to_rest_many_times():
     assert (fates.impacts[0], fates.end_s[0]) == (outcome.impacts, outcome.end_s)
 
 
-def test_time_runs_out():
+def test_slide_longer_than_settle_s_ends_with_time_limit_status():
     """A slide that lasts longer than `settle_s` ends with a status and a sentence; a longer time ends it."""
     start = (0.0, 0.25, 0.0, 1.0, 0.0, 0.0)
     short = solve_respond(Block(0.5, 0.5), still(), mu=0.01, initial=start, settle_s=2.0)
@@ -115,7 +115,7 @@ def test_time_runs_out():
     assert not rests.warnings
 
 
-def test_a_block_on_its_balance_stays_until_time_is_up():
+def test_block_at_unstable_balance_runs_to_time_limit():
     """Unstable balance is no rest."""
     block = Block(0.3, 0.4)
     outcome = solve_respond(block, still(0.1), mu=1.0, initial=leaning(block, block.slenderness), settle_s=0.5).outcome

@@ -25,7 +25,7 @@ def impact_of(response):
 
 @pytest.mark.parametrize("block", [SLENDER, UNEQUAL, Block(0.5, 0.9)])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_the_factor_of_a_rocking_impact(block, side):
+def test_plastic_impact_without_slip_has_housner_ratio(block, side):
     """Plastic and without slip: (k2 + h^2 - b1 b2)/(k2 + h^2 + b_B^2) of the corner B that is struck (Housner)."""
     response = solve_respond(block, still(), mu=5.0, initial=leaning(block, 0.05 * side))
     before, after = impact_of(response)
@@ -33,7 +33,7 @@ def test_the_factor_of_a_rocking_impact(block, side):
     assert after / before == pytest.approx(onto, rel=1e-12)
 
 
-def test_the_friction_that_a_rocking_impact_needs():
+def test_struck_corner_slips_below_required_friction():
     """Below b_B h/(k2 + h^2) the struck corner slips, above it sticks."""
     block = Block(0.5, 0.9)
     b, h, k2 = 0.25, 0.45, block.gyration_squared
@@ -45,7 +45,7 @@ def test_the_friction_that_a_rocking_impact_needs():
         assert ("left +" in sequence(outcome)[1]) == slides or ("left -" in sequence(outcome)[1]) == slides
 
 
-def test_a_broad_block_does_not_rock_on():
+def test_plastic_impact_of_broad_block_ends_in_rest():
     """Where b1 b2 > k2 + h^2 both corners stay: a plastic impact ends the motion at once."""
     block = Block(1.2, 0.5)
     outcome = solve_respond(block, still(), mu=3.0, initial=leaning(block, 0.05)).outcome
@@ -53,14 +53,14 @@ def test_a_broad_block_does_not_rock_on():
     assert outcome.impacts == 1
 
 
-def test_restitution_makes_it_jump():
+def test_impact_with_restitution_ends_in_flight():
     """With e > 0 the struck corner rebounds and the other lifts: flight after the first impact."""
     outcome = solve_respond(SLENDER, still(), mu=1.0, restitution=0.3, initial=leaning(SLENDER, 0.05)).outcome
     assert sequence(outcome)[:2] == ["rock right", "flight"]
     assert outcome.settled
 
 
-def test_a_flat_landing_rebounds_as_one():
+def test_flat_landing_with_horizontal_velocity_rebounds_without_spin():
     """Dropped flat with a horizontal velocity: heights e^2, horizontal impulse mu (1 + e) w against the slip."""
     start = (0.0, 0.35, 0.0, 3.0, 0.0, 0.0)
     response = solve_respond(Block(0.8, 0.5), still(), mu=0.2, restitution=0.5, initial=start)
@@ -70,7 +70,7 @@ def test_a_flat_landing_rebounds_as_one():
     assert landing.after[3] == pytest.approx(3.0 - 0.2 * 1.5 * w, rel=1e-12)
 
 
-def test_a_landing_on_a_high_stone_trips():
+def test_sliding_landing_of_slender_block_tips_forward():
     """The resultant of friction would leave the base: it lands on the leading corner and turns forward."""
     block = Block(0.3, 1.5)
     response = solve_respond(block, still(), mu=0.8, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
@@ -79,7 +79,7 @@ def test_a_landing_on_a_high_stone_trips():
     assert before == 0.0 and after > 0.0
 
 
-def test_a_sideways_landing_that_does_not_trip_stops_flat():
+def test_sliding_landing_with_low_friction_stays_flat():
     """The same with little friction stays flat and slides."""
     response = solve_respond(Block(0.3, 1.5), still(), mu=0.1, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
     assert sequence(response.outcome) == ["flight", "slide +", "rest"]
@@ -95,7 +95,7 @@ def test_a_sideways_landing_that_does_not_trip_stops_flat():
     e=st.floats(0.0, 0.99),
 )
 @settings(max_examples=300, deadline=None)
-def test_rouths_path_is_physical(u, v, rx, ry, k2, mu, e):
+def test_routh_impulse_lies_in_friction_cone_and_dissipates(u, v, rx, ry, k2, mu, e):
     """The impulse presses, lies in the cone, ends with a separating velocity, and takes energy away."""
     nn, tt, tn = 1.0 + rx * rx / k2, 1.0 + ry * ry / k2, -rx * ry / k2
     normal, tangential, u_after, v_after = routh(u, v, nn, tt, tn, mu, e, False)
@@ -121,7 +121,7 @@ def test_rouths_path_is_physical(u, v, rx, ry, k2, mu, e):
     mu=st.floats(0.0, 1.5),
 )
 @settings(max_examples=300, deadline=None)
-def test_both_corners_never_gain_energy_nor_sink(omega, rise, speed, width, height, offset, mu):
+def test_two_corner_impact_dissipates_without_penetration(omega, rise, speed, width, height, offset, mu):
     """Moreau's plastic impact: nothing moves down afterwards and no energy is made, whichever corners stay."""
     block = Block(width, height, centroid_offset=offset * width)
     right, left = block.arms
@@ -145,7 +145,7 @@ def test_both_corners_never_gain_energy_nor_sink(omega, rise, speed, width, heig
     assert before - (rise_after**2 + speed_after**2 + k2 * turned**2) == pytest.approx(2.0 * loss, abs=1e-9)
 
 
-def test_the_users_ratio():
+def test_given_restitution_scales_angular_velocity():
     """The rate of the lean is multiplied by r while friction lasts, as in a rocking model with a given restitution."""
     response = solve_respond(SLENDER, still(), mu=5.0, rocking_restitution=0.8, initial=leaning(SLENDER, 0.05))
     before, after = impact_of(response)
@@ -153,7 +153,7 @@ def test_the_users_ratio():
     assert response.outcome.ratios_lowered == 0
 
 
-def test_a_ratio_that_would_make_energy_is_lowered():
+def test_given_restitution_is_lowered_when_it_would_create_energy():
     """An unequal body that falls from its far corner to its near one: r = 1 gains height rate, so it is lowered, and said."""
     response = solve_respond(UNEQUAL, still(), mu=5.0, rocking_restitution=1.0, initial=leaning(UNEQUAL, 0.05))
     assert response.outcome.ratios_lowered > 0
@@ -161,7 +161,7 @@ def test_a_ratio_that_would_make_energy_is_lowered():
     assert response.outcome.energy_impacts_j >= -1e-9
 
 
-def test_a_ratio_of_zero_stops_it_flat():
+def test_zero_restitution_stops_block_at_first_impact():
     """With r = 0 the first impact is the last."""
     outcome = solve_respond(SLENDER, still(), mu=5.0, rocking_restitution=0.0, initial=leaning(SLENDER, 0.05)).outcome
     assert sequence(outcome) == ["rock right", "rest"]
@@ -169,7 +169,7 @@ def test_a_ratio_of_zero_stops_it_flat():
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
 @pytest.mark.parametrize(("width", "height", "mu"), [(1.0, 3.0, 2.0), (1.0, 6.0, 5.0), (1.6, 6.8, 2.0)])
-def test_a_ratio_of_zero_that_leaves_a_slip_dies_away(width, height, mu, restitution):
+def test_zero_restitution_above_painleve_limit_decays_to_rest(width, height, mu, restitution):
     """Above Painleve's limit what slips on after r = 0 jams and is thrown up, ever less: below the smallest rate it rests."""
     block = Block(width, height, mass=1.0)
     response = solve_respond(block, still(), mu=mu, restitution=restitution, rocking_restitution=0.0, initial=leaning(block, 0.03))
@@ -182,7 +182,7 @@ def test_a_ratio_of_zero_that_leaves_a_slip_dies_away(width, height, mu, restitu
     assert total == pytest.approx(lifted, rel=1e-9)
 
 
-def test_painleves_limit_of_a_rectangle():
+def test_painleve_limit_of_rectangle_is_four_thirds():
     """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3, whatever the slenderness; it is said above it and not below."""
     for block in (SLENDER, Block(1.0, 0.4)):
         assert respond_params(block, mu=0.5).rigid_body.friction_limit == pytest.approx(4.0 / 3.0, rel=1e-14)
@@ -190,7 +190,7 @@ def test_painleves_limit_of_a_rectangle():
         assert not solve_respond(block, still(0.1), mu=1.3).warnings
 
 
-def test_painleves_limit_is_sharp():
+def test_contact_denominator_changes_sign_at_painleve_limit():
     """Just below 4/3 the denominator P stays positive at every lean; just above there is a lean at which it does not."""
     lean = np.linspace(0.0, 1.5, 200001)
     block = Block(0.3, 1.2)
@@ -201,7 +201,7 @@ def test_painleves_limit_is_sharp():
         assert (least > 0.0) == positive
 
 
-def test_a_flat_slip_that_presses_on_jams():
+def test_flat_slip_above_painleve_limit_jams_with_energy_loss():
     """With mu b h > k2 + b^2 and a sliding start: no sliding force is consistent; the slip ends at once, with a loss, and is counted."""
     block = Block(0.5, 1.0)
     assert block.gyration_squared + 0.25**2 < 3.0 * 0.25 * 0.5
@@ -214,21 +214,21 @@ def test_a_flat_slip_that_presses_on_jams():
     assert sequence(mirrored.outcome)[0] == "rock left"
 
 
-def test_a_jam_with_restitution_throws_it_up():
+def test_jam_with_restitution_ends_in_flight():
     """The same with e > 0 ends in flight."""
     outcome = solve_respond(Block(0.5, 1.0), still(), mu=3.0, restitution=0.4, initial=(0.0, 0.5, 0.0, 0.5, 0.0, 0.0)).outcome
     assert outcome.jams >= 1
     assert sequence(outcome)[0] == "flight"
 
 
-def test_a_squat_unequal_block_settles():
+def test_squat_asymmetric_block_with_restitution_comes_to_rest():
     """Rattling on two unequal corners with restitution ends in rest."""
     outcome = solve_respond(SQUAT, still(), mu=0.4, restitution=0.5, initial=(0.0, 0.5, 0.3, 0.5, 0.0, -2.0)).outcome
     assert outcome.settled
     assert outcome.impacts > 10
 
 
-def test_clattering_without_end_is_one_impact_of_both_corners():
+def test_infinite_corner_clattering_is_resolved_as_two_corner_impact():
     """Ground that falls away (G < 0) under a compact body: each plastic landing throws the other corner down, ever sooner."""
     block = Block(1.0, 0.6, mass=1.0, centroid_inertia=0.05)
     away = Motion.from_arrays(np.zeros(31), 0.01, vertical=np.full(31, -1.5 * G))

@@ -51,7 +51,7 @@ def expected(block, push, weight, mu, kinetic):
     mu=st.floats(0.0, 1.2),
     kappa=st.floats(0.5, 1.0),
 )
-def test_the_first_mode_is_shentons(width, height, offset, push, weight, mu, kappa):
+def test_first_mode_from_rest_follows_shenton_criteria(width, height, offset, push, weight, mu, kappa):
     """Rest, slide, rock and slide-rock from rest, at unequal corners, with kinetic friction and vertical motion."""
     block = Block(width, height, centroid_offset=offset * width)
     mode, margin = expected(block, push, weight, mu, kappa * mu)
@@ -59,7 +59,7 @@ def test_the_first_mode_is_shentons(width, height, offset, push, weight, mu, kap
         assert start(block, push, weight=weight, mu=mu, mu_kinetic=kappa * mu) == mode
 
 
-def test_the_critical_acceleration_of_rocking_without_slip():
+def test_rocking_without_slip_holds_up_to_critical_acceleration():
     """Friction mu > b/h holds up to A* = (mu (k2 + h^2) - h b)/(k2 + b^2 - mu b h); beyond it the body slides while it rocks."""
     block = Block(0.4, 1.0)
     b, h, k2 = 0.2, 0.5, block.gyration_squared
@@ -72,7 +72,7 @@ def test_the_critical_acceleration_of_rocking_without_slip():
     assert start(block, -50.0 * G, mu=1.4) == "rock right"
 
 
-def test_thresholds_on_a_ramp():
+def test_acceleration_ramp_starts_motion_at_exact_threshold_time():
     """A ramp of the ground acceleration starts sliding at mu g, rocking at g b/h, at the exact time."""
     ramp = Motion.from_arrays(np.linspace(0.0, 8.0, 81), 0.01)
     slide = solve_respond(Block(0.6, 1.0), ramp, mu=0.3).outcome
@@ -83,7 +83,7 @@ def test_thresholds_on_a_ramp():
     assert rock.events[1]["time_s"] == pytest.approx(0.3 * G / 10.0, abs=1e-13)
 
 
-def test_ground_that_falls_faster_than_gravity_is_left():
+def test_flight_starts_when_ground_falls_faster_than_gravity():
     """G < 0: from rest and from a slide the block flies, at the time at which G is zero."""
     down = Motion.from_arrays(np.zeros(41), 0.1, vertical=np.linspace(0.0, -2.0 * G, 41))
     outcome = solve_respond(Block(0.4, 1.0), down, mu=0.3).outcome
@@ -95,13 +95,13 @@ def test_ground_that_falls_faster_than_gravity_is_left():
     assert start(Block(0.4, 1.0), 0.0, weight=-1.0, mu=0.3) == "flight"
 
 
-def test_a_first_sample_above_a_threshold_acts_at_once():
+def test_first_sample_above_threshold_starts_motion_at_once():
     """The record begins in the middle of the shaking: the first mode is not rest."""
     assert start(Block(0.6, 1.0), 5.0, mu=0.3) == "slide -"
     assert start(Block(0.3, 1.0), -5.0, mu=0.9) == "rock right"
 
 
-def test_without_friction_it_moves_as_soon_as_the_ground_does():
+def test_frictionless_block_keeps_its_position_in_space():
     """Without friction: at rest while the ground is, and then the centre stays where it was in space."""
     t = np.arange(201) * 0.01
     a = np.where(t < 0.5, 0.0, np.sin(4.0 * np.pi * (t - 0.5)))
@@ -113,7 +113,7 @@ def test_without_friction_it_moves_as_soon_as_the_ground_does():
     np.testing.assert_allclose(response["displacement"][at], -moved, rtol=0.0, atol=1e-13)
 
 
-def test_friction_as_steep_as_the_block_slides():
+def test_friction_equal_to_slenderness_leaves_rest_on_time():
     """With mu = b/h exactly both thresholds are met together: the rest ends on time, in one mode or the other."""
     ramp = Motion.from_arrays(np.linspace(0.0, 8.0, 81), 0.01)
     outcome = solve_respond(Block(0.3, 1.0), ramp, mu=0.3).outcome

@@ -23,7 +23,7 @@ def versions(n=40):
     return [(block, {"mu": mu, "restitution": e}) for block, mu, e in numbers]
 
 
-def test_rows_are_single_runs():
+def test_respond_many_rows_equal_single_runs():
     """Verdict, displacements, leans, paths, impacts and times are equal to the last bit."""
     rows = versions()
     many = respond_many([respond_params(block, **options) for block, options in rows], MOTION)
@@ -42,7 +42,7 @@ def test_rows_are_single_runs():
 
 
 @pytest.mark.parametrize("up", [0.0, 14.0], ids=["level", "beyond 1 g upwards"])
-def test_rows_at_the_extremes_are_single_runs(up):
+def test_respond_many_rows_equal_single_runs_at_extreme_parameters(up):
     """Ice and glue, slivers and slabs, no rebound and almost all of it; records that end while they hop, and vertical motion beyond 1 g."""
     whole = Motion(MOTION.acceleration * np.array([[1.0], [1.0], [up / np.abs(MOTION.vertical).max()]]), MOTION.dt)
     motion = Motion(whole.acceleration[:, : whole.samples // 2], whole.dt)
@@ -58,7 +58,7 @@ def test_rows_at_the_extremes_are_single_runs(up):
 
 
 @pytest.mark.parametrize("initial", [None, (0.0, 1.2, 0.0, 0.0, 0.0, 0.1)], ids=["upright", "thrown"])
-def test_settings_of_arrays_are_the_settings_one_by_one(initial):
+def test_parameters_from_arrays_equal_scalar_parameters(initial):
     """Parameters and fates, jamming frictions and tenons among them, to the last bit."""
     rng, n = np.random.default_rng(8), 60
     blocks = [Block(0.35 * a, 0.9 * b, centroid_offset=0.05 * c) for a, b, c in rng.uniform(0.7, 1.3, (n, 3))]
@@ -76,7 +76,7 @@ def test_settings_of_arrays_are_the_settings_one_by_one(initial):
         np.testing.assert_array_equal(getattr(many, name), getattr(alone, name))
 
 
-def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
+def test_invalid_row_raises_message_of_single_run():
     """The first row that is wrong says why."""
     two = to_block_array([Block(0.3, 0.9), Block(0.3, 1.2)])
     for mu, kinetic, e, why in (
@@ -88,7 +88,7 @@ def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
             RespondBatchParams(two, np.array([0.5, mu]), np.array([0.5, kinetic]), np.array([0.0, e]), np.ones(2), False, 9.81, 0.0)
 
 
-def test_threads_do_not_matter():
+def test_respond_many_is_independent_of_thread_count():
     """One, two or seven threads give the same arrays."""
     settings = [respond_params(block, **options) for block, options in versions(15)]
     one, *others = (respond_many(settings, MOTION, workers=workers) for workers in (1, 2, 7))
@@ -97,7 +97,7 @@ def test_threads_do_not_matter():
             np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
 
 
-def test_gains_turn_and_scale_the_motion():
+def test_gains_rotate_and_scale_the_motion():
     """Factors on the rows along and across turn the motion by an angle, without a copy of it."""
     rng = np.random.default_rng(1)
     rows = np.array([MOTION.horizontal, np.roll(MOTION.horizontal, 40), MOTION.vertical])
@@ -113,7 +113,7 @@ def test_gains_turn_and_scale_the_motion():
         assert many.final_displacement_m[row] == pytest.approx(one.final_displacement_m, abs=1e-6)
 
 
-def test_nothing_is_no_ensemble():
+def test_respond_many_rejects_empty_input():
     """No row at all is refused."""
     with pytest.raises(ParameterError, match="one row"):
         respond_many([], MOTION)

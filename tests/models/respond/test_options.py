@@ -39,14 +39,14 @@ BLOCK = Block(0.4, 1.0)
         ({"mu": 0.3, "further_points": [(0.1, math.nan)]}, "two lengths"),
     ],
 )
-def test_bad_numbers_are_refused_in_a_sentence(options, said):
+def test_solve_respond_rejects_invalid_numbers(options, said):
     """Each names the quantity, what is expected, and what was found."""
     with pytest.raises(ParameterError, match=said) as error:
         solve_respond(BLOCK, still(), **options)
     assert "\n" not in str(error.value)
 
 
-def test_a_centre_beside_the_base_is_refused():
+def test_solve_respond_rejects_centre_outside_base():
     """The body refuses it, and so does the solver for what has other effective corners."""
     with pytest.raises(BodyError, match="above the base"):
         Block(0.4, 1.0, centroid_offset=0.3)
@@ -62,7 +62,7 @@ def test_a_centre_beside_the_base_is_refused():
         solve_respond(Worn(0.4, 1.0), still(), mu=0.5)
 
 
-def test_what_is_no_body_or_no_motion_is_refused():
+def test_solve_respond_rejects_wrong_types():
     """With the sentence that helps."""
     with pytest.raises(KindError, match="found str"):
         solve_respond("a stone", still(), mu=0.5)
@@ -70,7 +70,7 @@ def test_what_is_no_body_or_no_motion_is_refused():
         solve_respond(still(), BLOCK, mu=0.5)
 
 
-def test_vertical_motion_asked_of_a_record_without_one():
+def test_vertical_true_requires_a_vertical_component():
     """Asked for it is refused; left open it is left out."""
     samples = np.zeros(50)
     record = Record(components=(Component("NS", samples, 0.0),), dt=0.01)
@@ -80,7 +80,7 @@ def test_vertical_motion_asked_of_a_record_without_one():
     assert solve_respond(BLOCK, motion, mu=0.5).outcome.outcome == "rests"
 
 
-def test_the_vertical_motion_can_be_left_out():
+def test_vertical_false_omits_vertical_motion():
     """The same motion with and without it."""
     motion = shaking(2, 6.0)
     flat = Motion.from_arrays(motion.horizontal, motion.dt)
@@ -89,7 +89,7 @@ def test_the_vertical_motion_can_be_left_out():
     assert without.final_displacement_m != solve_respond(BLOCK, motion, mu=0.3).outcome.final_displacement_m
 
 
-def test_a_two_layer_block_is_its_rigid_composite():
+def test_two_layer_block_equals_rigid_composite():
     """Mass, centre and inertia of [Sugimoto2017]'s block, as a Block of the same."""
     two = TwoLayerBlock(0.6, 0.5, 0.8, 0.4, 300.0, 50.0)
     same = Block(0.6, 1.2, mass=350.0, centroid_height=two.centroid_height, centroid_inertia=two.centroid_inertia)
@@ -97,7 +97,7 @@ def test_a_two_layer_block_is_its_rigid_composite():
     assert solve_respond(two, motion, mu=0.5).outcome == solve_respond(same, motion, mu=0.5).outcome
 
 
-def test_overturning_is_a_quarter_turn_or_a_further_point():
+def test_overturning_ends_at_quarter_turn_or_protruding_point():
     """The block falls from beyond its balance; a point of it that sticks out meets the ground earlier."""
     start = leaning(SLENDER, 0.3)
     response = solve_respond(SLENDER, still(), mu=2.0, initial=start)
@@ -115,7 +115,7 @@ def test_overturning_is_a_quarter_turn_or_a_further_point():
     assert mirrored.overturned_towards == "-x"
 
 
-def test_passing_the_balance_is_no_end():
+def test_push_back_beyond_alpha_prevents_overturning():
     """A push back brings a block that leans beyond alpha back."""
     block = SLENDER
     lean = block.slenderness + 0.02
@@ -125,7 +125,7 @@ def test_passing_the_balance_is_no_end():
     assert outcome.impacts > 0
 
 
-def test_the_ground_stops_with_the_record():
+def test_ground_acceleration_is_zero_after_last_sample():
     """Constant acceleration up to the last sample, then none: a jump of the input that ends the rocking's push at once."""
     push = np.full(21, 3.0)
     response = solve_respond(Block(0.6, 0.4), Motion.from_arrays(push, 0.01), mu=0.2)
@@ -137,7 +137,7 @@ def test_the_ground_stops_with_the_record():
     assert solve_respond(Block(0.6, 0.4), Motion.from_arrays(push, 0.01), mu=0.2, settle_s=0.0).outcome.end_s == pytest.approx(0.2)
 
 
-def test_displacement_counts_from_the_origin():
+def test_initial_displacement_is_included_in_results():
     """A body put down elsewhere says where it is, in the outcome as in the channel."""
     here = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3).outcome
     there = solve_respond(BLOCK, shaking(1, 6.0), mu=0.3, initial=(5.0, 0.5, 0.0, 0.0, 0.0, 0.0)).outcome
@@ -145,7 +145,7 @@ def test_displacement_counts_from_the_origin():
     assert there.max_displacement_m >= 5.0
 
 
-def test_a_tenon_lets_a_slippery_body_rock():
+def test_tenon_prevents_slip_and_allows_rocking():
     """Bare it slides and never rocks; held by tenons it rocks, without a slip."""
     motion = shaking(7, 9.0, vertical=0.2)
     bare = solve_respond(BLOCK, motion, mu=0.18).outcome
@@ -156,7 +156,7 @@ def test_a_tenon_lets_a_slippery_body_rock():
     assert held.time_in_mode_s["slide"] == held.time_in_mode_s["slide_rock"] == held.slip_path_m == 0.0
 
 
-def test_a_tenon_lets_go_once_the_lower_foot_has_risen_by_its_depth():
+def test_tenon_disengages_when_lower_corner_rises_by_its_depth():
     """A throw of 5 cm: tenons of 3 cm are left on the way up, at the exact time, and the body slides after it lands; of 6 cm hold."""
     up = math.sqrt(2.0 * G * 0.05)
     start = (0.0, 0.5, 0.0, 1.0, up, 0.0)
@@ -169,7 +169,7 @@ def test_a_tenon_lets_go_once_the_lower_foot_has_risen_by_its_depth():
     assert sequence(kept)[1].startswith("rock")
 
 
-def test_a_tilted_throw_leaves_the_tenon_with_its_lower_foot():
+def test_tenon_of_tilted_block_disengages_at_lower_corner():
     """The lower corner decides, whichever it is when it has risen."""
     start = (0.0, 0.57, 0.3, 0.0, 1.5, -2.0)
     outcome = solve_respond(BLOCK, still(), mu=0.3, tenon=0.05, initial=start).outcome
@@ -180,7 +180,7 @@ def test_a_tilted_throw_leaves_the_tenon_with_its_lower_foot():
     assert low == pytest.approx(0.05, abs=1e-10)
 
 
-def test_a_verdict_near_its_edge_is_sensitive():
+def test_outcome_near_overturning_factor_is_flagged_sensitive():
     """Between a factor that overturns and one that does not, 1e-6 apart or less, the verdict says so; far from it not."""
     motion = shaking(11, 8.0, vertical=0.0)
 
@@ -199,7 +199,7 @@ def test_a_verdict_near_its_edge_is_sensitive():
     assert solve_respond(SLENDER, edge, mu=0.9, sensitivity=False).outcome.sensitive is None
 
 
-def test_times_count_from_the_record_as_read():
+def test_times_of_cropped_record_keep_record_clock():
     """A window of a record keeps its clock."""
     motion = shaking(1, 6.0)
     late = Motion(motion.acceleration, motion.dt, start_s=20.0)

@@ -27,7 +27,7 @@ RATIO = st.sampled_from([None, None, 0.6, 0.95])
 
 @settings(max_examples=60, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, kappa=st.floats(0.6, 1.0), ratio=RATIO, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0))
-def test_energy_is_accounted_for(block, friction, kappa, ratio, seed, peak):
+def test_energy_balance_holds_at_every_sample_and_event(block, friction, kappa, ratio, seed, peak):
     """Work of the ground less friction less impacts is the change of kinetic and potential energy, to 1e-9, at every sample and event."""
     setting, run = followed(
         block, shaking(seed, peak, seconds=6.0), mu_kinetic=kappa * friction["mu"], rocking_restitution=ratio, **friction
@@ -45,7 +45,7 @@ def test_energy_is_accounted_for(block, friction, kappa, ratio, seed, peak):
 
 @settings(max_examples=30, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0))
-def test_nothing_goes_below_the_ground(block, friction, seed, peak):
+def test_contact_constraints_hold_at_every_sample(block, friction, seed, peak):
     """The lowest corner is never under the ground, and friction never more than static friction allows: it does not slip at rest."""
     response = solve_respond(block, shaking(seed, peak, seconds=6.0), sensitivity=False, **friction)
     right, left = block.arms
@@ -66,7 +66,7 @@ def until_hops_die(response):
 
 @settings(max_examples=40, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, ratio=RATIO, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0))
-def test_the_mirror_image(block, friction, ratio, seed, peak):
+def test_mirrored_block_and_motion_give_mirrored_events(block, friction, ratio, seed, peak):
     """Ground and block mirrored: the same events with left and right, plus and minus exchanged, at the same times but for round-off."""
     motion = shaking(seed, peak, seconds=6.0)
     mirrored = Motion.from_arrays(-motion.horizontal, motion.dt, vertical=motion.vertical)
@@ -88,7 +88,7 @@ def test_the_mirror_image(block, friction, ratio, seed, peak):
 
 @settings(max_examples=25, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, seed=st.integers(0, 10**6), peak=st.floats(2.0, 12.0))
-def test_similarity(block, friction, seed, peak):
+def test_scaled_lengths_and_times_give_similar_response(block, friction, seed, peak):
     """Four times the lengths and twice the times, the same accelerations: the same leans, four times the displacements."""
     motion = shaking(seed, peak, seconds=3.0)
     slow = Motion(motion.acceleration, 2.0 * motion.dt)
@@ -105,7 +105,7 @@ def test_similarity(block, friction, seed, peak):
 
 @settings(max_examples=40, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0), dt=st.sampled_from([0.005, 0.01, 0.02]))
-def test_it_answers(block, friction, seed, peak, dt):
+def test_every_motion_ends_in_a_final_state_or_status(block, friction, seed, peak, dt):
     """Every motion ends: at rest, fallen, or with a status and a sentence."""
     try:
         response = solve_respond(block, shaking(seed, peak, seconds=8.0, dt=dt), sensitivity=False, **friction)
@@ -117,7 +117,7 @@ def test_it_answers(block, friction, seed, peak, dt):
     assert outcome.max_displacement_m >= abs(outcome.final_displacement_m) * (1.0 - 1e-12)
 
 
-def test_a_finer_sampling_of_the_same_motion_changes_nothing():
+def test_resampling_piecewise_linear_motion_changes_nothing():
     """Samples put on the straight lines between samples leave the answer: the steps are exact."""
     motion = shaking(5, 6.0, seconds=6.0)
     fine_time = np.arange(10 * (motion.samples - 1) + 1) / 10

@@ -14,7 +14,7 @@ from tests.models.respond.cases import SLENDER, sequence, shaking, still
 
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("kappa", [1.0, 0.7])
-def test_a_broad_block_slides_as_a_mass_does(seed, kappa):
+def test_broad_block_slides_like_solve_slide(seed, kappa):
     """With mu below b/h nothing rocks: displacement, path and times of `slide`, with vertical motion, to round-off."""
     motion = shaking(seed, 5.0)
     mine = solve_respond(Block(1.0, 0.8), motion, mu=0.2, mu_kinetic=0.2 * kappa)
@@ -32,7 +32,7 @@ def test_a_broad_block_slides_as_a_mass_does(seed, kappa):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_a_rough_block_rocks_as_housner_says(seed):
+def test_rough_block_rocks_like_solve_rock(seed):
     """With friction enough and plastic impacts the lean is that of `rock`, whose restitution is the angular momentum's."""
     motion = shaking(seed, 4.0, vertical=0.3)
     mine = solve_respond(SLENDER, motion, mu=50.0)
@@ -46,13 +46,13 @@ def test_a_rough_block_rocks_as_housner_says(seed):
         assert mine.outcome.max_rotation_rad == pytest.approx(rock.outcome.max_rotation_rad, rel=1e-9)
 
 
-def test_both_kinds_of_rocking_are_tried():
+def test_random_motions_include_rocking_without_overturning():
     """Of the motions above some rock through many impacts without falling."""
     outcomes = [solve_respond(SLENDER, shaking(seed, 4.0, vertical=0.3), mu=50.0).outcome for seed in range(4)]
     assert sum(outcome.impacts > 20 and not outcome.overturned for outcome in outcomes) >= 2
 
 
-def test_an_unequal_block_rocks_as_housner_says():
+def test_asymmetric_block_rocks_like_solve_rock():
     """Two different corners: both factors of the angular momentum."""
     block = Block(0.4, 1.0, centroid_offset=0.05, centroid_height=0.6, centroid_inertia=40.0, mass=300.0)
     motion = shaking(3, 5.0, vertical=0.0)
@@ -63,7 +63,7 @@ def test_an_unequal_block_rocks_as_housner_says():
     np.testing.assert_allclose(mine["rotation"][np.searchsorted(mine.time, motion.time)], theirs, rtol=0.0, atol=1e-10)
 
 
-def test_a_thrown_block_is_a_projectile():
+def test_flight_over_still_ground_is_a_parabola():
     """In flight over still ground the centre follows a parabola and the spin is constant."""
     block = Block(0.4, 0.9)
     start = (0.1, 3.0, 0.2, 1.5, 2.0, -0.4)
@@ -75,7 +75,7 @@ def test_a_thrown_block_is_a_projectile():
     np.testing.assert_allclose(response["rotation"][at], 0.2 - 0.4 * t, rtol=0.0, atol=1e-14)
 
 
-def test_a_flying_block_moves_against_the_ground():
+def test_flight_over_moving_ground_subtracts_ground_displacement():
     """Relative to ground that shakes both ways it moves by minus the ground's displacement, to the next landing."""
     t = np.arange(101) * 0.01
     motion = Motion.from_arrays(3.0 + 2.0 * t, 0.01, vertical=1.0 - 4.0 * t)
@@ -86,7 +86,7 @@ def test_a_flying_block_moves_against_the_ground():
     assert sequence(response.outcome)[0] == "flight"
 
 
-def test_a_drop_lands_on_time():
+def test_flat_drop_lands_at_free_fall_time():
     """A flat fall from 10 cm takes sqrt(2 s/g), and ends there without restitution."""
     block = Block(0.5, 0.5)
     outcome = solve_respond(block, still(1.0), mu=0.5, initial=(0.0, 0.35, 0.0, 0.0, 0.0, 0.0)).outcome

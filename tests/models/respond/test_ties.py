@@ -27,7 +27,7 @@ def shifted(value: float, digits: int) -> float:
     return value
 
 
-def test_a_peak_equal_to_the_rocking_threshold_leaves_the_block_at_rest():
+def test_peak_equal_to_rocking_threshold_leaves_block_at_rest():
     """The run was given up: the guard fired below its own round-off, and the only consistent mode was excluded."""
     response = solve_respond(TIED, Motion.from_arrays(PEAK, 0.005), mu=MU)
     assert response.outcome.outcome == "rests"
@@ -46,7 +46,7 @@ def test_a_peak_equal_to_the_rocking_threshold_leaves_the_block_at_rest():
     plateau=st.booleans(),
     vertical=st.booleans(),
 )
-def test_no_run_is_given_up_where_a_peak_equals_a_threshold(
+def test_peaks_at_or_near_thresholds_are_solved_to_the_end(
     width, slenderness, friction, kinetic, threshold, seed, digits, plateau, vertical
 ):
     """Peaks and plateaus at g B/H or mu g, and up to two digits beside them, with mu at and beside B/H, are followed to their end."""
@@ -69,7 +69,7 @@ def test_no_run_is_given_up_where_a_peak_equals_a_threshold(
 
 
 @pytest.mark.parametrize("digits", range(-3, 4))
-def test_energy_is_kept_where_the_limits_of_friction_and_tilt_coincide(digits):
+def test_energy_balance_holds_with_friction_equal_to_slenderness(digits):
     """With mu = B/H to the last digit what the ground puts in is what friction takes; it was up to five times as much."""
     block = Block(0.5, 1.25)
     rng = np.random.default_rng(4)

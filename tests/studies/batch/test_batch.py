@@ -17,7 +17,7 @@ def table(path):
         return list(csv.DictReader(stream))
 
 
-def same(cell, value):
+def equals_document(cell, value):
     """Whether a cell of the table says what a document says, to the last digit."""
     if value is None or value == "":
         return cell == ""
@@ -36,7 +36,7 @@ SQUAT = {"width": "80cm", "height": "1.2m", "mu": "0.25", "inset": "--inset 5%"}
 
 
 @pytest.mark.parametrize("solver", SINGLE)
-def test_the_table_is_what_the_single_commands_say(folder, solver):
+def test_batch_rows_equal_single_commands(folder, solver):
     """Every scalar of every row, bit by bit."""
     assert run(f"batch records --bodies bodies.csv --solver {solver} --out t.csv").exit_code == 0
     rows = {(row["record"], row["component"], row["body"]): row for row in table("t.csv")}
@@ -47,13 +47,13 @@ def test_the_table_is_what_the_single_commands_say(folder, solver):
             for result in found:
                 row = rows[record, result["component"], name]
                 scalars = {k: v for k, v in result.items() if not isinstance(v, (list, dict)) and k in row}
-                wrong = {k: (row[k], v) for k, v in scalars.items() if not same(row[k], v)}
+                wrong = {k: (row[k], v) for k, v in scalars.items() if not equals_document(row[k], v)}
                 assert len(scalars) > 10
                 assert not wrong
 
 
 @pytest.mark.parametrize("solver", SINGLE)
-def test_every_direction_answers_for_the_worst(folder, solver):
+def test_batch_all_azimuths_gives_worst_per_row(folder, solver):
     """A row for each record and body: the worst azimuth and its scalars as the single command has them, and in how many it falls."""
     line = f"batch records/r1.csv records/r3.csv --bodies bodies.csv --solver {solver} --component all-azimuths --out t.csv"
     assert run(line).exit_code == 0
@@ -63,14 +63,14 @@ def test_every_direction_answers_for_the_worst(folder, solver):
     found = document(f"{solver} records/r3.csv {single} --component all-azimuths")
     (result,) = found["results"]
     row = rows["r3.csv", "slender"]
-    wrong = {k: (row[k], v) for k, v in result.items() if not isinstance(v, (list, dict)) and k in row and not same(row[k], v)}
+    wrong = {k: (row[k], v) for k, v in result.items() if not isinstance(v, (list, dict)) and k in row and not equals_document(row[k], v)}
     assert not wrong
     assert row["component"] == result["component"] and row["directions"] == "36"
     if solver != "slide":
         assert int(row["directions_overturned"]) == sum(each["overturned"] for each in result["directions"])
 
 
-def test_every_direction_goes_alone(folder):
+def test_batch_all_azimuths_rejects_conflicting_options(folder):
     """Beside a component, with a solver that looks in none, or with an option of one direction: one sentence each."""
     block = seisblock.Block(0.2, 1.0)
     for components, solver, options, why in (
@@ -85,7 +85,7 @@ def test_every_direction_goes_alone(folder):
     assert failure["component"] == "all-azimuths" and "two horizontal" in failure["failure"]
 
 
-def test_models_with_bodies_of_their_own(folder):
+def test_batch_of_jump_uplift_and_stack_equals_commands(folder):
     """Jump, uplift and stack, against their commands."""
     write_record(folder / "strong.csv", 9, samples=800, peak=6.0)
     for solver, body, single in (
@@ -100,7 +100,7 @@ def test_models_with_bodies_of_their_own(folder):
         for row in rows:
             result = next(each for each in results if each["component"] == row["component"])
             scalars = {k: v for k, v in result.items() if not isinstance(v, (list, dict)) and k in row}
-            assert {k for k, v in scalars.items() if not same(row[k], v)} == set()
+            assert {k for k, v in scalars.items() if not equals_document(row[k], v)} == set()
     stones = seisblock.run_batch("strong.csv", "lantern", "stack", components="NS", points=2, step=3e-4)
     alone = seisblock.solve_stack(
         seisblock.load_pile("lantern"), seisblock.motion_of(seisblock.read("strong.csv"), "NS"), points=2, step=3e-4
@@ -109,7 +109,7 @@ def test_models_with_bodies_of_their_own(folder):
     assert stones["ground_work_j"] == [alone.outcome.ground_work_j]
 
 
-def test_chances_are_those_of_the_single_study(folder):
+def test_batch_probability_equals_single_study(folder):
     """Perturbed runs under the same seed."""
     found = seisblock.run_batch("records/r2.csv", {"a": seisblock.Block(0.2, 1.0)}, "respond", mu=0.6, runs=30, seed=4)
     motion = seisblock.motion_of(seisblock.read("records/r2.csv"), "EW")
@@ -122,7 +122,7 @@ def test_chances_are_those_of_the_single_study(folder):
     assert rocking["probability_overturned"] == [expected.probability]
 
 
-def test_what_fails_is_a_row_with_its_reason(folder):
+def test_batch_failure_is_a_row_with_reason(folder):
     """A file that is none, a component that is not there, a body that cannot be, each by itself; the rest is answered."""
     (folder / "records" / "broken.csv").write_text("time,NS (gal)\n0.00,1\n0.01,what\n")
     bodies = {"good": seisblock.Block(0.2, 1.0), "slope": seisblock.Block(0.3, 0.9)}
@@ -136,7 +136,7 @@ def test_what_fails_is_a_row_with_its_reason(folder):
     assert all(row["rocks"] is not None for row in found.rows if not row.get("failure"))
 
 
-def test_a_body_that_the_solver_cannot_take_fails_in_its_rows_alone(folder):
+def test_batch_unsuitable_body_fails_its_rows_only(folder):
     """Friction is missing for one of three."""
     (folder / "b.csv").write_text("name,width,height,mu\na,0.2,1,0.5\nb,0.2,1,\n")
     found = seisblock.run_batch("records/r0.csv", "b.csv", "respond", components="NS")
@@ -146,7 +146,7 @@ def test_a_body_that_the_solver_cannot_take_fails_in_its_rows_alone(folder):
         seisblock.run_batch("records/r0.csv", [body for body in seisblock.read_bodies("b.csv") if body.name == "b"], "respond")
 
 
-def test_preparation_and_azimuths(folder):
+def test_batch_processes_records_and_rotates_components(folder):
     """What is done to a record, and a direction that is no component."""
     preparation = seisblock.Preparation(scale=1.5, window=(2.0, 9.0))
     found = seisblock.run_batch("records/r1.csv", [seisblock.Block(0.2, 1.0)], "rock", components="37", preparation=preparation)
@@ -154,7 +154,7 @@ def test_preparation_and_azimuths(folder):
     assert found["max_rotation_rad"] == [seisblock.solve_rock(seisblock.Block(0.2, 1.0), motion).outcome.max_rotation_rad]
 
 
-def test_a_frame(folder):
+def test_batch_result_converts_to_dataframe(folder):
     """The table in pandas: missing cells are missing, types are kept."""
     frame = seisblock.run_batch(["records/r0.csv", "gone.csv"], [0.02, 0.5], "slide").to_pandas()
     assert len(frame) == 5
@@ -165,7 +165,7 @@ def test_a_frame(folder):
     assert math.isnan(frame["max_slip_m"].iloc[-1])
 
 
-def test_given_wrongly(folder):
+def test_batch_rejects_invalid_arguments(folder):
     """One sentence each."""
     block = seisblock.Block(0.2, 1.0)
     with pytest.raises(ParameterError, match="unknown batch solver 'fly'"):

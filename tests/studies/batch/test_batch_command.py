@@ -20,7 +20,7 @@ from tests.studies.batch.conftest import document, run, write_record
 LINE = "batch records --bodies bodies.csv --solver rock --out t.csv"
 
 
-def test_outputs_are_never_harmed(folder):
+def test_batch_refuses_to_overwrite_files(folder):
     """A table that is there, an input, a directory, a suffix that means nothing."""
     (folder / "t.csv").write_text("mine")
     answer = run(LINE)
@@ -54,7 +54,7 @@ def test_outputs_are_never_harmed(folder):
         ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical; remove it"),
     ],
 )
-def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
+def test_batch_reports_bad_input_in_one_sentence(folder, change, said, monkeypatch):
     """And leaves nothing behind."""
     monkeypatch.setattr(cluster, "CONNECT_TIMEOUT_S", 0.5)
     (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
@@ -66,7 +66,7 @@ def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
     assert not Path("t.csv").exists() and not Path("t.csv.journal").exists()
 
 
-def test_all_that_fails_is_a_failure(folder):
+def test_batch_without_any_answer_writes_no_table(folder):
     """No table is written, the reason is said, and the line that is put right runs; a table that was there stays."""
     for suffix in ("csv", "parquet"):
         line = f"--bodies bodies.csv --solver rock --out t.{suffix}"
@@ -81,13 +81,13 @@ def test_all_that_fails_is_a_failure(folder):
         assert Path(f"t.{suffix}").read_bytes() == whole and len(list(folder.glob(f"t.{suffix}*"))) == 1
 
 
-def test_every_reason_is_said_where_there_is_no_table(folder):
+def test_batch_without_table_prints_every_reason(folder):
     """Otherwise the file would hold those that are not printed."""
     answer = run(f"batch {' '.join(f'gone{i}.csv' for i in range(8))} --bodies bodies.csv --solver rock --out t.csv")
     assert all(f"gone{i}.csv" in answer.stdout for i in range(8)) and "in the file" not in answer.stdout
 
 
-def test_what_it_comes_to(folder):
+def test_batch_prints_counts_per_body(folder):
     """Counts by body, beside the table."""
     found = document("batch records gone.csv --bodies bodies.csv --solver slide --out t.csv")
     assert (found["records_count"], found["unread_count"]) == (5, 1)
@@ -96,7 +96,7 @@ def test_what_it_comes_to(folder):
     assert first.startswith("slid in ") and "24 runs" in first
 
 
-def test_parquet_is_the_same_table(folder):
+def test_batch_parquet_equals_csv(folder):
     """Cell by cell, with the types kept."""
     pandas = pytest.importorskip("pandas")
     assert run(LINE).exit_code == 0 and run(LINE.replace("t.csv", "t.parquet")).exit_code == 0
@@ -107,7 +107,7 @@ def test_parquet_is_the_same_table(folder):
     assert run(LINE.replace("t.csv", "t.parquet") + " --resume").exit_code == 0
 
 
-def test_a_table_that_is_whole_is_of_the_same_options(folder):
+def test_batch_resume_rejects_other_options(folder):
     """Going on with it under another factor, body, component or number of bodies is refused; it said that nothing was left to do."""
     assert run(LINE).exit_code == 0
     whole = Path("t.csv").read_bytes()
@@ -121,7 +121,7 @@ def test_a_table_that_is_whole_is_of_the_same_options(folder):
         assert Path("t.csv").read_bytes() == whole
 
 
-def test_the_table_of_one_station_is_whole_without_the_others(folder):
+def test_batch_of_one_station_is_complete(folder):
     """Stations of a bundle that were not asked for have no rows, and none is missed."""
     with zipfile.ZipFile(folder / "event.zip", "w") as archive:
         for station in ("AAA001", "BBB002"):
@@ -135,7 +135,7 @@ def test_the_table_of_one_station_is_whole_without_the_others(folder):
     assert run(line + " --resume").exit_code == 3
 
 
-def test_two_runs_never_write_one_table(folder):
+def test_batch_locks_its_table(folder):
     """The second is refused while the first lives, whatever it says; it wrote into the journal of the first, which then lost its rows."""
     journal = folder / "t.csv.journal"
     with lock_checkpoint(journal):
@@ -181,14 +181,14 @@ def _journal_of(folder):
     return kept["journal"], whole
 
 
-def _flipped(lines, dice):
+def _flip_byte(lines, dice):
     """Change a byte of a line that holds a record."""
     place = int(dice.integers(len(lines[2]) - 1))
     lines[2] = lines[2][:place] + bytes([lines[2][place] ^ 1 << int(dice.integers(8))]) + lines[2][place + 1 :]
 
 
 DAMAGES = {
-    "a flipped bit": _flipped,
+    "a flipped bit": _flip_byte,
     "random bytes": lambda lines, dice: lines.insert(2, dice.bytes(300) + b"\n"),
     "a cut end": lambda lines, dice: lines.append(lines.pop()[: int(dice.integers(1, 200))]),
     "a line twice": lambda lines, dice: lines.insert(1, lines[2]),
@@ -199,10 +199,10 @@ DAMAGES = {
 }
 
 
-def test_a_damaged_journal_spoils_no_table(folder):
+def test_batch_resume_ignores_damaged_checkpoint_lines(folder):
     """Whatever became of its lines, the table is the same bit by bit; a changed digit is never believed."""
     journal, whole = _journal_of(folder)
-    for seed, (what, damage) in enumerate([*DAMAGES.items(), *[("a flipped bit", _flipped)] * 8]):
+    for seed, (what, damage) in enumerate([*DAMAGES.items(), *[("a flipped bit", _flip_byte)] * 8]):
         lines = journal.splitlines(keepends=True)
         damage(lines, np.random.default_rng(seed))
         Path("t.csv.journal").write_bytes(b"".join(lines))
@@ -214,7 +214,7 @@ def test_a_damaged_journal_spoils_no_table(folder):
 
 
 @pytest.mark.parametrize("first", [b"", b"\xff\x00\n", b"[1]\n", b"{}\n"])
-def test_a_journal_that_does_not_say_of_what_it_is_is_refused(folder, first):
+def test_batch_resume_rejects_unidentified_checkpoint(folder, first):
     """And left alone: --force begins anew."""
     Path("t.csv.journal").write_bytes(first)
     answer = run(LINE + " --resume")
@@ -223,7 +223,7 @@ def test_a_journal_that_does_not_say_of_what_it_is_is_refused(folder, first):
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
-def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
+def test_batch_resume_after_kill_neither_loses_nor_repeats_records(folder, how):
     """Killed in the middle, and gone on with; also from a line that was cut."""
     for seed in range(4, 24):
         write_record(folder / "records" / f"r{seed:02d}.csv", seed, samples=2000, peak=6.0)
@@ -248,7 +248,7 @@ def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
 
 
 @pytest.mark.slow
-def test_memory_does_not_grow_with_the_records(folder):
+def test_batch_memory_is_independent_of_record_count(folder):
     """Forty records hold no more than ten, but for what a row takes: each is read when it is its turn."""
 
     def peak(count):
@@ -269,7 +269,7 @@ def test_memory_does_not_grow_with_the_records(folder):
 
 
 @pytest.mark.parametrize("name", ["t.csv", "t.csv.journal"])
-def test_a_pipe_is_no_table_to_go_on_with(folder, name):
+def test_batch_resume_rejects_pipe(folder, name):
     """Nobody would write into it."""
     os.mkfifo(folder / name)
     answer = run(LINE + " --resume")

@@ -30,7 +30,7 @@ def records(tmp_path):
     return [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=3000, peak=5.0)) for seed in range(12)]
 
 
-def test_what_is_no_scheduler_is_said_in_a_sentence():
+def test_batch_rejects_address_without_scheduler():
     """A web server at that address answers something else: its first letters, as a length, were 3 EiB and a traceback."""
 
     def answer():
@@ -51,7 +51,7 @@ def test_what_is_no_scheduler_is_said_in_a_sentence():
 BODIES = {f"b{n}": seisblock.Block(0.15 + 0.01 * n, 0.9) for n in range(6)}
 
 
-def test_the_same_table(client, records):
+def test_batch_on_dask_equals_threads(client, records):
     """Bit by bit as on threads, a record that cannot be read included."""
     names = [*records, "gone.csv"]
     alone = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2)
@@ -60,7 +60,7 @@ def test_the_same_table(client, records):
     assert list(together.cells()) == list(alone.cells())
 
 
-def test_an_answer_travels_in_one_piece(client, monkeypatch):
+def test_dask_result_is_one_frame(client, monkeypatch):
     """Two hundred rows of a record were two hundred frames to Dask, and before each record the scheduler was asked who works for it."""
     futures, asked = [], []
     submit, nthreads = client.submit, client.nthreads
@@ -74,14 +74,14 @@ def test_an_answer_travels_in_one_piece(client, monkeypatch):
 
 
 @pytest.mark.slow
-def test_records_that_were_read_already(client, records):
+def test_batch_on_dask_accepts_records_in_memory(client, records):
     """They travel as they are."""
     read = [seisblock.read(name) for name in records[:3]]
     assert list(seisblock.run_batch(read, BODIES, "rock", client=client).cells()) == list(seisblock.run_batch(read, BODIES, "rock").cells())
 
 
 @pytest.mark.slow
-def test_a_worker_that_dies_is_survived(client, records):
+def test_batch_survives_death_of_worker(client, records):
     """One of two processes is killed when the first answer is there, while others are under way in it."""
     victim = next(iter(client.run(os.getpid).values()))
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())
@@ -96,7 +96,7 @@ def test_a_worker_that_dies_is_survived(client, records):
 
 
 @pytest.mark.slow
-def test_a_record_of_which_every_worker_dies_is_a_row(client):
+def test_record_that_kills_workers_becomes_failed_row(client):
     """It does not end the batch, and those that waited in the worker that it took along have their answers."""
     lost = []
 
@@ -122,7 +122,7 @@ def test_a_record_of_which_every_worker_dies_is_a_row(client):
     assert len(lost) == 2
 
 
-def test_a_scheduler_that_goes_away_is_no_fault_of_a_record(records):
+def test_lost_scheduler_is_not_recorded_as_record_failure(records):
     """One sentence, and the records under way have no rows: they stood in the table as records of which every worker had died."""
     found, read = [], [seisblock.read(name) for name in records]
     plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, read_options=run.ReadOptions())

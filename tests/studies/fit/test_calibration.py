@@ -15,7 +15,7 @@ BOUNDS = {"alpha": (0.1, 0.5)}
 PULSES = 10
 
 
-def held(number):
+def truth_in_interval(number):
     """Return whether the intervals of alpha, scatter and lapses, and the half of alpha's, hold the truth of one experiment."""
     dice = np.random.default_rng([5, number])
     family = BlockFamily(make_priors(["alpha"], BOUNDS, scatter=None, block=TRUTH), TRUTH, None, 0.0, 0.0, False, 9.80665)
@@ -31,16 +31,16 @@ def held(number):
     return [*inside, middle[0] <= truth["alpha"] <= middle[1]]
 
 
-def test_a_few_experiments_are_held():
+def test_fit_intervals_contain_truth_in_six_experiments():
     """Six experiments, three parameters each: not more misses than one in a hundred such tests has."""
-    found = np.array([held(number) for number in range(6)])
+    found = np.array([truth_in_interval(number) for number in range(6)])
     assert found[:, :3].sum() >= 13
     assert 1 <= found[:, 3].sum() <= 5
 
 
 @pytest.mark.slow
-def test_intervals_hold_the_truth_as_often_as_they_say():
+def test_fit_intervals_have_nominal_coverage():
     """A hundred experiments: 90 % intervals hold 90 %, within what a hundred leave open (three standard deviations), halves a half."""
-    shares = np.mean([held(number) for number in range(100)], axis=0)
+    shares = np.mean([truth_in_interval(number) for number in range(100)], axis=0)
     assert (np.abs(shares[:3] - 0.9) < 0.09).all(), shares
     assert abs(shares[3] - 0.5) < 0.15, shares

@@ -23,7 +23,7 @@ def family(*free, bounds=None, block=None, scatter=0.0, **how):
     return BlockFamily(axes, block, how.get("restitution"), how.get("inset", 0.0), scatter, False, 9.80665)
 
 
-def test_the_truth_lies_in_its_interval(slender):
+def test_fit_interval_contains_true_slenderness(slender):
     """Alpha to a few per cent from forty outcomes, most of which are foretold without their record."""
     found = slender["alpha"]
     assert found.interval[0] < TRUTH.slenderness < found.interval[1]
@@ -35,7 +35,7 @@ def test_the_truth_lies_in_its_interval(slender):
 
 
 @pytest.mark.slow
-def test_four_parameters_at_once():
+def test_fit_of_four_parameters_contains_truth():
     """Slenderness, size, restitution and scatter, from sixty outcomes: each in its interval of 98 %."""
     found = fit_block(shaken(60, 11), runs=8, level=0.98)
     truth = {"alpha": 0.25, "p": 4.0, "restitution": TRUTH.restitution, "scatter": 0.05}
@@ -45,7 +45,7 @@ def test_four_parameters_at_once():
     assert {name: draws.shape for name, draws in found.draws.items()} == dict.fromkeys(truth, (2000,))
 
 
-def test_worn_edges_are_found():
+def test_fit_recovers_edge_wear():
     """A drawing that is too wide by a third: the inset that makes it as slender as what fell (scans gave 1.4 to 2.5 times the angle)."""
     drawing = Block(TRUTH.width / (1 - 2 * 0.15), TRUTH.height)
     seen = shaken(40, 5)
@@ -59,7 +59,7 @@ def test_worn_edges_are_found():
 
 
 @pytest.mark.slow
-def test_the_same_seed_gives_the_same_fit(experiment, slender):
+def test_fit_is_reproducible_by_seed(experiment, slender):
     """Bit by bit, on any number of threads; another seed gives another sample of the same answer."""
     again, other = (fit_block(experiment, free=["alpha"], **KNOWN, seed=seed) for seed in (0, 1))
     assert again.marginals == slender.marginals and (again.probability == slender.probability).all()
@@ -68,7 +68,7 @@ def test_the_same_seed_gives_the_same_fit(experiment, slender):
 
 
 @pytest.mark.slow
-def test_a_weight_is_so_many_outcomes(experiment):
+def test_fit_weight_equals_repeated_outcomes(experiment):
     """Each twice over, or with a weight of two, is the same evidence; with a weight of zero it is none."""
     twice = fit_block([*experiment, *experiment], free=["alpha"], **KNOWN, folds=4)
     double = fit_block([replace(each, weight=2.0) for each in experiment], free=["alpha"], **KNOWN, folds=4)
@@ -79,7 +79,7 @@ def test_a_weight_is_so_many_outcomes(experiment):
     assert fit_block(lone, free=["alpha"], **KNOWN)["alpha"].median == pytest.approx(half["alpha"].median, rel=0.02)
 
 
-def test_all_fell_or_none():
+def test_fit_with_all_or_no_falls_warns_of_prior():
     """One side is bounded, and what was thought before decides the other: it is said."""
     for happened, strength, said in ((False, 1.0, "no fall among"), (True, 40.0, "only falls among")):
         seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
@@ -88,7 +88,7 @@ def test_all_fell_or_none():
         assert found.held_out.folds == 3
 
 
-def test_one_record_alone():
+def test_fit_of_one_record_has_no_cross_validation():
     """Nothing can be held out."""
     motion = pulse(1.0, 0.8)
     seen = [Observation(motion, scale > 4.0, scale=scale, record="one") for scale in (2.0, 3.0, 5.0, 6.0)]
@@ -98,7 +98,7 @@ def test_one_record_alone():
     assert found.probability[0] < 0.5 < found.probability[-1]
 
 
-def test_what_moved_tells_how_slender_it_is():
+def test_fit_to_movement_determines_slenderness_only():
     """A block rocks above g tan(alpha), whatever its size: alpha is found, p stays as it was thought before, and that is said."""
     peaks = np.linspace(1.0, 5.0, 30)
     seen = [Observation(pulse(peak, 1.0), peak > 9.80665 * np.tan(0.25)) for peak in peaks]
@@ -110,7 +110,7 @@ def test_what_moved_tells_how_slender_it_is():
 
 
 @pytest.mark.slow
-def test_what_cannot_be_told_apart_is_said():
+def test_fit_warns_of_correlated_parameters():
     """A wider base and more worn edges are the same block."""
     found = fit_block(shaken(30, 2), free=["alpha", "inset"], **KNOWN)
     pair = next(each for each in found.correlations if {each.first, each.second} == {"alpha", "inset"})
@@ -119,7 +119,7 @@ def test_what_cannot_be_told_apart_is_said():
 
 
 @pytest.mark.slow
-def test_outcomes_by_chance_are_recognised():
+def test_fit_of_random_outcomes_raises_lapse_rate():
     """Coins: no block explains them, the lapses grow, and nothing is foretold better than by the share."""
     dice = np.random.default_rng(0)
     seen = [replace(each, happened=bool(dice.random() < 0.5)) for each in shaken(60, 3)]
@@ -153,14 +153,14 @@ WRONG = {
 
 
 @pytest.mark.parametrize("what", WRONG)
-def test_what_makes_no_sense_is_refused(what, experiment):
+def test_fit_rejects_invalid_options(what, experiment):
     """In one sentence, before anything is followed."""
     given, said = WRONG[what]
     with pytest.raises(ParameterError, match=said):
         fit_block(**{"outcomes": experiment, **given})
 
 
-def test_what_is_no_outcome_is_refused():
+def test_fit_rejects_invalid_outcomes():
     """Nor what is no motion."""
     with pytest.raises(KindError, match="expected Observation, found tuple"):
         fit_block([(pulse(1.0, 1.0), True)])
@@ -170,7 +170,7 @@ def test_what_is_no_outcome_is_refused():
         Observation(pulse(1.0, 1.0), True, weight=float("nan"))
 
 
-def test_blocks_are_what_their_points_say():
+def test_fit_points_round_trip_through_blocks():
     """Alpha and p come back from the blocks; a drawing with its centre of gravity elsewhere keeps its shape."""
     odd = Block(0.4, 1.0, centroid_height=0.4, centroid_offset=0.05, centroid_inertia=30.0)
     for drawing in (None, odd):
@@ -187,7 +187,7 @@ def test_blocks_are_what_their_points_say():
     assert same.right[0] == pytest.approx(rectangle.arms[0]) and same.gyration_squared[0] == pytest.approx(rectangle.gyration_squared)
 
 
-def test_a_share_without_scatter_is_the_single_verdict():
+def test_fit_rows_without_scatter_equal_solve_rock():
     """Rows of a fit are runs of `rock`, worn edges, scale and a given restitution among them."""
     bounds = {"alpha": (0.1, 0.5), "p": (3.0, 6.0)}
     made = family("alpha", "p", bounds=bounds, inset=0.1, restitution=0.85)
@@ -204,7 +204,7 @@ def test_a_share_without_scatter_is_the_single_verdict():
     assert 0.1 < (shares > 0).mean() < 0.9
 
 
-def test_the_likelihood_is_the_product():
+def test_likelihood_equals_product_over_outcomes():
     """Against the formula, written out outcome by outcome."""
     dice = np.random.default_rng(0)
     seen = make_experiment([replace(each, weight=float(w)) for each, w in zip(shaken(12, 1), dice.integers(0, 4, 12), strict=True)])
@@ -221,7 +221,7 @@ def test_the_likelihood_is_the_product():
     np.testing.assert_allclose(1.0 - (1.0 - some.values) ** 9, (np.arange(24) + 0.5) / 24, rtol=1e-12)
 
 
-def test_the_density_of_a_cloud_is_its_own():
+def test_proposal_density_integrates_to_one():
     """Over the square it adds up to one, and points drawn from it fill it as it says."""
     dice = np.random.default_rng(4)
     cloud = make_proposal(dice.normal([0.1, 0.6], [0.1, 0.05], (60, 2)).clip(0.01, 0.99), np.ones(60), 4000, dice)
@@ -234,7 +234,7 @@ def test_the_density_of_a_cloud_is_its_own():
     assert ((cloud.points[:, 0] < 0.1) & (cloud.points[:, 1] < 0.6)).mean() == pytest.approx(share, abs=0.03)
 
 
-def test_records_are_dealt_evenly_and_stay_together(experiment):
+def test_folds_are_balanced_and_keep_records_together(experiment):
     """Folds differ by one record at most; outcomes of one record are in one fold."""
     counts = np.bincount(assign_folds(23, 5, 0))
     assert counts.max() - counts.min() == 1 and counts.sum() == 23
@@ -244,7 +244,7 @@ def test_records_are_dealt_evenly_and_stay_together(experiment):
     assert all(len(set(folds[np.arange(40) % 8 == k])) == 1 for k in range(8))
 
 
-def test_scores_are_those_of_the_definition(experiment):
+def test_scores_equal_hand_calculation(experiment):
     """Accuracy, Brier's score, the share of the others and the best threshold on the peak velocity, by hand."""
     seen = make_experiment([replace(each, happened=k >= 20, weight=1.0 + (k == 0)) for k, each in enumerate(experiment)])
     chance = np.where(np.arange(40) >= 20, 0.8, 0.3)
@@ -259,13 +259,13 @@ def test_scores_are_those_of_the_definition(experiment):
     assert found.calibration[0].mean_probability == pytest.approx(0.3) and found.calibration[0].share == 0.0
 
 
-def test_calibration_puts_ends_where_they_belong():
+def test_calibration_bins_include_both_ends():
     """Certainties are in the first and the last range."""
     steps = calibration(np.array([0.0, 0.1, 1.0]), np.array([0.0, 1.0, 1.0]), np.ones(3))
     assert [(step.low, step.high, step.outcomes) for step in steps] == [(0.0, 0.1, 1), (0.1, 0.3, 1), (0.9, 1.0, 1)]
 
 
-def test_silence_is_not_followed():
+def test_silence_around_pulse_changes_no_outcome():
     """Zeros before and after a pulse make no verdict different, and no run longer."""
     bare, long = pulse(5.0, 1.0), pulse(5.0, 1.0)
     rows = np.concatenate([np.zeros(500), long.horizontal, np.zeros(3000)])
@@ -277,7 +277,7 @@ def test_silence_is_not_followed():
     assert trim_zeros(type(bare).from_arrays(np.zeros(50), 0.01)).samples == 2
 
 
-def test_axes_are_even_in_what_they_say():
+def test_parameter_axes_are_logarithmic_or_linear():
     """Half way along p is the geometric mean of its bounds, along alpha the arithmetic one."""
     assert DEFAULT_PRIORS["p"].value(np.array([0.5]))[0] == pytest.approx(5.0)
     assert DEFAULT_PRIORS["alpha"].value(np.array([0.5]))[0] == pytest.approx(0.515)

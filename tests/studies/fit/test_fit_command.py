@@ -45,7 +45,7 @@ def table(folder, *lines):
     (folder / "seen.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def test_an_answer_says_all_there_is_to_know(folder):
+def test_fit_writes_document_table_and_figure(folder):
     """Parameters with intervals, what is held out, each outcome; the table beside it and the figure."""
     answer = run(f"fit seen.csv {QUICK} --folds 3 --json --csv out.csv")
     assert answer.exit_code == 0, answer.stderr
@@ -62,7 +62,7 @@ def test_an_answer_says_all_there_is_to_know(folder):
     assert rows[1].startswith("2,p0.csv,EW,1.0,1.0,0,")
 
 
-def test_words_columns_and_places(folder):
+def test_outcome_table_accepts_headings_words_and_bundles(folder):
     """Japanese headings, words for outcomes, weights, scales, empty cells, comments, other columns; a record in a bundle."""
     shutil.copy(sample_path("pulses.zip"), folder / "runs.zip")
     table(
@@ -81,7 +81,7 @@ def test_words_columns_and_places(folder):
     assert np.abs(found.observed[2].motion.horizontal).max() == pytest.approx(1.0, rel=1e-2)
 
 
-def test_rows_without_a_record_are_left_out_and_told(folder):
+def test_fit_skips_and_reports_rows_without_record(folder):
     """Two of eight: the rest is answered; --strict refuses, naming the line; nothing left is an error."""
     lines = [f"p{k}.csv,{int(peak > 3.5)}" for k, peak in enumerate(STRENGTHS)]
     table(folder, "record,fell", *lines, "gone.csv,1", "synthetic_jma.csv,0")
@@ -97,7 +97,7 @@ def test_rows_without_a_record_are_left_out_and_told(folder):
         read_outcomes("seen.csv")
 
 
-def test_the_one_that_is_asked_for_counts(folder):
+def test_fit_outcome_column_is_selectable(folder):
     """Both columns: fell, and it is said; or the other."""
     table(folder, "record,fell,moved", *(f"p{k}.csv,0,1" for k in range(3)))
     found = read_outcomes("seen.csv")
@@ -121,7 +121,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("what", WRONG)
-def test_a_table_that_is_wrong_is_refused(what, folder):
+def test_fit_rejects_invalid_table_with_line(what, folder):
     """In one sentence that names the line."""
     lines, said = WRONG[what]
     table(folder, *lines)
@@ -146,14 +146,14 @@ def test_a_table_that_is_wrong_is_refused(what, folder):
         ("--csv seen.csv", 3, "seen.csv"),
     ],
 )
-def test_options_that_make_no_sense_are_refused(options, code, said, folder):
+def test_fit_rejects_conflicting_options(options, code, said, folder):
     """With the names of the options."""
     answer = run(f"fit seen.csv {options}")
     assert answer.exit_code == code and said in " ".join(answer.stderr.split()), answer.stderr
     assert (folder / "seen.csv").read_text().startswith("record,fell")
 
 
-def test_a_table_that_is_not_there_is_refused(folder):
+def test_fit_rejects_missing_table(folder):
     """Nor a directory, nor the name of another sample."""
     for name, said in (("gone.csv", "bundled: shaken_block.csv"), (".", "is a folder"), ("aoyama.csv", "no file of outcomes")):
         assert said in run(f"fit {name}").stderr
@@ -161,7 +161,7 @@ def test_a_table_that_is_not_there_is_refused(folder):
         sample_path("gone.csv")
 
 
-def test_the_bundled_experiment_is_made_by_its_script():
+def test_bundled_experiment_equals_script_output():
     """The table, byte by byte, and the pulses, which another zlib may pack otherwise."""
     _, made = make_shaken_block.make()
     assert sample_path("shaken_block.csv").read_bytes() == made
