@@ -45,7 +45,7 @@ def answer(a, b):
 CASES = np.random.default_rng(3).uniform(-1.0, 1.0, (20, 2)).tolist()
 
 
-def test_what_kernels_call_is_neither_optimised_nor_made_machine_code_of(chain):
+def test_callees_stay_unoptimised(chain):
     """Of the two within there is a part and nothing whole; the answer is Python's."""
     lean, rock, fall = chain
     assert [fall(a, b) for a, b in CASES] == [answer(a, b) for a, b in CASES]
@@ -57,7 +57,7 @@ def test_what_kernels_call_is_neither_optimised_nor_made_machine_code_of(chain):
     assert lean(1.0, 0.5) == 0.75
 
 
-def test_what_is_whole_is_linked_as_it_is(chain):
+def test_compiled_kernel_is_linked_without_recompilation(chain):
     """A kernel that Python called before is not compiled a second time for those that call it."""
     lean, _, fall = chain
     assert lean(1.0, 0.5) == 0.75
@@ -65,7 +65,7 @@ def test_what_is_whole_is_linked_as_it_is(chain):
     assert lean._part is None
 
 
-def test_a_numba_of_another_make_compiles_each_as_a_whole(chain, monkeypatch):
+def test_unknown_numba_compiles_kernels_whole(chain, monkeypatch):
     """Where parts cannot be made, kernels answer as before."""
 
     def unlike(self):
@@ -78,7 +78,7 @@ def test_a_numba_of_another_make_compiles_each_as_a_whole(chain, monkeypatch):
     assert all(kernel._compiled is not None and kernel._part is None for kernel in (lean, rock, fall))
 
 
-def test_numba_is_asked_once_for_what_the_types_of_a_sum_are(monkeypatch):
+def test_typing_is_memoized_per_compilation(monkeypatch):
     """While one kernel is compiled; one that is compiled within asks for itself, and outside all is as it was."""
     from numba.core.registry import cpu_target
 

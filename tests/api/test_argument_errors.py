@@ -70,7 +70,7 @@ OF_BODIES = {
 
 
 @pytest.mark.parametrize("name", OF_MOTIONS)
-def test_a_motion_is_needed(name):
+def test_studies_require_a_motion(name):
     """A record holds several components and an array no time step: each study says so as the solvers do."""
     with pytest.raises(sb.KindError, match=r"found a Record .*: select a component with motion_of\(record, 'NS'\)"):
         OF_MOTIONS[name](RECORD)
@@ -80,7 +80,7 @@ def test_a_motion_is_needed(name):
 
 
 @pytest.mark.parametrize("name", OF_RECORDS)
-def test_a_record_is_needed(name):
+def test_record_functions_require_a_record(name):
     """What works on records names what it found in its place."""
     for wrong in (MOTION, "record.csv", None):
         with pytest.raises(sb.KindError, match=r"(a|expected) Record( is needed)?, found (Motion|str|None)"):
@@ -88,7 +88,7 @@ def test_a_record_is_needed(name):
 
 
 @pytest.mark.parametrize("name", OF_BODIES)
-def test_a_body_is_needed(name):
+def test_functions_require_a_body(name):
     """So does what needs a body, a survey, or a contact; a motion in its place is such a thing, too."""
     call, kind = OF_BODIES[name]
     for wrong in (MOTION, 0.3, "gravestone"):
@@ -141,13 +141,13 @@ def test_a_body_is_needed(name):
         (lambda: sb.read_all(None), "expected a path or a list of paths, found None"),
     ],
 )
-def test_a_wrong_value_is_told(call, says):
+def test_functions_reject_wrong_values(call, says):
     """Neither taken in silence nor left to numpy."""
     with pytest.raises(sb.InputError, match=says):
         call()
 
 
-def test_one_path_is_a_list_of_one():
+def test_read_all_accepts_single_path():
     """`read_all` takes a path for what it is, not for a list of letters."""
     assert [record.codes for record in sb.read_all("synthetic_jma.csv")] == [("NS", "EW", "UD")]
 
@@ -165,7 +165,7 @@ VERTICAL = {
 
 
 @pytest.mark.parametrize("name", VERTICAL)
-def test_vertical_means_the_same_everywhere(name):
+def test_vertical_has_same_meaning_everywhere(name):
     """Asked for, it is refused where the record has none; None takes what there is; a factor scales it."""
     solve = VERTICAL[name]
     flat = sb.Record(tuple(RECORD.horizontals), RECORD.dt, source="level.csv")
@@ -196,7 +196,7 @@ def told(answer):
     ],
     ids=["slide", "rock", "jump", "uplift", "respond", "stack"],
 )
-def test_an_answer_travels_to_another_process(answer):
+def test_response_survives_pickling(answer):
     """Pickled, a response brings its outcome and its curves along, and shows itself as before; so does its copy's copy."""
     given = answer()
     came = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(given))))

@@ -32,7 +32,7 @@ STRONG = sb.Record((sb.Component("NS", 400.0 * SINE), sb.Component("UD", SINE)),
         (lambda: sb.motion_of(sb.Record((sb.Component("NS", SINE),), 10.0), "NS"), r"sampling interval 10 s"),
     ],
 )
-def test_another_unit_is_remarked(call, says):
+def test_suspicious_unit_warns_at_callers_line(call, says):
     """One warning of one sentence, at the caller's line; the answer is given, for a house may be meant."""
     with pytest.warns(UserWarning, match=says) as told:
         assert call() is not None
@@ -46,14 +46,14 @@ def quiet(call):
         return call()
 
 
-def test_what_is_common_is_not():
+def test_common_values_do_not_warn():
     """Up to 20 m, 5 g and 0.1 s nothing is said."""
     quiet(lambda: sb.Block(MAX_UNITLESS_LENGTH, MAX_UNITLESS_LENGTH))
     quiet(lambda: sb.Motion.from_arrays(50.0 * SINE / SINE.max(), 0.1))
     quiet(lambda: sb.motion_of(sb.read("synthetic_jma.csv"), "EW"))
 
 
-def test_the_house_does_not_warn_of_itself(tmp_path):
+def test_internal_calls_do_not_warn(tmp_path):
     """Sizes that follow from others, versions, motions scaled within studies, and a record whose doubt says it already."""
     house = quiet(lambda: sb.from_slenderness(0.3, 0.4))
     assert house.height > MAX_UNITLESS_LENGTH
@@ -68,7 +68,7 @@ def test_the_house_does_not_warn_of_itself(tmp_path):
     quiet(lambda: sb.motion_of(record, "NS"))
 
 
-def test_the_command_line_says_it_once(tmp_path):
+def test_command_line_warns_once(tmp_path):
     """A record of 40 g is doubted in one line, and a house whose sizes have their units is no mistake."""
     path = tmp_path / "gal.csv"
     path.write_text("time,NS (m/s2)\n" + "".join(f"{0.01 * i:.2f},{400.0 * a:.6f}\n" for i, a in enumerate(SINE)))
@@ -89,7 +89,7 @@ def test_the_command_line_says_it_once(tmp_path):
         (lambda: sb.response_spectrum([], 0.01), "a motion needs at least 2 samples, found 0"),
     ],
 )
-def test_arrays_of_another_shape_are_refused_by_it(call, says):
+def test_wrong_array_shape_is_rejected_with_both_shapes(call, says):
     """The shape expected and the one found, in a sentence of ours."""
     with pytest.raises(sb.ParameterError, match=says):
         call()

@@ -9,7 +9,7 @@ from seisblock.report.animation.render import AnimationOptions
 from seisblock.report.animation.rock import animate_rocking
 
 
-def test_twenty_seconds_of_rocking(benchmark, tmp_path):
+def test_animation_of_20_s_rocking(benchmark, tmp_path):
     """A 20 s response as a .gif, in real time; where benchmarks are disabled two seconds of it show that it works."""
     t = np.arange(201 if benchmark.disabled else 2001) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))

@@ -34,7 +34,7 @@ def test_report_of_one_body(benchmark):
 @pytest.mark.slow
 @pytest.mark.parametrize("bodies", [THREE[:1], THREE], ids=["one", "three"])
 @pytest.mark.benchmark(timer=cpu_of_children)
-def test_report_as_a_command(benchmark, bodies, tmp_path):
+def test_report_command(benchmark, bodies, tmp_path):
     """The whole command on 300 s of three components, processor time: below 5 s for one body and 10 s for three on one core of 2024."""
     (path,) = write_records(tmp_path, [replace(record(), source="long")])
     named = [word for body in bodies for word in ("--body", body)]

@@ -12,7 +12,7 @@ from seisblock.core.errors import BodyError, InputError
 from seisblock.report.json.bodies import block_entry
 
 
-def test_bundled_gravestone():
+def test_bundled_gravestone_has_shaking_table_size():
     """8 sun wide, H/B 2.6, as on the shaking table of [Furukawa2009]_."""
     block = load_block("gravestone")
     assert block.width == pytest.approx(0.2424)
@@ -23,21 +23,21 @@ def test_bundled_gravestone():
 @pytest.mark.parametrize(
     ("name", "inches"), [("bookcase", (12.625, 71.0)), ("filing_cabinet", (15.0, 52.0)), ("lateral_filing_cabinet", (18.6, 52.5))]
 )
-def test_bodies_of_rooms_have_the_sizes_of_fema_p_58(name, inches):
+def test_bundled_furniture_has_fema_p_58_sizes(name, inches):
     """Components E.20.22.105a, 114a and 124a, as their descriptions print them."""
     block = load_block(name)
     assert (block.width, block.height) == pytest.approx([0.0254 * size for size in inches])
 
 
 @pytest.mark.parametrize("name", ["server_rack", "refrigerator", "display_case"])
-def test_bodies_on_feet_turn_about_them(name):
+def test_bundled_bodies_on_feet_pivot_at_feet(name):
     """Their feet stand within their sides, which makes them slenderer than their drawing."""
     block = load_block(name)
     assert 0.0 < block.inset < 0.1 * block.width
     assert 2.5 < block.height / (block.width - 2.0 * block.inset) < 5.0
 
 
-def test_a_statue_stands_on_its_pedestal():
+def test_bundled_statue_is_pile_of_two_stones():
     """Two stones, one on the other, which other commands take as one block."""
     pile = load_pile("statue")
     assert [stone.name for stone in pile.stones] == ["pedestal", "figure"]
@@ -52,7 +52,7 @@ def test_two_layer_body_keeps_mass_centre_and_inertia(side):
     assert block.corner_inertias[0] == pytest.approx({"short": 9736.24, "long": 10674.76}[side], abs=5e-3)
 
 
-def test_units_and_everything_a_block_takes(tmp_path):
+def test_toml_body_accepts_units_and_all_entries(tmp_path):
     """Sizes with units, mass, centre, offset, inertia and a name."""
     path = tmp_path / "statue.toml"
     path.write_text(
@@ -79,7 +79,7 @@ def test_units_and_everything_a_block_takes(tmp_path):
         ({"kind": "block", "width": 1, "height": 1, "centroid_inertia": True}, "centroid_inertia must be a number"),
     ],
 )
-def test_wrong_tables_are_refused(table, says):
+def test_toml_body_rejects_invalid_tables(table, says):
     """One sentence each."""
     with pytest.raises(InputError, match=says):
         block_from_table(table)
@@ -105,20 +105,20 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
         ({"block": "obelisk"}, "no body file obelisk"),
     ],
 )
-def test_incomplete_choices_are_refused(asked, says):
+def test_body_options_report_missing_values(asked, says):
     """The message says what is missing."""
     with pytest.raises(BodyError, match=says):
         choose_block(asked)
 
 
-def test_resizing_a_given_mass_keeps_what_was_given():
+def test_resized_block_keeps_given_mass():
     """A mass that was given stays; its inertia scales with the square of the size."""
     block = scale_block(Block(0.4, 1.0, mass=100.0, centroid_inertia=9.0), size=2.0)
     assert (block.total_mass, block.centroid_inertia) == (100.0, 36.0)
 
 
 @pytest.mark.parametrize("depth", [None, 0.3])
-def test_resizing_a_given_inertia_keeps_its_gyration(depth):
+def test_resized_block_scales_radius_of_gyration(depth):
     """Where the mass follows from the volume, the inertia follows the mass: its radius of gyration doubles with the size, no more (N6)."""
     block = Block(0.4, 1.0, depth, centroid_inertia=30.0)
     for slenderness in (1.0, 1.1):

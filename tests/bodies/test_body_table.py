@@ -19,7 +19,7 @@ def told(tmp_path, text, encoding="utf-8"):
     return {body.name: dict(body.parameters) for body in read_bodies(path)}
 
 
-def test_units_stand_in_headings_or_cells(tmp_path):
+def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
     """A cell's own unit counts, then that of its column, then metres and kilograms."""
     text = "# the museum\nname,width (cm),height,mass_t,inset,slope (deg)\na,12,40cm,0.5,5%,\nb,8sun,1.6,900kg,1cm,3\n"
     assert told(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
@@ -29,13 +29,13 @@ def test_units_stand_in_headings_or_cells(tmp_path):
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
-def test_japanese_tables(tmp_path, encoding):
+def test_body_table_accepts_japanese(tmp_path, encoding):
     """Names, full-width digits and encodings as spreadsheets in Japan write them."""
     found = told(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
     assert found == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
 
 
-def test_rows_may_take_a_body_from_elsewhere(tmp_path):
+def test_body_table_rows_may_name_bodies_or_files(tmp_path):
     """A bundled body or a file, beside bodies named by themselves."""
     (tmp_path / "b.csv").write_text("name,body,mu,side\npavilion,chozusha,0.3,long\n")
     row, alone = read_bodies([tmp_path / "b.csv", "gravestone"])
@@ -62,14 +62,14 @@ def test_rows_may_take_a_body_from_elsewhere(tmp_path):
         ("name,body\na,gone\n", "line 2: .*gone"),
     ],
 )
-def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path, text, says):
+def test_body_table_error_names_its_line(tmp_path, text, says):
     """One sentence, with the file."""
     with pytest.raises(BodyError, match=says) as error:
         told(tmp_path, text)
     assert "bodies.csv" in str(error.value)
 
 
-def test_what_is_no_table(tmp_path):
+def test_body_table_rejects_other_files(tmp_path):
     """A directory, a picture, a file that is not there, nothing at all."""
     (tmp_path / "dir.csv").mkdir()
     (tmp_path / "image.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0")
@@ -80,7 +80,7 @@ def test_what_is_no_table(tmp_path):
         read_bodies([])
 
 
-def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
+def test_body_table_kind_sets_edge_wear(tmp_path):
     """As `--kind` does for one body, in both languages of the heading; beside a file, or misspelt, it is refused with its line."""
     path = tmp_path / "stones.csv"
     path.write_text("名前,幅,高さ,種類,mu\n墓,0.24,0.72,gravestone,0.6\n棚,0.3,1.8,furniture,0.6\n")

@@ -22,7 +22,7 @@ from seisblock.studies.survey import estimate
 STONE = Block(0.24, 0.72, 0.3, centroid_height=0.3, centroid_offset=0.01)
 
 
-def test_worn_edges_change_the_arms_and_nothing_else():
+def test_edge_wear_changes_arms_only():
     """Mass, centre and inertia stay those of the whole body; arms, alpha, R and the threshold are those of the worn corners."""
     worn = STONE.with_wear(0.1)
     assert worn.inset == pytest.approx(0.024, rel=1e-15)
@@ -34,7 +34,7 @@ def test_worn_edges_change_the_arms_and_nothing_else():
 
 
 @given(st.just(0.0) | st.floats(1e-6, 0.45), st.floats(0.05, 2.0), st.floats(1.2, 6.0))
-def test_a_worn_block_rocks_as_one_whose_base_is_so_narrow(share, width, ratio):
+def test_worn_block_rocks_like_narrower_block(share, width, ratio):
     """The equations know the base by its arms alone: a narrower block of the same mass, centre and inertia answers alike."""
     whole = Block(width, width * ratio, mass=100.0)
     worn = whole.with_wear(share)
@@ -56,19 +56,19 @@ def test_a_worn_block_rocks_as_one_whose_base_is_so_narrow(share, width, ratio):
         ("0", SHARP_EDGES),
     ],
 )
-def test_a_share_or_a_length(text, inset):
+def test_inset_is_share_or_length(text, inset):
     """A bare number or a percentage is a share of the width per side, a number with a unit a length."""
     assert parse_edge_wear(text) == inset
 
 
 @pytest.mark.parametrize("text", ["-0.1", "-1cm", "nan", "wide", "1 parsec"])
-def test_what_is_no_inset_is_refused(text):
+def test_inset_rejects_invalid_values(text):
     """One sentence each."""
     with pytest.raises(InputError):
         parse_edge_wear(text)
 
 
-def test_something_of_the_base_must_be_left():
+def test_inset_must_leave_a_base():
     """Half the width per side, and a centre of gravity beyond the worn edge, are refused."""
     with pytest.raises(ParameterError, match=r"inset of 0\.12 m per side leaves nothing"):
         Block(0.24, 0.72).with_wear(0.5)
@@ -78,7 +78,7 @@ def test_something_of_the_base_must_be_left():
         Block(0.24, 0.72, centroid_offset=0.1, inset=0.024)
 
 
-def test_gravestones_are_worn_and_other_bodies_are_not():
+def test_only_bundled_gravestones_are_worn():
     """The bundled gravestone has 0.05 of its width per side; a file may say its own, as a share or a length."""
     assert load_block("gravestone").inset == pytest.approx(0.05 * 0.2424)
     assert load_block("chozusha").inset == 0.0
@@ -89,7 +89,7 @@ def test_gravestones_are_worn_and_other_bodies_are_not():
         block_from_table({**table, "inset": [1]})
 
 
-def test_a_spectrum_of_worn_blocks_is_that_of_each():
+def test_spectrum_of_worn_blocks_equals_solve_rock():
     """rocking_spectrum tells the lean over the alpha that is left, as solve_rock does."""
     motion = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, 6 * np.pi, 301)), 0.01)
     found = rocking_spectrum([1.0], [0.3], motion, inset=DEFAULT_WEAR)
@@ -112,7 +112,7 @@ def run(capsys):
 
 
 @pytest.mark.parametrize("command", ["rock", "criteria"])
-def test_one_option_in_every_command(run, command):
+def test_inset_option_is_equal_in_every_command(run, command):
     """--inset as a share, as a percentage and as a length are the same stone; the output says how it is worn."""
     words = (command, "elcentro_1940_ns.csv", "--width", "24cm", "--height", "72cm", "--inset")
     found = [run(*words, text) for text in ("0.1", "10%", "24mm")]
@@ -122,7 +122,7 @@ def test_one_option_in_every_command(run, command):
     assert "edge wear: inset 2.4 cm (0.1 of the width)" in found[0][1]
 
 
-def test_the_old_meaning_is_understood_and_said(run):
+def test_overturn_rate_converts_old_inset_and_warns(run):
     """`overturn-rate --inset 0.8` of 0.1.0, pivots over half width, is 0.1 per side, and says so on stderr and in the document."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1, "--criterion", "simulate", "--inset")
     (old, said), (new, _) = run(*words, "0.8"), run(*words, "0.1")
@@ -133,7 +133,7 @@ def test_the_old_meaning_is_understood_and_said(run):
     assert new["warnings"] == []
 
 
-def test_the_fit_has_its_edges_in_it(run):
+def test_inset_has_no_effect_on_eq_9_and_says_so(run):
     """--inset changes nothing of eq. (9), and says so instead of keeping silent."""
     words = ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", 400, "--frequency", 1)
     plain, told = run(*words)[0], run(*words, "--inset", "0.05")[0]
@@ -141,7 +141,7 @@ def test_the_fit_has_its_edges_in_it(run):
     assert any("has no effect" in text for text in told["warnings"])
 
 
-def test_estimates_of_worn_rigid_stones_need_less_shaking(run, monkeypatch):
+def test_infer_of_worn_rigid_stones_gives_smaller_pga(run, monkeypatch):
     """`infer --criterion rigid`: stones that turn about worn edges fell at a smaller PGA, by the rule of their limits."""
     monkeypatch.setattr(
         estimate, "frequency_contour", partial(estimate.frequency_contour, frequencies=[1.0])

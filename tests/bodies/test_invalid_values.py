@@ -28,7 +28,7 @@ def written(tmp_path, text):
 
 @pytest.mark.parametrize("value", NO_SIZES)
 @pytest.mark.parametrize("key", ["width", "height", "depth", "mass", "centroid_height", "centroid_inertia", "density"])
-def test_a_block(key, value, tmp_path):
+def test_block_file_rejects_invalid_values(key, value, tmp_path):
     """Its sizes, mass and inertia: ``width = true`` was 1 m."""
     entries = {"width": "0.3", "height": "1.0", key: value}
     path = written(tmp_path, 'kind = "block"\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
@@ -38,7 +38,7 @@ def test_a_block(key, value, tmp_path):
 
 @pytest.mark.parametrize("value", NO_NUMBERS[:9])
 @pytest.mark.parametrize("key", ["mu", "mu_kinetic"])
-def test_friction_and_restitution(key, value, tmp_path):
+def test_contact_values_reject_invalid_types(key, value, tmp_path):
     """What the commands look up beside the block."""
     table = read_body_toml(written(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
     with pytest.raises(BodyError, match=key):
@@ -49,7 +49,7 @@ def test_friction_and_restitution(key, value, tmp_path):
 
 @pytest.mark.parametrize("value", NO_NUMBERS)
 @pytest.mark.parametrize("key", ["width", "density", "mu", "offset", "bottom", "on", "name"])
-def test_a_stone_of_a_pile(key, value, tmp_path):
+def test_pile_stone_rejects_invalid_values(key, value, tmp_path):
     """Every entry of a stone, and one that is no table at all."""
     entries = {"name": '"a"', "width": "1", "depth": "1", "height": "1", key: value}
     if (key, value) in {("on", '"x"'), ("name", '"x"')}:
@@ -64,14 +64,14 @@ def test_a_stone_of_a_pile(key, value, tmp_path):
 @pytest.mark.parametrize(
     "line", ["reinforced = 3", "reinforced = [[1]]", 'reinforced = ["ab"]', "fixed = true", "fixed = [[1]]", "name = 3"]
 )
-def test_lists_of_names(line, tmp_path):
+def test_name_lists_reject_plain_text(line, tmp_path):
     """A text is no list of its letters."""
     with pytest.raises(BodyError, match=f"{line.split()[0]} must be a"):
         load_pile(written(tmp_path, STONE.replace("[[stone]]", f"{line}\n[[stone]]")))
 
 
 @pytest.mark.parametrize("value", [*NO_NUMBERS[:9], "{ mu = 'x' }", "{ mu = [1] }", "{ mu = true }"])
-def test_the_contact_of_two_layers(value, tmp_path):
+def test_two_layer_contact_rejects_invalid_values(value, tmp_path):
     """A table of numbers."""
     whole = sample_path("chozusha.toml").read_text(encoding="utf-8").split("[contact]")[0]
     path = written(tmp_path, f"{whole}\ncontact = {value}\n")
@@ -80,7 +80,7 @@ def test_the_contact_of_two_layers(value, tmp_path):
         load_contact(path)
 
 
-def test_a_file_does_not_name_itself(tmp_path):
+def test_source_is_always_file_name(tmp_path):
     """``source`` is the name of the file, whatever it says."""
     path = written(tmp_path, 'kind = "block"\nsource = "another"\nwidth = 0.3\n')
     with pytest.raises(BodyError, match=r"body\.toml: height is missing"):
@@ -88,7 +88,7 @@ def test_a_file_does_not_name_itself(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = 2020-13-45"], ids=["nested", "date"])
-def test_no_toml(text, tmp_path):
+def test_invalid_toml_is_rejected(text, tmp_path):
     """Lists in lists in lists, a date that is none."""
     path = tmp_path / "body.toml"
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
@@ -96,7 +96,7 @@ def test_no_toml(text, tmp_path):
         read_body_toml(path)
 
 
-def test_names_that_no_file_has():
+def test_impossible_file_names_are_rejected():
     """Too long for a file system, or with a NUL: no such body, in a sentence of ordinary length."""
     for name in ("x" * 5000, "a\0b"):
         with pytest.raises(BodyError, match="no body file") as caught:
@@ -105,7 +105,7 @@ def test_names_that_no_file_has():
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
-def test_a_file_that_may_not_be_read(tmp_path):
+def test_unreadable_file_states_system_reason(tmp_path):
     """The reason of the system."""
     path = written(tmp_path, STONE)
     path.chmod(0)
@@ -113,7 +113,7 @@ def test_a_file_that_may_not_be_read(tmp_path):
         read_body_toml(path)
 
 
-def test_a_pile_of_thousands_is_refused_at_once(tmp_path):
+def test_pile_with_too_many_stones_is_rejected(tmp_path):
     """Each pair of stones is looked at: the number is refused with what is allowed."""
     stone = "[[stone]]\nname = '{i}'\nwidth = 1\ndepth = 1\nheight = 1\n"
     path = written(tmp_path, "kind = 'pile'\n" + "".join(stone.format(i=i) for i in range(5000)))
@@ -132,7 +132,7 @@ def test_a_pile_of_thousands_is_refused_at_once(tmp_path):
         (bytes(range(128, 256)), "is not UTF-8 text"),
     ],
 )
-def test_a_file_without_text_is_said_to_be_one(tmp_path, content, reason):
+def test_empty_or_foreign_encoded_file_is_rejected(tmp_path, content, reason):
     """Neither an empty file nor one saved in another encoding is told in words of the decoder."""
     path = tmp_path / "body.toml"
     path.write_bytes(content)

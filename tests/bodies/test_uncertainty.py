@@ -25,7 +25,7 @@ FRIDGE = ParameterRanges(width_m=(0.6, 0.75), height_m=(1.6, 1.9), inset_m=(0.02
 FILE = 'kind = "block"\nname = "thing"\nwidth = "60cm"\nheight = "1.8m"\nmu = 0.3\n[ranges]\n'
 
 
-def test_a_bundled_body_tells_its_ranges():
+def test_bundled_body_has_ranges_in_metres():
     """In metres, whatever the unit of its file; a lantern tells none."""
     assert load_block("refrigerator").ranges == FRIDGE
     case = load_block("bookcase").ranges
@@ -34,7 +34,7 @@ def test_a_bundled_body_tells_its_ranges():
     assert load_block("lantern").ranges is None
 
 
-def test_within_fills_a_range_with_the_own_value_as_median():
+def test_range_draws_have_nominal_value_as_median():
     """Uniform draws of either half lie evenly between the own value and the end; one outside the range widens it."""
     draws = np.linspace(-1.0, 1.0, 2001)
     for own in (0.2, 0.4, 0.7):
@@ -64,7 +64,7 @@ def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_size
     assert abs(np.corrcoef(heights, widths)[0, 1]) < 0.05
 
 
-def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
+def test_zero_tolerance_keeps_body_in_all_samples():
     """Ranges or not, all samples do what the body does: `rock` and `respond`."""
     block = Block(0.24, 0.8)
     same = replace(block, ranges=ParameterRanges(inset_m=(0.0, 0.02), mu=(0.2, 0.9)))
@@ -78,7 +78,7 @@ def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
         assert one.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and one.ranges == same.ranges
 
 
-def test_what_is_given_is_known():
+def test_given_values_have_no_range():
     """A width of its edges or a friction that the user gives has no range any more; a resized block has none of its drawing."""
     body = load_block("refrigerator")
     assert body.with_wear(0.05).ranges == ParameterRanges(width_m=FRIDGE.width_m, height_m=FRIDGE.height_m, mu=FRIDGE.mu)
@@ -92,14 +92,14 @@ def test_what_is_given_is_known():
         assert (ranges["inset_m"], ranges["mu"], ranges["width_m"], ranges["height_m"]) == (inset, mu, None, None)
 
 
-def test_per_cent_of_an_inset_are_of_the_body_width():
+def test_percent_inset_range_refers_to_width():
     """The range of the bundled gravestone is 0 to 0.1 of its width, and its own inset the median."""
     stone = load_block("gravestone")
     assert stone.ranges.inset_m == (0.0, pytest.approx(0.1 * stone.width)) and stone.ranges.mu is None
     assert stone.inset == pytest.approx(0.05 * stone.width)
 
 
-def test_the_terminal_says_where_samples_come_from():
+def test_output_states_origin_of_samples():
     """`rock` and `respond`: each number once, its range or the usual share, never both; of one stone and of a pile."""
     record = ("synthetic_jma.csv", "--window", "25:28", "--component", "NS", "--block")
     for words, expected in (
@@ -129,7 +129,7 @@ def test_the_terminal_says_where_samples_come_from():
         assert expected in text, (words, text)
 
 
-def test_unmeasured_edges_scatter_more():
+def test_unknown_edges_increase_dispersion():
     """The dispersion of a gravestone of unknown edges is more than that of one whose edges were measured."""
     suite = ["synthetic_jma.csv", "elcentro_1940_ns.csv"]
     stone = load_block("gravestone")
@@ -155,7 +155,7 @@ def test_unmeasured_edges_scatter_more():
         ("mu = [0.0, 0.5]", "the range of mu must be positive"),
     ],
 )
-def test_ranges_that_make_no_sense_are_refused(lines, says, tmp_path):
+def test_ranges_reject_invalid_values(lines, says, tmp_path):
     """One sentence, with the file's name."""
     path = tmp_path / "thing.toml"
     path.write_text(FILE + lines)

@@ -19,7 +19,7 @@ def path():
     return Path(DT, FIRST, states, modes, EventLog(log, tau, sample * DT + tau, limits))
 
 
-def test_limits_stand_where_their_events_are(path):
+def test_event_limits_stand_between_their_samples(path):
     """Times rise, modes change at events alone, and each state is that of its sample or its limit."""
     time, states, modes = path.table()
     assert time.tolist() == [4.75, 4.75, 5.0, 5.5, 6.0, 6.125, 6.125, 6.375, 6.375, 6.5, 7.0, 7.5, 7.75, 7.75]
@@ -29,7 +29,7 @@ def test_limits_stand_where_their_events_are(path):
     assert path.values(1).tolist() == states[:, 1].tolist()
 
 
-def test_some_samples_with_all_events(path):
+def test_selected_samples_include_all_events(path):
     """They are the rows of the whole table that their numbers say."""
     chosen = np.array([1, 3, 5])
     numbers = path.row_indices(chosen)

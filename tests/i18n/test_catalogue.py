@@ -39,7 +39,7 @@ def is_glued(argument):
     return isinstance(argument, ast.JoinedStr) or (isinstance(argument, ast.BinOp) and any(texts))
 
 
-def test_a_percentage_has_one_form(every_text, held):
+def test_percentages_have_one_form(every_text, held):
     """Templates and translations have a blank before the sign, or leave it to the format; no f-string writes its own."""
     told = [*every_text, *(str(message.string) for message in held.values())]
     assert not [text for text in told if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
@@ -50,7 +50,7 @@ def test_a_percentage_has_one_form(every_text, held):
     assert (gettext("{share:.0%}", share=0.043), format_percent(0.043, ".1"), format_percent(0.05, "g")) == ("4 %", "4.3 %", "5 %")
 
 
-def test_nothing_that_is_said_lacks_a_translation(every_text, held):
+def test_every_message_is_translated(every_text, held):
     """Missing, empty and fuzzy are the same to a reader: ``python -m tests.catalogue`` adds what is new."""
     missing = [
         f"{place}: {text}" for text, place in every_text.items() if text not in held or not any(held[text].string) or held[text].fuzzy
@@ -58,13 +58,13 @@ def test_nothing_that_is_said_lacks_a_translation(every_text, held):
     assert not missing, "\n".join(missing)
 
 
-def test_no_translation_is_of_something_that_is_said_no_longer(every_text, held):
+def test_catalogue_has_no_obsolete_entry(every_text, held):
     """What the source no longer says goes: ``python -m tests.catalogue`` takes it out."""
     stale = set(held) - set(every_text)
     assert not stale, "\n".join(sorted(stale))
 
 
-def test_a_translation_takes_the_same_values(held):
+def test_translations_keep_fields_and_formats(held):
     """Fields, their conversions and their formats are those of the template: a number keeps its digits in every language."""
     for key, message in held.items():
         strings = [message.string] if isinstance(message.string, str) else message.string
@@ -73,7 +73,7 @@ def test_a_translation_takes_the_same_values(held):
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
-def test_a_text_is_a_template_with_its_values(path):
+def test_messages_are_literal_templates_with_values(path):
     """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
     for call, argument in message_calls(tree_of(path)):
         where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
@@ -87,7 +87,7 @@ def test_a_text_is_a_template_with_its_values(path):
         assert not wanted or given == set().union(*wanted), f"{where}: a value without a field"
 
 
-def test_the_guards_see_what_they_guard_against():
+def test_message_rules_detect_violations():
     """A sentence glued together, a choice, a row and a nested text are found in a source."""
     source = """
 text = "put {first} in a name"

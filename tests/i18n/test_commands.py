@@ -221,7 +221,7 @@ def line_of(parts):
 
 
 @pytest.mark.parametrize("line", TOLD, ids=line_of)
-def test_an_answer_is_in_japanese(line, spoken):
+def test_output_is_fully_japanese(line, spoken):
     """Tables, sentences, notes and warnings, on both streams."""
     answer = spoken(line, "ja")
     assert answer.exit_code == 0, answer.output
@@ -231,7 +231,7 @@ def test_an_answer_is_in_japanese(line, spoken):
 
 
 @pytest.mark.parametrize("line", REFUSALS, ids=line_of)
-def test_a_refusal_is_in_japanese(line, spoken):
+def test_errors_are_fully_japanese(line, spoken):
     """What is wrong and what to do, also where click says it."""
     answer = spoken(line, "ja")
     assert answer.exit_code != 0 or not line
@@ -240,7 +240,7 @@ def test_a_refusal_is_in_japanese(line, spoken):
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
-def test_help_is_in_japanese(command, spoken):
+def test_help_is_fully_japanese(command, spoken):
     """Lines of commands and of options; examples are command lines."""
     answer = spoken((*command.split(), "--help"), "ja")
     assert answer.exit_code == 0 and not english_in(answer.stdout)
@@ -251,7 +251,7 @@ def test_help_is_in_japanese(command, spoken):
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [*TOLD, *((command, "--help") for command in COMMANDS)], ids=line_of)
-def test_an_answer_fits_a_terminal(line, lang, spoken):
+def test_output_fits_80_columns(line, lang, spoken):
     """Wide letters take two columns; a table that does not fit is not readable, whatever its language."""
     answer = spoken(line, lang)
     assert answer.exit_code == 0, answer.output
@@ -262,7 +262,7 @@ def test_an_answer_fits_a_terminal(line, lang, spoken):
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", TOLD, ids=line_of)
-def test_nothing_is_minus_nothing(line, lang, spoken):
+def test_output_has_no_negative_zero(line, lang, spoken):
     """F2: what rounds to zero has no sign, on either stream."""
     answer = spoken(line, lang)
     assert not MINUS_NOTHING.findall(answer.stdout + answer.stderr)
@@ -270,32 +270,32 @@ def test_nothing_is_minus_nothing(line, lang, spoken):
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] not in QUOTING], ids=line_of)
-def test_a_percentage_is_written_one_way(line, lang, spoken):
+def test_output_percentages_have_one_form(line, lang, spoken):
     """A blank stands before the sign, as before every unit, in both languages and on either stream."""
     answer = spoken(line, lang)
     assert not CLOSE_PERCENT.findall(answer.stdout + answer.stderr)
 
 
-def test_minus_nothing_is_recognised():
+def test_negative_zero_rule_detects_violations():
     """The guard sees it in a cell and in a sentence, and lets ranges, dates and small numbers pass."""
     assert len(MINUS_NOTHING.findall("jumped -0 mm, -0.0 and −0.00 deg; -0.0e+00")) == 4
     assert not MINUS_NOTHING.findall("0.00-0.00, 2024-01-01, -0.04 mm, 1e-05, e-0.5")
 
 
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] in ANSWERING], ids=line_of)
-def test_the_verdict_comes_first(line, spoken):
+def test_output_begins_with_the_result(line, spoken):
     """F2: an answer begins with its result; below it stand the line of its record and its tables."""
     first, _, _ = spoken(line, "ja").stdout.partition("\n")
     assert VERDICT.search(first) and not HEADING.search(first)
 
 
-def test_the_answers_are_of_every_command():
+def test_outputs_cover_every_command():
     """A new command is looked at, too."""
     assert {line[0] for line in ANSWERS} == set(COMMANDS) - {"report", "completion"}, "report writes a page, completion a script"
     assert {line[0] for line in REFUSALS if line} >= set(COMMANDS)
 
 
-def test_english_is_recognised():
+def test_english_rule_detects_sentences():
     """The guard sees a sentence, and lets names, units, citations and command lines pass."""
     assert english_in("警告：all samples are zero") == ["all samples are zero"]
     assert english_in("なし: No such option") and not english_in("K-NET の NS、PGA 934 gal。seisblock rock を使う")

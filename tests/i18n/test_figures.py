@@ -54,7 +54,7 @@ def translated():
 
 
 @pytest.mark.parametrize("line", all_but_slow(FIGURES, {line for line in FIGURES if line[0] not in {"measure", "stack"}}), ids=" ".join)
-def test_a_figure_is_in_japanese(line, drawn, translated, tmp_path):
+def test_figures_are_fully_japanese(line, drawn, translated, tmp_path):
     """Titles, axes, legends and notes; no piece of a text is one that the catalogue has a Japanese word for."""
     answer = CliRunner().invoke(main, ["--lang", "ja", *line, "--plot", str(tmp_path / "figure.svg"), "--quiet"])
     assert answer.exit_code == 0, answer.output

@@ -35,7 +35,7 @@ def entry(family, weight):
     return replace(SERIF[0], name=family, weight=weight)
 
 
-def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(installed):
+def test_regular_weight_precedes_preferred_bold_family(installed):
     """F5: with Noto Sans CJK in bold only, a figure is drawn in IPAGothic; with nothing else it is bold, by choice."""
     installed(entry("Noto Sans CJK JP", 700), entry("IPAGothic", "normal"))
     assert fonts.japanese_font() == fonts.Typeface("IPAGothic", (400,))
@@ -46,7 +46,7 @@ def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(insta
 
 
 @pytest.mark.parametrize("weights", [(400,), (700,), (400, 700), (250,)])
-def test_matplotlib_has_nothing_to_say(weights, installed, caplog, tmp_path):
+def test_matplotlib_emits_no_font_warning(weights, installed, caplog, tmp_path):
     """F5: no line "findfont: failed to find font weight" and no warning, whatever weights there are and a text asks for."""
     installed(*(entry("Noto Sans CJK JP", weight) for weight in weights))
     with use_locale("ja"), caplog.at_level(logging.INFO, "matplotlib"), warnings.catch_warnings():
@@ -68,7 +68,7 @@ class BareSystem(FontManager):
         self.ttflist = [entry for entry in self.ttflist if entry.name == fonts.LATIN]
 
 
-def test_a_font_of_the_package_index_serves_where_the_system_has_none(installed, monkeypatch, tmp_path):
+def test_extra_ja_font_is_used_without_system_font(installed, monkeypatch, tmp_path):
     """The extra `ja`: a Japanese figure on a machine without Japanese fonts, and no word about them."""
     installed()
     monkeypatch.setattr(fonts, "FontManager", BareSystem)
@@ -78,7 +78,7 @@ def test_a_font_of_the_package_index_serves_where_the_system_has_none(installed,
     assert "fonts-noto-cjk" not in answer.stderr
 
 
-def test_without_a_font_the_figure_is_english_and_one_line_says_so(tmp_path, monkeypatch):
+def test_figure_without_font_is_english_with_one_warning(tmp_path, monkeypatch):
     """The figure is written all the same, and what is printed stays Japanese."""
     monkeypatch.setattr(fonts, "japanese_font", lambda: None)
     answer = CliRunner().invoke(main, ["jump", "--component", "EW", "--lang", "ja", "--plot", str(tmp_path / "jump.svg")])
@@ -90,7 +90,7 @@ def test_without_a_font_the_figure_is_english_and_one_line_says_so(tmp_path, mon
         assert fonts.build_localized(lambda: style.new_figure(1, title=fonts.get_locale())[0]).locale == "en"
 
 
-def test_a_japanese_name_on_an_english_figure_gets_its_font():
+def test_japanese_name_on_english_figure_uses_japanese_font():
     """Letters that DejaVu lacks are looked for; the others stay as they are."""
     if fonts.japanese_font() is None:
         pytest.skip("no Japanese font is installed")
@@ -104,7 +104,7 @@ def test_a_japanese_name_on_an_english_figure_gets_its_font():
 NAME = r"A$B_{$\frac$C^"
 
 
-def test_a_dollar_sign_begins_no_formula(tmp_path):
+def test_dollar_sign_starts_no_mathtext(tmp_path):
     """R15: station, file and stone names are drawn as they are: in titles, legends, notes and along an axis."""
     figure, (axis,) = style.new_figure(1, title=NAME)
     axis.barh([NAME, "b"], [1.0, 2.0], label=NAME)
@@ -117,7 +117,7 @@ def test_a_dollar_sign_begins_no_formula(tmp_path):
     assert axis.get_yticklabels()[0].get_text() == NAME
 
 
-def test_powers_of_ten_along_an_axis_stay_formulas():
+def test_powers_of_ten_on_axes_stay_mathtext():
     """What matplotlib itself writes as mathematics is drawn as mathematics."""
     figure, (axis,) = style.new_figure(1)
     axis.loglog([1, 1e6], [1, 1e6])
@@ -126,7 +126,7 @@ def test_powers_of_ten_along_an_axis_stay_formulas():
     assert label.get_text().startswith("$") and label.get_parse_math()
 
 
-def test_a_file_may_be_called_anything(tmp_path):
+def test_record_name_with_dollar_is_drawn(tmp_path):
     """R15, from the command line: a record whose name is half a formula is measured and drawn."""
     rows = "\n".join(f"{0.01 * i:.2f},{(-1) ** i * 12.5},{i % 7}" for i in range(400))
     record = tmp_path / "a$b_{.csv"
@@ -136,7 +136,7 @@ def test_a_file_may_be_called_anything(tmp_path):
     assert (tmp_path / "out.png").stat().st_size > 10_000
 
 
-def test_names_that_no_font_holds_are_said_in_a_sentence(installed, monkeypatch, tmp_path, recwarn):
+def test_missing_glyphs_give_one_warning(installed, monkeypatch, tmp_path, recwarn):
     """A figure in English with a Japanese name of a stone: one sentence, and no warning of matplotlib's for each letter."""
     monkeypatch.setattr(fonts, "FONT_PACKAGE", "no_such_package_of_fonts")
     monkeypatch.setattr(fonts, "FontManager", lambda: fontManager)

@@ -69,7 +69,7 @@ def japanese(tmp_path, monkeypatch):
         ({}, None, "en"),
     ],
 )
-def test_language(environment, asked, expected, monkeypatch):
+def test_locale_option_precedes_environment(environment, asked, expected, monkeypatch):
     """The option prevails, then LC_ALL, LC_MESSAGES, LANG."""
     for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
         monkeypatch.delenv(name, raising=False)
@@ -91,12 +91,12 @@ def test_language(environment, asked, expected, monkeypatch):
         (["--lang", "xx"], None),
     ],
 )
-def test_a_command_line_says_its_language_before_it_is_parsed(line, expected):
+def test_lang_option_is_read_before_parsing(line, expected):
     """So that its errors are told in it; what click will refuse asks for nothing."""
     assert requested_locale(line) == expected
 
 
-def test_what_was_said_is_english_until_it_is_told(japanese):
+def test_message_is_english_until_translated(japanese):
     """The text is a string that documents, comparisons and copies treat like any other, and that goes on knowing its template."""
     text = lazy_gettext("{name} falls", name="A")
     assert text == "A falls" and json.dumps([text]) == '["A falls"]' and str(text) == "A falls"
@@ -105,7 +105,7 @@ def test_what_was_said_is_english_until_it_is_told(japanese):
         assert isinstance(twin, Message) and twin == text and gettext(twin) == "Aは転倒"
 
 
-def test_a_text_inside_a_text_is_told_along_with_it(japanese):
+def test_nested_messages_are_translated(japanese):
     """Values keep their format; texts that were said are translated, those that were not stay; lists are listed."""
     inner = lazy_gettext("{name} falls", name=N_("stone"))
     assert gettext("{name}, after {time:.2f} s: {what}", name=("stone", gettext("stone")), time=1.234, what=inner) == (
@@ -113,13 +113,13 @@ def test_a_text_inside_a_text_is_told_along_with_it(japanese):
     )
 
 
-def test_what_no_catalogue_holds_stays(japanese):
+def test_unknown_message_stays_english(japanese):
     """An unknown template is filled in all the same; braces without values are no fields; nothing is nothing."""
     assert gettext("{name} stands", name="A") == "A stands" and gettext("{x}") == "{x}" and gettext("") == ""
     assert gettext("not translated yet") == "not translated yet"
 
 
-def test_compiled_and_written_catalogues_agree(japanese):
+def test_compiled_and_source_catalogues_agree(japanese):
     """A tree without compiled catalogues speaks as an installation does; the newer of the two counts."""
     texts = ["{name} falls", "{name}, after {time:.2f} s: {what}", "stone", "not translated yet", "unknown", ""]
     written = [i18n._load_catalogue("ja")(text) for text in texts]
@@ -130,7 +130,7 @@ def test_compiled_and_written_catalogues_agree(japanese):
     assert [i18n._load_catalogue("ja")(text) for text in texts] == written
 
 
-def test_the_languages_bundled_are_read_alike_by_babel():
+def test_catalogue_reader_equals_babel():
     """The small reader of written catalogues finds in ours what babel finds."""
     path = i18n.LOCALE_DIR / "ja" / "LC_MESSAGES" / "seisblock.po"
     with path.open("rb") as stream:
@@ -138,7 +138,7 @@ def test_the_languages_bundled_are_read_alike_by_babel():
     assert dict(i18n._read_po(path)) == expected
 
 
-def test_errors_remember_what_they_said(japanese):
+def test_errors_are_translatable_and_picklable(japanese):
     """The message is English for a traceback, told by the command line, and survives the way to another process."""
     error = RecordNotFoundError("{name} falls", name="A")
     assert isinstance(error, FileNotFoundError) and str(error) == "A falls" and gettext(error.message) == "Aは転倒"
@@ -149,7 +149,7 @@ def test_errors_remember_what_they_said(japanese):
     assert all(issubclass(kind, SeisblockError) for kind in (BodyError, OutputError))
 
 
-def test_texts_of_files_cannot_command_a_terminal():
+def test_messages_escape_control_characters():
     """R16: control characters in names and headers are spelt out, wherever such a text is filled in; letters of all scripts stay."""
     hostile = "KMM\x1b]0;owned\x07\x9b31m\r"
     assert escape_control(hostile) == "KMM\\x1b]0;owned\\x07\\x9b31m\\r"
@@ -158,13 +158,13 @@ def test_texts_of_files_cannot_command_a_terminal():
     assert str(BodyError("{name}", name=hostile)).isprintable()
 
 
-def test_errors_of_a_command_line_are_harmless_on_a_terminal():
+def test_command_line_errors_escape_control_characters():
     """A name with escapes in it comes back spelt out."""
     answer = CliRunner().invoke(main, ["measure", "no\x1b[31mfile"])
     assert answer.exit_code == 3 and "\x1b" not in answer.stderr and "\\x1b[31m" in answer.stderr
 
 
-def test_english_loads_no_catalogue():
+def test_english_locale_loads_no_catalogue():
     """The start costs nothing: gettext's catalogues are opened when another language is spoken."""
     i18n._load_catalogue.cache_clear()
     with use_locale("en"):
@@ -172,7 +172,7 @@ def test_english_loads_no_catalogue():
     assert i18n._load_catalogue.cache_info().currsize == 0
 
 
-def test_the_language_ends_with_its_block_and_its_command():
+def test_use_locale_is_restored_after_block_and_command():
     """A command line in Japanese leaves nothing behind, not even in click's own words."""
     import gettext
     import os
@@ -184,7 +184,7 @@ def test_the_language_ends_with_its_block_and_its_command():
     assert "Show this message and exit." in english
 
 
-def test_the_catalogue_is_where_the_package_says():
+def test_catalogue_path_exists():
     """The file that translators edit."""
     assert Path(i18n.LOCALE_DIR, "ja", "LC_MESSAGES", "seisblock.po").is_file()
 
@@ -193,7 +193,7 @@ def test_the_catalogue_is_where_the_package_says():
     ("direction", "sentence"),
     [("30", "25.90 秒に方位 30° 側へ転倒"), ("EW", "25.90 秒に +EW 側へ転倒")],
 )
-def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
+def test_japanese_spacing_beside_latin_letters(direction, sentence):
     """The same template takes an azimuth, whose name is Japanese, without a blank before it, and a component with one."""
     with use_locale("ja"):
         assert gettext("overturns to {side} at {time:.2f} s", side=direction_label(direction, 1.0), time=25.9) == sentence
@@ -209,7 +209,7 @@ def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
         ("uplift {time:.2f} s (first)", {"time": 35.46}, "浮き上がり 35.46 秒間（最初）"),
     ],
 )
-def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):
+def test_japanese_translations_corrected_earlier(text, values, sentence):
     """Sliding while it rocks is not part of the flight; how long a corner is in the air is not when it lifts."""
     with use_locale("ja"):
         assert gettext(text, **values) == sentence
@@ -222,7 +222,7 @@ def test_join_clauses_uses_the_separator_of_the_language(lang, text):
         assert join_clauses(text.replace("; ", "、").split("、")) == text
 
 
-def test_what_another_thread_says_is_in_the_language_of_the_command():
+def test_threads_use_locale_of_command():
     """Kernels are compiled in threads that know nothing of ``--lang``."""
     with use_locale("ja"):
         told = bind_locale()

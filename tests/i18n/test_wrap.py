@@ -15,7 +15,7 @@ TEXT = "記録の終了後に、北へ 12.5 cm 移動した（最大 14.0 cm）�
 
 
 @given(st.text(alphabet="ab1 .漢字かなー、。（）「」", max_size=60), st.integers(8, 40))
-def test_no_line_is_wider_than_asked(text, width):
+def test_wrapped_lines_fit_width(text, width):
     """Nothing is lost but blanks at the ends of lines, and a line is wider only where a single word is."""
     lines = wrap_text(text, width)
     assert "".join("".join(lines).split()) == "".join(text.split())
@@ -24,12 +24,12 @@ def test_no_line_is_wider_than_asked(text, width):
 
 
 @pytest.mark.parametrize("width", range(12, 60))
-def test_no_line_begins_with_a_closing_mark(width):
+def test_wrapped_lines_obey_kinsoku(width):
     """Kinsoku: commas, full stops and closing brackets stay with what they close."""
     assert all(found[0] not in _CLOSING_PUNCTUATION for found in wrap_text(TEXT, width))
 
 
-def test_columns_are_those_of_the_terminal_library():
+def test_character_width_equals_rich():
     """The table of wide letters agrees with rich's for everything that a catalogue may hold; it holds no combining marks."""
     for start, end in ((0x20, 0x250), (0x370, 0x400), (0x2000, 0x2070), (0x3000, 0x3100), (0x3200, 0xA000), (0xFF01, 0xFF60)):
         letters = [chr(code) for code in range(start, end) if chr(code).isprintable() and not unicodedata.combining(chr(code))]
@@ -46,7 +46,7 @@ def shown(*parts, width=80):
     return screen.file.getvalue()
 
 
-def test_the_console_breaks_japanese_between_letters():
+def test_console_breaks_japanese_between_characters():
     """A sentence fills its lines, alone or with others, but for what is not broken: at most a number with its unit and what closes it."""
     lines = shown(styled_line(TEXT * 2), width=40).splitlines()
     longest = cell_len(" 14.0 cm）。")
@@ -56,13 +56,13 @@ def test_the_console_breaks_japanese_between_letters():
 
 
 @pytest.mark.parametrize("width", range(30, 60))
-def test_an_indented_sentence_loses_no_letter(width):
+def test_wrapped_indented_sentence_is_complete(width):
     """Blanks at the head of a line take room, too: nothing is cut off at the edge of the terminal."""
     told = shown(styled_line("  " + TEXT * 2), width=width)
     assert "".join(told.split()) == "".join((TEXT * 2).split())
 
 
-def test_data_neither_marks_up_nor_commands():
+def test_console_escapes_markup_and_control_characters():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"
     told = shown(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)

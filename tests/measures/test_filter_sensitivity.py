@@ -27,13 +27,13 @@ def burst(f0, cycles=8.0, length=200.0):
     return 3.0 * np.cos(2 * math.pi * f0 * t) * np.exp(-((t * f0 / cycles) ** 2))
 
 
-def test_a_quick_motion_does_not_care():
+def test_short_period_motion_is_insensitive_to_filter():
     """A burst of 2 Hz is far from every corner: nothing to tell."""
     wave = burst(2.0)
     assert filter_range(wave, DT, np.abs(wave).max(), pgv(wave)) is None
 
 
-def test_a_slow_motion_does():
+def test_long_period_motion_is_sensitive_to_filter():
     """A burst of 0.1 Hz keeps half its velocity at 0.1 Hz without delay and 0.71 forwards only; f moves the other way."""
     wave = burst(0.1, cycles=3.0, length=400.0)
     found = filter_range(wave, DT, np.abs(wave).max(), pgv(wave))
@@ -45,14 +45,14 @@ def test_a_slow_motion_does():
     assert found.pga_pgv_hz == pytest.approx((top / (2 * math.pi * expected[-1]), top / (2 * math.pi * expected[0])), rel=1e-12)
 
 
-def test_nothing_moves_where_there_is_no_motion():
+def test_filter_sensitivity_of_zero_motion_is_none():
     """Zero, and a constant that is all offset, have no PGV, no frequency and no range."""
     assert filter_range(np.zeros(1000), DT, 0.0, 0.0) is None
     still = measure(Record((Component("NS", np.full(6000, 0.5)),), DT))
     assert [(m.pgv_m_s, m.equivalent_frequency_hz.pga_pgv, m.usual_highpass) for m in still.components] == [(0.0, None, None)]
 
 
-def test_measure_says_it(monkeypatch):
+def test_measure_reports_filter_sensitivity(monkeypatch):
     """EW of the sample: 183 to 237 kine, 0.65 to 0.84 Hz, in the table and in the document with units in the keys."""
     monkeypatch.setenv("COLUMNS", "200")
     assert (
@@ -67,7 +67,7 @@ def test_measure_says_it(monkeypatch):
     assert found["pga_pgv_hz"] == pytest.approx([0.648, 0.836], abs=0.001)
 
 
-def test_the_rate_of_a_cemetery_moves_too(monkeypatch):
+def test_overturn_rate_reports_filter_sensitivity(monkeypatch):
     """El Centro: a third of Aoyama's stones with one filter, a fifth with another; a frequency that is given does not move."""
     monkeypatch.setenv("COLUMNS", "200")
     words = ["overturn-rate", "--cemetery", "aoyama.csv", "elcentro_1940_ns.csv"]
@@ -79,7 +79,7 @@ def test_the_rate_of_a_cemetery_moves_too(monkeypatch):
     assert (given["usual_highpass"], given["rate_range"]) == (None, None)
 
 
-def test_a_record_shorter_than_the_corner_period_is_told():
+def test_record_shorter_than_corner_period_warns():
     """Five seconds cannot hold a corner period of twenty: what PGV then rests on is said."""
     record = read("elcentro_1940_ns.csv")
     assert any("shorter than the corner period" in text for text in measure(crop(record, 1.0, 6.0)).warnings)

@@ -60,7 +60,7 @@ def refused(path, says):
     assert not isinstance(caught.value, RecordFormatError)
 
 
-def test_a_hole_is_no_record(tmp_path):
+def test_sparse_tar_member_is_skipped(tmp_path):
     """A sparse member of 12 GB in a tar of 2 KB is passed over."""
     path = tmp_path / "sparse.tar"
     path.write_bytes(sparse_tar(12_000_000_000))
@@ -68,7 +68,7 @@ def test_a_hole_is_no_record(tmp_path):
         read(path)
 
 
-def test_declared_sizes_come_first(tmp_path, small):
+def test_declared_member_size_is_checked_first(tmp_path, small):
     """A member that says it is too large is not unpacked; the message names the number, the limit and the variable that lifts it."""
     small(mib=2)
     path = tmp_path / "large.zip"
@@ -79,7 +79,7 @@ def test_declared_sizes_come_first(tmp_path, small):
 
 
 @pytest.mark.parametrize("packer", [gzip, bz2, lzma])
-def test_a_size_that_is_a_lie_is_noticed(packer, tmp_path, small):
+def test_unpacked_bytes_are_counted(packer, tmp_path, small):
     """What is unpacked is counted, whatever was declared."""
     small(mib=1)
     path = tmp_path / "bomb.csv.gz"
@@ -87,7 +87,7 @@ def test_a_size_that_is_a_lie_is_noticed(packer, tmp_path, small):
     refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_READ_MIB")
 
 
-def test_one_budget_for_all_that_is_nested(tmp_path, small):
+def test_nested_archives_share_one_limit(tmp_path, small):
     """Four archives of 0.6 MiB each exceed 2 MiB together, however they are packed."""
     small(mib=2)
     inner = {f"{i}.csv.gz": gzip.compress(b"%d\n" % i * 300_000) for i in range(4)}
@@ -96,7 +96,7 @@ def test_one_budget_for_all_that_is_nested(tmp_path, small):
     refused(path, "the limit of 2 MiB")
 
 
-def test_nesting_and_members_have_limits(tmp_path, small):
+def test_nesting_depth_and_member_count_are_limited(tmp_path, small):
     """An archive in an archive in an archive, and more files than anyone packs."""
     small(nesting=3, members=50)
     data = tar({"a.NS": knet().encode()})
@@ -113,7 +113,7 @@ def test_nesting_and_members_have_limits(tmp_path, small):
     refused(path, "51 files, more than the limit of 50; set SEISBLOCK_READ_MEMBERS")
 
 
-def test_samples_have_a_limit(tmp_path, small):
+def test_sample_count_is_limited(tmp_path, small):
     """More samples than are wanted are refused by their number."""
     small(samples=5)
     path = tmp_path / "a.csv"
@@ -122,21 +122,21 @@ def test_samples_have_a_limit(tmp_path, small):
 
 
 @pytest.mark.parametrize("text", ["-1", "0", "lots", "1.5", "٣"])
-def test_a_limit_is_a_whole_number(monkeypatch, text):
+def test_limit_variable_requires_integer(monkeypatch, text):
     """Anything else is named."""
     monkeypatch.setenv("SEISBLOCK_READ_MIB", text)
     with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive integer, found"):
         read("synthetic_jma.csv")
 
 
-def test_devices_are_no_records():
+def test_devices_are_rejected():
     """/dev/zero and /dev/null are refused at once."""
     for device in ("/dev/zero", "/dev/null"):
         with pytest.raises(RecordError, match="is a device: give a file"):
             read(device)
 
 
-def test_an_endless_pipe_ends(tmp_path, small):
+def test_endless_pipe_is_read_up_to_limit(tmp_path, small):
     """What comes out of a pipe is read as far as the budget goes."""
     small(mib=1)
     pipe = tmp_path / "pipe"
@@ -148,7 +148,7 @@ def test_an_endless_pipe_ends(tmp_path, small):
         writer.wait()
 
 
-def test_a_zip_that_lost_a_byte(tmp_path):
+def test_zip_with_missing_byte_gives_record_or_input_error(tmp_path):
     """Every byte that may be missing from a zip gives one sentence or the record."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
@@ -162,7 +162,7 @@ def test_a_zip_that_lost_a_byte(tmp_path):
             assert "a.zip" in str(error)
 
 
-def test_the_standard_input_is_a_record():
+def test_measure_reads_standard_input():
     """``seisblock measure -`` reads what is piped in, whatever its format."""
     data = (JMA_HEADER + JMA_BODY).encode("cp932")
     found = CliRunner().invoke(main, ["measure", "-", "--json", "--quiet"], input=data)
@@ -172,7 +172,7 @@ def test_the_standard_input_is_a_record():
     assert (empty.exit_code, "standard input: empty file" in empty.stderr) == (3, True)
 
 
-def test_a_table_goes_to_stdout():
+def test_csv_to_stdout_writes_table_only():
     """``--csv -`` writes the table to stdout and nothing else; what would also go there is refused."""
     found = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", "--quiet", "--component", "NS"])
     assert found.stdout.splitlines()[0] == "time_s,NS_acceleration_m_s2,NS_velocity_m_s,NS_displacement_m"
@@ -183,7 +183,7 @@ def test_a_table_goes_to_stdout():
         assert "writes to stdout, which takes one output: omit" in both.stderr
 
 
-def test_all_stations_of_a_bundle(tmp_path):
+def test_station_all_gives_record_per_station(tmp_path):
     """``--station all`` gives a record for each station; one record of several stations is refused."""
     files = {}
     for station, time in (("NIG019", "2004/10/23 17:56:20"), ("NIG017", "2004/10/23 17:56:25")):

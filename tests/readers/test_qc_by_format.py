@@ -65,7 +65,7 @@ def noticed(data, kind, tmp_path):
 
 @pytest.mark.parametrize("damage", SAMPLES_DAMAGED)
 @pytest.mark.parametrize("kind", WRITERS)
-def test_samples(kind, damage, tmp_path):
+def test_sample_defects_are_flagged_in_every_format(kind, damage, tmp_path):
     """Flat peaks, lone spikes, gaps filled with zeros or the last value, offsets, more than 5 g."""
     data = WRITERS[kind](changed(SAMPLES_DAMAGED[damage])(ROWS))
     found = noticed(data, kind, tmp_path)
@@ -114,7 +114,7 @@ TEXTS = sorted(set(WRITERS) - {"mseed", "sac", "tar", "tar.gz", "zip"})
 
 @pytest.mark.parametrize("damage", LINES_DAMAGED)
 @pytest.mark.parametrize("kind", TEXTS)
-def test_lines(kind, damage, tmp_path):
+def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
     """A count against the header, a clock that stumbles, seconds that are not whole, an end without an end of line."""
     found = noticed(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
     assert bool(found - {"directions"}) != ((kind, damage) in SILENT | BARE), found
@@ -122,7 +122,7 @@ def test_lines(kind, damage, tmp_path):
 
 @pytest.mark.parametrize("kind", ["mseed", "sac", "tar", "tar.gz", "zip"])
 @pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.99])
-def test_a_binary_file_that_is_cut(kind, share, tmp_path):
+def test_truncated_binary_file_is_flagged(kind, share, tmp_path):
     """A download that stopped; zeros behind the last member of a tar are nobody's loss."""
     data = WRITERS[kind](ROWS).rstrip(b"\0" if kind == "tar" else b"")
     assert noticed(data[: int(share * len(data))], kind, tmp_path) - {"directions"}
@@ -133,14 +133,14 @@ TWICE = {"jma": (b"NS,EW,UD", b"NS,NS,UD"), "knet-csv": (b",N-S(gal),E-W(gal)", 
 
 
 @pytest.mark.parametrize("kind", TWICE)
-def test_two_columns_of_one_name(kind, tmp_path):
+def test_duplicate_columns_are_rejected_in_every_format(kind, tmp_path):
     """None of them is believed."""
     data, (name, other) = WRITERS[kind](ROWS), TWICE[kind]
     assert name in data
     assert noticed(data.replace(name, other), kind, tmp_path) == {"refused"}
 
 
-def test_a_jma_record_of_no_whole_seconds(tmp_path):
+def test_jma_record_without_whole_seconds_is_flagged(tmp_path):
     """JMA publishes whole seconds: 599 samples at 100 Hz have lost one."""
     lines = WRITERS["jma"](ROWS).splitlines(keepends=True)
     assert noticed(b"".join(lines[:-1]), "jma", tmp_path) == {"count"}

