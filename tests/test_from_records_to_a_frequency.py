@@ -32,7 +32,7 @@ def told(folder, name):
 
 
 @pytest.mark.slow
-def test_the_lines_lead_to_a_frequency(folder):
+def test_tutorial_commands_give_frequency(folder):
     """On an upper floor the bookcase overturns under weaker ground motion, and more often; its warnings name the ground motion."""
     here, upstairs = told(folder, "bookcase"), told(folder, "upstairs")
     assert here["im"] == upstairs["im"] == "pgv" and here["records"] == 12
@@ -44,7 +44,7 @@ def test_the_lines_lead_to_a_frequency(folder):
 
 
 @pytest.mark.slow
-def test_the_files_are_there(folder):
+def test_tutorial_files_exist(folder):
     """Thirty-six of K-NET, two figures, and those of other programs."""
     assert len(list((folder / "knet").iterdir())) == 36
     assert all((folder / name).stat().st_size > 0 for name in ("bookcase.png", "risk.png", "shelf.csv", "shelf.json", "shelf.xml"))

@@ -57,13 +57,13 @@ def kept(folder):
     return {path.name: path.read_bytes() for path in folder.rglob("*.nb[ci]")}
 
 
-def test_only_the_kernels_that_python_calls_are_kept(filled):
+def test_cache_keeps_entry_kernels_only(filled):
     """Of the ten that :func:`first_crossing` calls nothing is compiled or written but what it holds itself."""
     assert sorted({name.split("-")[0] for name in kept(filled)}) == ["polynomial.evaluate", "polynomial.first_crossing"]
 
 
 @pytest.mark.slow
-def test_a_process_reads_only_the_kernels_that_python_calls(folder):
+def test_process_loads_entry_kernels_only(folder):
     """Machine code of a kernel holds that of the kernels it calls: with everything in the cache, two of them are made."""
     counted = (
         f"{SCRIPT}import gc; from seisblock._jit.lazy import LazyKernel\n"
@@ -74,7 +74,7 @@ def test_a_process_reads_only_the_kernels_that_python_calls(folder):
     assert done.stdout.splitlines() == [*ANSWER[SCRIPT], "evaluate first_crossing"]
 
 
-def test_a_second_process_compiles_nothing(folder):
+def test_second_process_compiles_nothing(folder):
     """What one process compiled the next one finds, in silence, and leaves as it is."""
     before = kept(folder)
     assert len(before) == 4
@@ -82,7 +82,7 @@ def test_a_second_process_compiles_nothing(folder):
     assert kept(folder) == before
 
 
-def test_kernels_that_another_command_left_out_are_announced(folder):
+def test_missing_kernels_are_announced_once(folder):
     """A folder that holds some kernels is no reason to compile the others in silence; it is said once."""
     for path in folder.rglob("polynomial.first_crossing*"):
         path.unlink()
@@ -109,7 +109,7 @@ SPOILT = {
     ids=SPOILT,
 )
 @pytest.mark.parametrize("suffix", ["nbc", pytest.param("nbi", marks=pytest.mark.slow)])
-def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
+def test_damaged_cache_file_is_recompiled(folder, suffix, spoil, script):
     """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, the next run finds them whole."""
     for path in folder.rglob(f"*.{suffix}"):
         path.write_bytes(SPOILT[spoil](path.read_bytes()))
@@ -118,7 +118,7 @@ def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
     assert answers(folder, script) == []
 
 
-def test_a_full_disk_is_no_reason_to_stop(tmp_path):
+def test_full_disk_compiles_for_this_run(tmp_path):
     """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
     said = answers(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
     assert said[0] == "compiling kernels (first run only, up to 30 s)..."
@@ -126,7 +126,7 @@ def test_a_full_disk_is_no_reason_to_stop(tmp_path):
 
 
 @pytest.mark.parametrize("where", all_but_slow(["file", "file/below"], {"file/below"}))
-def test_a_folder_that_cannot_be_made_is_no_reason_to_stop(tmp_path, where):
+def test_unusable_cache_folder_compiles_for_this_run(tmp_path, where):
     """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
     (tmp_path / "file").touch()
     said = answers(tmp_path / where, ONE)
@@ -135,7 +135,7 @@ def test_a_folder_that_cannot_be_made_is_no_reason_to_stop(tmp_path, where):
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="to root nothing is read-only")
-def test_a_read_only_folder_is_no_reason_to_stop(folder):
+def test_read_only_cache_folder_compiles_for_this_run(folder):
     """A folder of somebody else's is left alone."""
     for path in [folder, *folder.rglob("*")]:
         path.chmod(0o555 if path.is_dir() else 0o444)
@@ -173,7 +173,7 @@ print(seen["one"], seen["two"], numba.config.CACHE_DIR == before)
 """Two threads that want to be inside at the same time: each waits half a second for the other one."""
 
 
-def test_two_threads_keep_their_kernels_where_each_says():
+def test_threads_use_separate_cache_folders():
     """Kernels of one thread were kept beside the sources, or in the working directory, when another one had just finished."""
     done = subprocess.run([sys.executable, "-c", RACE], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["one", "two", "True"]

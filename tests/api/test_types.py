@@ -81,7 +81,7 @@ def told(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_a_right_script_has_true_types(told):
+def test_correct_script_passes_mypy(told):
     """Nothing is refused, and no public name is Any."""
     lines = SCRIPT.splitlines()
     asked = {number: line.rpartition("  # ")[2] for number, line in enumerate(lines, 1) if "reveal_type" in line}
@@ -94,7 +94,7 @@ def test_a_right_script_has_true_types(told):
 
 
 @pytest.mark.slow
-def test_what_is_wrong_is_refused(told):
+def test_mypy_rejects_wrong_names_and_types(told):
     """A misspelt name, option or field, the wrong order and a record for a motion are found before the script runs."""
     first = HEAD.count("\n") + 1
     for number, (line, expected) in enumerate(WRONG.items(), first):
@@ -102,7 +102,7 @@ def test_what_is_wrong_is_refused(told):
 
 
 @pytest.mark.parametrize("stub", STUBS, ids=lambda path: path.parent.relative_to(ROOT).as_posix())
-def test_stubs_are_true(stub):
+def test_stubs_match_the_package(stub):
     """What a stub promises can be imported, is listed once in its order, and is what the package lists."""
     tree = ast.parse(stub.read_text(encoding="utf-8"))
     names = [alias.name for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names]

@@ -18,7 +18,7 @@ from seisblock.models.respond.model import RESPOND
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import strong_motion
-from tests.solvers.respond.cases import leaning
+from tests.models.respond.cases import leaning
 
 SAMPLES = 10_000
 WEAK = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01, vertical=0.2 * np.sin(0.11 * np.arange(SAMPLES)))
@@ -54,30 +54,30 @@ def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     bound(benchmark, nanoseconds * 1e-9 * samples)
 
 
-def test_a_sample_of_rocking(benchmark):
+def test_respond_rocking_per_sample(benchmark):
     """At most 400 ns per sample, with vertical motion, energies and friction's limits."""
     block = from_slenderness(0.25, 2.14)
     one_mode(benchmark, block, WEAK, leaning(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
 
 
-def test_a_sample_of_sliding_while_rocking(benchmark):
+def test_respond_slide_rocking_per_sample(benchmark):
     """At most 400 ns per sample; the block is so large that one swing lasts half a minute."""
     block = Block(240.0, 2400.0)
     one_mode(benchmark, block, WEAK, leaning(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
 
 
-def test_a_sample_of_sliding(benchmark):
+def test_respond_sliding_per_sample(benchmark):
     """At most 200 ns per sample, energies and path included."""
     motion = Motion.from_arrays(2.0 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
     one_mode(benchmark, Block(1.0, 1.0), motion, None, "slide", 200.0, mu=0.05)
 
 
-def test_a_sample_of_flight(benchmark):
+def test_respond_flight_per_sample(benchmark):
     """At most 400 ns per sample, spinning."""
     one_mode(benchmark, Block(1.0, 1.0), WEAK, (0.0, 60_000.0, 0.0, 0.0, 0.0, 0.01), "flight", 400.0, mu=0.05)
 
 
-def test_a_sample_at_rest(benchmark):
+def test_respond_rest_per_sample(benchmark):
     """At most 10 ns per sample, as the other models pass over them."""
     one_mode(benchmark, Block(1.0, 1.0), WEAK, None, "rest", 10.0, mu=0.5)
 
@@ -93,7 +93,7 @@ def versions(block, n=200):
     ]
 
 
-def test_a_probability(benchmark):
+def test_respond_probability_of_200_samples(benchmark):
     """200 versions of a cabinet under 60 s of strong motion at 100 Hz, on to their rest: at most 1.5 s on two threads."""
     motion = strong_minute()
     settings = versions(Block(0.45, 1.4))
@@ -104,7 +104,7 @@ def test_a_probability(benchmark):
     bound(benchmark, 1.5)
 
 
-def test_a_whole_answer(benchmark):
+def test_solve_respond_of_60_s(benchmark):
     """Channels, events, outcome and sensitivity of one block under 60 s of strong motion: at most 0.1 s."""
     motion = strong_minute()
     response = benchmark(solve_respond, Block(0.45, 1.4), motion, mu=0.4)
@@ -121,7 +121,7 @@ def warm(*words):
 
 
 @pytest.mark.slow
-def test_a_warm_command(benchmark):
+def test_respond_command_with_warm_cache(benchmark):
     """From the shell, kernels compiled before, `respond` with 200 versions of two components costs less than twice what `slide` does."""
     words = ("respond", "--width", "45cm", "--height", "180cm", "--mu", "0.3")
     spent = []
@@ -140,7 +140,7 @@ def test_a_warm_command(benchmark):
         assert min(spent) < 2.0 * base
 
 
-def test_faster_than_mujoco(benchmark):
+def test_respond_is_faster_than_mujoco(benchmark):
     """At least 50 times faster than MuJoCo at its 1 ms step, one block, measured in one run."""
     mujoco = pytest.importorskip("mujoco")
     motion = strong_minute()

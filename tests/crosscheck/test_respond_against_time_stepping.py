@@ -25,7 +25,7 @@ CLOSE = 1e-3
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_verdict_and_displacement(seed):
+def test_respond_outcome_and_displacement_equal_time_stepping(seed):
     """The same verdict and side, at the same time; the same final and largest displacement, the same largest lean."""
     case = plain(some_case(seed))
     ours = program(case)
@@ -41,7 +41,7 @@ def test_verdict_and_displacement(seed):
         assert outcome.max_rotation_rad == pytest.approx(lean, abs=CLOSE * lean + 2 * STEP)
 
 
-def test_slip_that_turns_within_an_impact():
+def test_slip_reversal_within_impact_differs_as_explained():
     """The difference that is left: Moreau's impulse throws the slipping corner back less fast than Routh's path, which is the program's.
 
     Friction opposes the slip before and then the one after on the path, only the latter in the impulse.

@@ -51,13 +51,13 @@ def theirs(body, hertz):
 
 
 @pytest.mark.parametrize("hertz", [1.0, 1.5, 2.0])
-def test_one_block(hertz):
+def test_stack_threshold_of_one_block_equals_mujoco(hertz):
     """Threshold amplitudes of one block agree within 1 %, half of which is how closely they are sought."""
     assert ours(BLOCK, hertz) == pytest.approx(theirs(BLOCK, hertz), rel=0.01)
 
 
 @pytest.mark.parametrize(("mu", "hertz"), [(0.438, 1.0), (0.8, 1.0), (0.8, 1.5), (0.8, 2.0)])
-def test_the_pile(mu, hertz):
+def test_stack_threshold_of_pile_equals_mujoco(mu, hertz):
     """Threshold amplitudes of the pile agree within 2 %, where friction carries what shaking asks for.
 
     With the paper's 0.438 the stones slide at 1.5 and 2 Hz, and MuJoCo's softened friction has not converged: its own threshold goes
@@ -86,7 +86,7 @@ def our_fate(body, motion, step=None):
 @pytest.mark.parametrize("pga", [4.2, 5.2])
 @pytest.mark.parametrize("hertz", [1.5, 2.0, 2.5, 3.0])
 @pytest.mark.parametrize("body", [replace(BLOCK, mu=0.8), THREE], ids=["one", "three"])
-def test_sixteen_shakings_along_three_axes(body, hertz, pga):
+def test_stack_falls_and_displacements_equal_mujoco(body, hertz, pga):
     """The same stone falls, or none; then the greatest displacement is within 4 % at the default step, and 3 % at one of 0.2 ms."""
     from tests.crosscheck.mujoco_pile import fate
 

@@ -86,7 +86,7 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_any_line_is_answered_or_refused_in_a_sentence(command, seeds, folder):
+def test_random_command_line_gives_answer_or_one_error(command, seeds, folder):
     """Whatever stands on it."""
     runner = CliRunner()
     codes = set()

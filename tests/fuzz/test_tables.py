@@ -101,7 +101,7 @@ WHOLE = {
 
 
 @pytest.mark.parametrize("name", WHOLE)
-def test_what_is_damaged_makes_sense_or_is_refused_in_a_sentence(name, seeds, tmp_path):
+def test_damaged_table_gives_valid_data_or_one_error(name, seeds, tmp_path):
     """Bytes lost, cut, repeated and changed, lines swapped."""
     make, makes_sense = WHOLE[name]
     whole = make(tmp_path)

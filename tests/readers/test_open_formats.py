@@ -38,7 +38,7 @@ def written(tmp_path, text, name="record"):
 
 
 @pytest.mark.parametrize("kind", OPEN)
-def test_samples_and_peak_are_those_of_the_header(kind, tmp_path):
+def test_samples_reproduce_header_peak(kind, tmp_path):
     """Every sample to its last digit, the vertical up, no doubt; another peak in the header is one."""
     path = tmp_path / "record"
     path.write_bytes(WRITERS[kind](ROWS))
@@ -66,7 +66,7 @@ def test_samples_and_peak_are_those_of_the_header(kind, tmp_path):
         ("cwa", b"100.011~"),
     ],
 )
-def test_another_peak_is_a_doubt(kind, peak, tmp_path):
+def test_wrong_header_peak_is_flagged(kind, peak, tmp_path):
     """A digit of the header's peak changed is told, with what the samples reach."""
     path = tmp_path / "record"
     data = WRITERS[kind](ROWS)
@@ -76,7 +76,7 @@ def test_another_peak_is_a_doubt(kind, peak, tmp_path):
 
 
 @pytest.mark.parametrize("kind", OPEN)
-def test_station_and_earthquake(kind, tmp_path):
+def test_station_and_earthquake_are_read(kind, tmp_path):
     """Code, name in its own script, coordinates, epicentre, magnitude, origin, and the clock of California."""
     path = tmp_path / "record"
     path.write_bytes(WRITERS[kind](ROWS))
@@ -105,7 +105,7 @@ def test_azimuths_are_kept(tmp_path):
     np.testing.assert_allclose(motion_of(record, "0").horizontal, north, atol=1e-12)
 
 
-def test_down_is_turned_to_up(tmp_path):
+def test_down_component_is_inverted(tmp_path):
     """Samples that are positive down are turned, and the history says so."""
     for text in (
         layouts.smc(ROWS[0], vertical=180),
@@ -118,14 +118,14 @@ def test_down_is_turned_to_up(tmp_path):
         assert any("positive down" in line for line in record.history)
 
 
-def test_volume_2_is_read_for_its_accelerations(tmp_path):
+def test_volume_2_gives_accelerations_only(tmp_path):
     """Velocities and displacements of other lengths lie between the channels and are passed over; V1 in g and V2 in cm/s^2 agree."""
     one, two = (read(written(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
     for code in ("NS", "EW", "UD"):
         np.testing.assert_allclose(one.component(code).acceleration, two.component(code).acceleration, atol=2e-5)
 
 
-def test_files_of_one_channel_find_their_siblings(tmp_path):
+def test_single_channel_file_finds_other_components(tmp_path):
     """One letter of the name tells the component; another station, or another time, under such a name is not taken."""
     for letter, row in zip("NEZ", ROWS, strict=True):
         written(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
@@ -146,7 +146,7 @@ def test_files_of_one_channel_find_their_siblings(tmp_path):
 
 
 @pytest.mark.parametrize("make", [layouts.csmip, None], ids=["CSMIP", "COSMOS"])
-def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
+def test_structure_locations_are_selected_as_stations(make, tmp_path):
     """Channels of a building are no record together: each place is one, and the refusal lists them."""
     rows = [ROWS[0], ROWS[1], ROWS[2], 2.0 * ROWS[0], 2.0 * ROWS[1]]
     places = ("Location: Free field", "Location: Free field", "Location: Free field", "Location: Roof, west", "Location: Roof, west")
@@ -168,7 +168,7 @@ def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
     assert [record.station for record in read_all([path], station="all")] == [f"{code} Free field", f"{code} Roof, west"]
 
 
-def test_channels_of_a_structure_without_a_place_go_by_their_numbers(tmp_path):
+def test_structure_channels_without_location_use_numbers(tmp_path):
     """Two channels in one direction at no place are two stations."""
     path = written(tmp_path, layouts.csmip([ROWS[0], ROWS[1]], names=("90 Deg", "90 Deg")))
     with pytest.raises(ComponentError, match="00001 channel 1, 00001 channel 2"):
@@ -195,13 +195,13 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
         (layouts.esm(ROWS[0], data="VELOCITY"), "header states VELOCITY: use the acceleration file"),
     ],
 )  # fmt: skip
-def test_what_is_no_even_acceleration_is_refused_by_name(text, says, tmp_path):
+def test_files_without_even_accelerations_are_rejected(text, says, tmp_path):
     """One sentence says what the file holds, and which file to take."""
     with pytest.raises(RecordFormatError, match=says):
         read(written(tmp_path, text))
 
 
-def test_units_that_are_no_acceleration_are_refused(tmp_path):
+def test_non_acceleration_units_are_rejected(tmp_path):
     """Volts in COSMOS, and CSMIP's samples in a unit that nobody knows."""
     with pytest.raises(UnitError, match="unknown acceleration unit"):
         read(written(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
@@ -219,13 +219,13 @@ def test_units_that_are_no_acceleration_are_refused(tmp_path):
         (layouts.csmip(ROWS).replace("CHAN  2: 360", "CHAM  2: 360"), "expected a station or a channel"),
     ],
 )  # fmt: skip
-def test_headers_that_cannot_be_read_are_refused_with_their_line(text, says, tmp_path):
+def test_invalid_headers_are_rejected_with_line(text, says, tmp_path):
     """The line, what was expected, what was found."""
     with pytest.raises(RecordError, match=says):
         read(written(tmp_path, text))
 
 
-def test_numbers_that_touch_are_numbers_of_their_own(tmp_path):
+def test_adjacent_fixed_width_numbers_are_separated(tmp_path):
     """Samples of SMC stand without a blank between them; a lost character is found by the length of its line."""
     text = layouts.smc(ROWS[0])
     line = next(line for line in text.splitlines()[28:] if "-" in line[9:71].replace("E-", ""))
@@ -236,7 +236,7 @@ def test_numbers_that_touch_are_numbers_of_their_own(tmp_path):
 
 
 @pytest.mark.parametrize(("name", "start"), [("hanmer_springs_2016", "2016-11-13T11:02:20"), ("shafter_1989", "1989-10-18T00:04:00")])
-def test_bundled_recordings_are_read_to_their_headers_peak(name, start):
+def test_bundled_recordings_reproduce_header_peak(name, start):
     """GeoNet's Hanmer Springs and the Shafter record of the USGS: no doubt about their headers, the peaks that the manifest tells."""
     record = read(name)
     told = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))

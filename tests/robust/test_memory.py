@@ -88,7 +88,7 @@ def resident():
 
 
 @pytest.mark.skipif(sys.platform != "linux" or not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the heap of another library")
-def test_what_is_free_under_a_block_that_is_not_is_given_back():
+def test_trim_heap_returns_free_memory():
     """As obspy's decoder leaves it: 40 MB in small blocks, freed but for the topmost."""
     libc = ctypes.CDLL(None)
     libc.malloc.restype, libc.free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
@@ -104,7 +104,7 @@ def test_what_is_free_under_a_block_that_is_not_is_given_back():
     assert given > 30e6
 
 
-def test_a_long_record_leaves_nothing_of_its_reading_behind(tmp_path, monkeypatch):
+def test_reading_long_record_returns_memory(tmp_path, monkeypatch):
     """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
     told = []
     monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: told.append(samples))
@@ -140,7 +140,7 @@ def test_memory_per_sample_of_measure():
 
 
 @pytest.mark.parametrize("samples", [2**18, 2**18 + 5, 3**11 * 5, 2 * 131101], ids=str)
-def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
+def test_intensity_is_independent_of_transform_order(samples, monkeypatch):
     """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
     record = recorded(samples)
     in_pieces = jma_intensity(record)
@@ -149,13 +149,13 @@ def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 
-def test_a_corner_that_would_take_gigabytes_is_refused():
+def test_highpass_with_excessive_padding_is_rejected():
     """A high-pass of 1e-6 Hz pads by a month: refused with the number and the corner that is possible."""
     with pytest.raises(ParameterError, match=r"samples of padding .* choose a corner of"):
         highpass(read(sample_path("synthetic_jma.csv")), 1e-6)
 
 
-def test_a_record_that_cannot_be_filtered_in_parts_is_refused_with_what_lifts_it(monkeypatch):
+def test_intensity_of_prime_length_beyond_limit_is_none(monkeypatch):
     """A prime number of samples has one long transform: beyond the limit no intensity, and a reason with a remedy that works."""
     samples = 2**18 + 3  # a prime
     found = recorded(samples)

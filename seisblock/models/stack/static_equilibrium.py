@@ -178,6 +178,7 @@ def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stre
         except np.linalg.LinAlgError:
             break
         displacements = rows @ u
+        # compressed points: the upper stone has moved down relative to the lower one
         in_contact = displacements[:, 2] < 0.0
         if (in_contact == active_points).all():
             _displace(pile, u, displacements, index, bodies, stretches)
@@ -193,6 +194,7 @@ def _displace(
     for b in range(pile.inertias.shape[0]):
         bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
         half_rotation = 0.5 * u[6 * b + 3 : 6 * b + 6]
+        # small rotation in Cayley's form; below, R = I + 2 w [v] + 2 [v]^2
         bodies[b, Q : Q + 4] = np.array([1.0, *half_rotation]) / math.sqrt(1.0 + half_rotation @ half_rotation)
         w, v = bodies[b, Q], bodies[b, Q + 1 : Q + 4]
         cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
