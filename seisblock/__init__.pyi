@@ -41,8 +41,10 @@ from .measures.spectra import ResponseSpectrum, response_spectrum
 from .measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
 from .models.jump.batch import jump_many
 from .models.jump.batch_results import JumpBatchResult
+from .models.jump.options import JumpOptions
 from .models.jump.solve import JumpOutcome, solve_jump
 from .models.respond.batch import RespondBatchResult, respond_many
+from .models.respond.options import RespondOptions
 from .models.respond.outcome import RespondOutcome
 from .models.respond.params import RespondParams
 from .models.respond.solve import respond_params, solve_respond
@@ -50,7 +52,9 @@ from .models.rock.options import RockOptions
 from .models.rock.outcome import RockOutcome
 from .models.rock.solve import solve_rock
 from .models.rock.verdicts import Verdict, rock_verdict
+from .models.slide.options import SlideOptions
 from .models.slide.solve import SlideOutcome, solve_slide
+from .models.stack.options import StackOptions
 from .models.stack.outcome import StackOutcome
 from .models.stack.solve import solve_stack
 from .models.uplift.batch import uplift_many
@@ -58,6 +62,7 @@ from .models.uplift.batch_results import UpliftBatchResult
 from .models.uplift.harmonic import uplift_thresholds
 from .models.uplift.minima import UpliftMinimum, uplift_minima
 from .models.uplift.modes import natural_modes
+from .models.uplift.options import UpliftOptions
 from .models.uplift.outcome import UpliftOutcome
 from .models.uplift.solve import solve_uplift
 from .readers.read import read, read_all
@@ -214,6 +219,11 @@ __all__ = [
     "rocking_spectrum",
     "rocking_spectrum_all_azimuths",
     "RockingSpectrum",
+    "RespondOptions",
+    "SlideOptions",
+    "JumpOptions",
+    "UpliftOptions",
+    "StackOptions",
     "RockOptions",
     "RockOutcome",
     "rotate",

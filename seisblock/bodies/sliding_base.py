@@ -35,7 +35,9 @@ class SlidingBase:
     """
 
     mu: float = field(metadata=option(N_("Static friction coefficient."), unit="1"))
-    mu_kinetic: float | None = field(default=None, metadata=option(N_("Kinetic friction coefficient. [default: as --mu]"), unit="1"))
+    mu_kinetic: float | None = field(
+        default=None, metadata=option(N_("Kinetic friction coefficient. [default: as --mu]"), unit="1", document=float)
+    )
     slope_deg: float = field(
         default=0.0,
         metadata=option(N_("Slope of the base, degrees; the component's positive direction is downhill. [default: 0]"), unit="deg"),

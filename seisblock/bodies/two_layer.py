@@ -180,7 +180,11 @@ class Contact:
     mu_kinetic: float | None = field(
         default=None,
         metadata=option(
-            N_("Kinetic friction coefficient. [default: the body's own, else as --mu]"), "--mu-kinetic", unit="1", kind="friction"
+            N_("Kinetic friction coefficient. [default: the body's own, else as --mu]"),
+            "--mu-kinetic",
+            unit="1",
+            kind="friction",
+            document=float,
         ),
     )
     restitution_x: float = field(

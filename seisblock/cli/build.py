@@ -11,7 +11,7 @@ from seisblock.cli.options import check_callback
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, MASS, MU
 from seisblock.core import checks
-from seisblock.core.options import Option, option_fields
+from seisblock.core.options import OptionField, option_fields
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -43,7 +43,7 @@ def solver_options(kind: type, *names: str, exclude: Iterable[str] = ()) -> Deco
     return decorate
 
 
-def _declare(name: str, hint: Any, described: Option, field: Field[Any]) -> Decorator:
+def _declare(name: str, hint: Any, described: OptionField, field: Field[Any]) -> Decorator:
     """Return the click option of one field."""
     attributes: dict[str, Any] = {"help": described.help, "section": described.section}
     if "/" in described.flag:
@@ -62,7 +62,7 @@ def _declare(name: str, hint: Any, described: Option, field: Field[Any]) -> Deco
     )
 
 
-def _parameter_type(described: Option, hint: Any) -> Any:
+def _parameter_type(described: OptionField, hint: Any) -> Any:
     """Return the click type of the values of an option."""
     if described.kind == "friction":
         return MU

@@ -14,14 +14,14 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from seisblock.core import checks
 from seisblock.core.i18n import N_
-from seisblock.core.units import STANDARD_GRAVITY, unit_suffix
+from seisblock.core.units import unit_suffix
 
 KEY = "option"
 """Key of the description in the metadata of a field."""
 
 
 @dataclass(frozen=True)
-class Option:
+class OptionField:
     """Description of one option.
 
     Parameters
@@ -63,8 +63,8 @@ class Option:
     document: Any = None
 
 
-def option(help: str, flag: str = "", **attributes: Any) -> dict[str, Option]:  # noqa: A002
-    """Return the metadata of a field that holds an option, see :class:`Option`.
+def option(help: str, flag: str = "", **attributes: Any) -> dict[str, OptionField]:  # noqa: A002
+    """Return the metadata of a field that holds an option, see :class:`OptionField`.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def option(help: str, flag: str = "", **attributes: Any) -> dict[str, Option]:  
     >>> [(described.flag, document_key(name, described)) for name, described, _ in option_fields(Sizes)]
     [('--width', 'width_m')]
     """
-    return {KEY: Option(help, flag, **attributes)}
+    return {KEY: OptionField(help, flag, **attributes)}
 
 
 VERTICAL = option(
@@ -102,7 +102,7 @@ class SolverOptions:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-def check_option(name: str, described: Option, value: Any) -> None:
+def check_option(name: str, described: OptionField, value: Any) -> None:
     """Raise ParameterError for a value outside the range of its option; None is not checked."""
     if value is None or not described.interval:
         return
@@ -116,12 +116,12 @@ def check_option(name: str, described: Option, value: Any) -> None:
         checks.in_interval(label, value, described.interval, unit)
 
 
-def option_fields(kind: type) -> list[tuple[str, Option, Field[Any]]]:
+def option_fields(kind: type) -> list[tuple[str, OptionField, Field[Any]]]:
     """Return name, description and field of each option of a dataclass, in their order."""
     return [(field.name, field.metadata[KEY], field) for field in fields(kind) if KEY in field.metadata]
 
 
-def document_key(name: str, described: Option) -> str:
+def document_key(name: str, described: OptionField) -> str:
     """Return the key of an option in documents: its name with its unit."""
     if described.key:
         return described.key
@@ -129,7 +129,7 @@ def document_key(name: str, described: Option) -> str:
     return name if name.endswith(suffix) else name + suffix
 
 
-def plain_help(described: Option) -> str:
+def plain_help(described: OptionField) -> str:
     """Return the help text without its default."""
     return re.sub(r"\s*\[(default|required)[^\]]*\]$", "", described.help)
 
@@ -197,6 +197,3 @@ def keywords_of(
         return solve_with_keywords
 
     return decorate
-
-
-__all__ = ["GRAVITY", "STANDARD_GRAVITY", "VERTICAL", "Option", "SolverOptions", "documented", "keywords_of", "option", "option_fields"]

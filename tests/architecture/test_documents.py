@@ -142,7 +142,8 @@ def test_tables_of_contents_list_every_page():
 
 def test_commands_named_in_pages_exist():
     """Commands that the pages name are commands."""
-    said = {name for page in PAGES for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}
+    pages = [page for page in PAGES if "```python\n# seisblock/" not in page.read_text(encoding="utf-8")]
+    said = {name for page in pages for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}
     assert said <= set(COMMANDS)
 
 

@@ -96,8 +96,8 @@ def solve_jump(block: TwoLayerBlock, motion: Motion, options: JumpOptions) -> Re
     block : TwoLayerBlock
     motion : Motion
         Only the horizontal row acts.
-    options
-        Fields of :class:`~seisblock.models.jump.options.JumpOptions`, as keyword arguments. The drop is that of [Sugimoto2017]_ eq. (11);
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.jump.options.JumpOptions`. The drop is that of [Sugimoto2017]_ eq. (11);
         spin and landing: see :func:`seisblock.models.jump.impact.spin_ratio` and :mod:`seisblock.models.jump.landing`. Of both
         directions, the mirror image is exact. After a landing the block stands on the ground, without a further drop; motion continues
         beyond the windows.

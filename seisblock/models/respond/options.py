@@ -34,7 +34,7 @@ class RespondOptions(SolverOptions):
             N_("Kinetic friction coefficient, at most --mu. [default: as --mu]"),
             "--mu-kinetic",
             unit="1",
-            interval="[0, inf)",
+            interval="[0, inf, document=float)",
             label=N_("the kinetic friction coefficient"),
             kind="friction",
             metavar="MU",

@@ -39,8 +39,8 @@ def solve_respond(block: Body, motion: Motion, options: RespondOptions) -> Respo
         A two-layer block is treated as one rigid body.
     motion : Motion
         Ground acceleration, m/s^2.
-    options
-        Fields of :class:`~seisblock.models.respond.options.RespondOptions`, as keyword arguments. Kinetic friction also acts inside
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.respond.options.RespondOptions`. Kinetic friction also acts inside
         impacts. A given rocking restitution replaces the impact law, reduced where it would create energy; landings use `restitution`.
         Tenons hold the feet against sliding until, in flight, the lower foot has risen by their depth (extension of this package); a
         tenon under lateral load also holds a foot down as long as the released foot would not rise.
@@ -104,6 +104,11 @@ def solve_respond(block: Body, motion: Motion, options: RespondOptions) -> Respo
 
 def respond_params(block: Body, options: RespondOptions) -> RespondParams:
     """Return the validated parameters of a run, for :func:`~seisblock.models.respond.batch.respond_many`.
+
+    Parameters
+    ----------
+    block : Block or TwoLayerBlock
+    options : RespondOptions
 
     Raises
     ------

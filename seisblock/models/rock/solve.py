@@ -32,8 +32,8 @@ def solve_rock(block: Block, motion: Motion, options: RockOptions) -> Response[R
     block : Block
     motion : Motion
         Ground acceleration, m/s^2.
-    options
-        Fields of :class:`~seisblock.models.rock.options.RockOptions`, as keyword arguments. Restitution: one ratio, or those onto the
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.rock.options.RockOptions`. Restitution: one ratio, or those onto the
         right and the left corner; default: from conservation of angular momentum about the struck corner, 1 - 1.5 sin^2(alpha) for a
         rectangle ([Housner1963]_). The linear equation is that of [Zhang2001]_ eqs. (4), (5).
 

@@ -16,6 +16,6 @@ class SlideOptions(SolverOptions):
 
     vertical: Gain | None = field(
         default=False,
-        metadata=option("Scale factor on the vertical component; 0 if omitted.", key="vertical_scale"),
+        metadata=option("Scale factor on the vertical component; 0 if omitted.", key="vertical_scale", document=float),
     )
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)

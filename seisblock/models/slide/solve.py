@@ -93,8 +93,8 @@ def solve_slide(base: SlidingBase | float, motion: Motion, options: SlideOptions
         Friction and slope; a number is the friction coefficient of a level base, static and kinetic.
     motion : Motion
         The horizontal row acts in the direction of the slope.
-    options
-        Fields of :class:`~seisblock.models.slide.options.SlideOptions`, as keyword arguments; the factor on the vertical component is
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.slide.options.SlideOptions`; the factor on the vertical component is
         gamma of the paper.
 
     Returns

@@ -33,6 +33,7 @@ class StackOptions(SolverOptions):
             ),
             "--law",
             choices=(RIGID, SPRINGS),
+            document=str,
         ),
     )
     points: int = field(default=EDGES, metadata=option("Contact points along each side of a joint; 2: its edges."))
@@ -49,6 +50,7 @@ class StackOptions(SolverOptions):
             "--mu-kinetic",
             unit="1",
             kind="friction",
+            document=float,
         ),
     )
     restitution: float | None = field(
@@ -79,6 +81,7 @@ class StackOptions(SolverOptions):
             "--step",
             unit="s",
             metavar="S",
+            document=float,
         ),
     )
     stop_at_fall: bool = field(default=False, metadata=option("End at the first fall."))

@@ -45,8 +45,8 @@ def solve_stack(body: Pile, motion: Motion, options: StackOptions) -> Response[S
     body : Pile
     motion : Motion
         Ground acceleration; +x is its first row.
-    options
-        Fields of :class:`~seisblock.models.stack.options.StackOptions`, as keyword arguments. Default law: springs if `contact` is given,
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.stack.options.StackOptions`. Default law: springs if `contact` is given,
         else rigid. If rigid contacts create energy at the default step, the run is repeated with a step five times finer, with a
         warning; if that fails too, with springs, unless an option excludes them. Kinetic friction and restitution: rigid contacts
         only, restitution also on edges only; its default, conservation of angular momentum about the striking edge, is Housner's for

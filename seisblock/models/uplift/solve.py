@@ -33,8 +33,8 @@ def solve_uplift(body: SpringBlock, motion: Motion, options: UpliftOptions) -> R
         Its damping is the ratio zeta of the corner dashpots, c = 2 zeta k / omega by direction.
     motion : Motion
         Ground acceleration along +x, across (+y) and up.
-    options
-        Fields of :class:`~seisblock.models.uplift.options.UpliftOptions`, as keyword arguments.
+    options : keyword arguments
+        Fields of :class:`~seisblock.models.uplift.options.UpliftOptions`.
 
     Returns
     -------

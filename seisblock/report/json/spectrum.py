@@ -171,9 +171,9 @@ class ModesResult(Result, frozen=True, kw_only=True):
     initiation: InitiationEntry
 
 
-MODES = DocumentSchema("spectrum", ModesParameters, ModesResult, name="modes")
 ROCKING = DocumentSchema("spectrum", ROCKING_PARAMETERS, RockingResult, name="rocking")
 SLIDING = DocumentSchema("spectrum", SlidingParameters, SlidingResult, name="sliding")
+MODES = DocumentSchema("spectrum", ModesParameters, ModesResult, name="modes")
 
 
 def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, options: RockOptions, inset: EdgeWear) -> Document:
