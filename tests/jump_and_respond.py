@@ -15,7 +15,7 @@ from seisblock.records import motion_of
 
 PAGE = Path(__file__).parents[1] / "docs" / "models" / "jump_and_respond.md"
 BEGIN, END = "<!-- computed -->", "<!-- end -->"
-HEADINGS = ("step", "component", "rocks at (s)", "largest lean (deg)", "in the air (s)", "slip path (cm)", "ends at (cm)")
+HEADINGS = ("step", "component", "rocking start (s)", "peak tilt (deg)", "flight (s)", "slip path (cm)", "residual (cm)")
 
 
 def jump_numbers(motion, landing):
@@ -40,12 +40,12 @@ def respond_numbers(motion, **options):
 STEPS = (
     ("1 jump, as in the paper", lambda motion: jump_numbers(motion, "paper")),
     ("2 jump, landing with friction", lambda motion: jump_numbers(motion, "friction")),
-    ("3 respond, feet held for ever, no restitution, no vertical", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False)),
-    ("4 as 3, restitution 0.85", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False, restitution=0.85)),
+    ("3 respond, no sliding, no restitution, no vertical motion", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False)),
+    ("4 as 3, with restitution 0.85", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False, restitution=0.85)),
     ("5 as 4, with the vertical motion", lambda motion: respond_numbers(motion, tenon=1e3, restitution=0.85)),
     ("6 as 5, tenons 2 cm deep", lambda motion: respond_numbers(motion, tenon=0.02, restitution=0.85)),
     ("7 as 6, tenons 1 cm deep", lambda motion: respond_numbers(motion, tenon=0.01, restitution=0.85)),
-    ("8 bare feet", lambda motion: respond_numbers(motion, restitution=0.85)),
+    ("8 as 5, no tenons", lambda motion: respond_numbers(motion, restitution=0.85)),
 )
 
 
