@@ -20,7 +20,7 @@ import numpy as np
 TESTS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS))
 
-from synthetic_motion import Array, Stretch, conditioned, correlation, envelope  # noqa: E402
+from synthetic_motion import Array, Stretch, conditioned_motion, correlation, envelope  # noqa: E402
 
 SAMPLES_DIRECTORY = TESTS.parent / "sample_records"
 RECONSTRUCTED = TESTS / "readers" / "data" / "reconstructed.json"
@@ -53,7 +53,7 @@ def synthetic() -> dict[str, Array]:
     motion = {}
     for code, held in stretches().items():
         shape = (envelope(1.1, 1.3), correlation(0.8, 14.0)) if code == "UD" else (envelope(0.35, 1.4), correlation(0.3, 8.0))
-        motion[code] = conditioned(np.random.default_rng(SEEDS[code]), *shape, held)
+        motion[code] = conditioned_motion(np.random.default_rng(SEEDS[code]), *shape, held)
     motion["UD"] *= UD_PGA / np.abs(motion["UD"]).max()
     return motion
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.jump_and_respond import PAGE, rows, written
+from tests.jump_and_respond import PAGE, page_table, rows
 
 
 @pytest.fixture(scope="module")
@@ -13,7 +13,7 @@ def by_step():
 
 def test_page_table_equals_program(by_step):
     """Every number of the page, as printed."""
-    lines = [tuple(cell.strip() for cell in line.strip("| ").split(" | ")) for line in written().splitlines()[2:]]
+    lines = [tuple(cell.strip() for cell in line.strip("| ").split(" | ")) for line in page_table().splitlines()[2:]]
     assert {(name.split()[0], component): cells for name, component, *cells in (map(str, line) for line in lines)} == {
         key: list(cells) for key, cells in by_step.items()
     }

@@ -24,7 +24,7 @@ SCRIPT = f"{ONE}print(first_crossing(np.array([1.0, -4.0]), 1, 1.0, np.zeros(2),
 ANSWER = {ONE: ["2.0"], SCRIPT: ["2.0", "0.25"]}
 
 
-def answers(folder, script=SCRIPT, **options):
+def run_script(folder, script=SCRIPT, **options):
     """Run a script with a cache folder; return what it says beside its answer, which is right."""
     done = subprocess.run(
         [sys.executable, "-c", script],
@@ -39,27 +39,27 @@ def answers(folder, script=SCRIPT, **options):
 
 
 @pytest.fixture(scope="module")
-def filled(tmp_path_factory):
+def compiled_folder(tmp_path_factory):
     """A folder with the kernels compiled."""
     folder = tmp_path_factory.mktemp("kernels")
-    assert answers(folder) == ["compiling kernels (first run only, up to 30 s)..."]
+    assert run_script(folder) == ["compiling kernels (first run only, up to 30 s)..."]
     return folder
 
 
 @pytest.fixture
-def folder(filled, tmp_path):
+def folder(compiled_folder, tmp_path):
     """A copy of it to spoil."""
-    return Path(shutil.copytree(filled, tmp_path / "kernels"))
+    return Path(shutil.copytree(compiled_folder, tmp_path / "kernels"))
 
 
-def kept(folder):
+def kernel_files(folder):
     """Return what is kept of each kernel, by name."""
     return {path.name: path.read_bytes() for path in folder.rglob("*.nb[ci]")}
 
 
-def test_cache_keeps_entry_kernels_only(filled):
+def test_cache_keeps_entry_kernels_only(compiled_folder):
     """Of the ten that :func:`first_crossing` calls nothing is compiled or written but what it holds itself."""
-    assert sorted({name.split("-")[0] for name in kept(filled)}) == ["polynomial.evaluate", "polynomial.first_crossing"]
+    assert sorted({name.split("-")[0] for name in kernel_files(compiled_folder)}) == ["polynomial.evaluate", "polynomial.first_crossing"]
 
 
 @pytest.mark.slow
@@ -76,18 +76,18 @@ def test_process_loads_entry_kernels_only(folder):
 
 def test_second_process_compiles_nothing(folder):
     """What one process compiled the next one finds, in silence, and leaves as it is."""
-    before = kept(folder)
+    before = kernel_files(folder)
     assert len(before) == 4
-    assert answers(folder) == []
-    assert kept(folder) == before
+    assert run_script(folder) == []
+    assert kernel_files(folder) == before
 
 
 def test_missing_kernels_are_announced_once(folder):
     """A folder that holds some kernels is no reason to compile the others in silence; it is said once."""
     for path in folder.rglob("polynomial.first_crossing*"):
         path.unlink()
-    assert answers(folder) == ["compiling kernels (first run only, up to 30 s)..."]
-    assert answers(folder) == []
+    assert run_script(folder) == ["compiling kernels (first run only, up to 30 s)..."]
+    assert run_script(folder) == []
 
 
 SPOILT = {
@@ -113,14 +113,14 @@ def test_damaged_cache_file_is_recompiled(folder, suffix, spoil, script):
     """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, the next run finds them whole."""
     for path in folder.rglob(f"*.{suffix}"):
         path.write_bytes(SPOILT[spoil](path.read_bytes()))
-    said = answers(folder, script)
+    said = run_script(folder, script)
     assert len(said) == 1 and "damaged file; the affected kernels are compiled again" in said[0] and str(folder) in said[0]
-    assert answers(folder, script) == []
+    assert run_script(folder, script) == []
 
 
 def test_full_disk_compiles_for_this_run(tmp_path):
     """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
-    said = answers(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+    said = run_script(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
     assert said[0] == "compiling kernels (first run only, up to 30 s)..."
     assert len(said) == 2 and "compiled again" in said[1] and os.strerror(27) in said[1]
 
@@ -129,7 +129,7 @@ def test_full_disk_compiles_for_this_run(tmp_path):
 def test_unusable_cache_folder_compiles_for_this_run(tmp_path, where):
     """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
     (tmp_path / "file").touch()
-    said = answers(tmp_path / where, ONE)
+    said = run_script(tmp_path / where, ONE)
     assert len(said) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in said[0]
     assert list(tmp_path.iterdir()) == [tmp_path / "file"]
 
@@ -140,7 +140,7 @@ def test_read_only_cache_folder_compiles_for_this_run(folder):
     for path in [folder, *folder.rglob("*")]:
         path.chmod(0o555 if path.is_dir() else 0o444)
     try:
-        said = answers(folder)
+        said = run_script(folder)
     finally:
         for path in [folder, *folder.rglob("*")]:
             path.chmod(0o755 if path.is_dir() else 0o644)

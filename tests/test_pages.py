@@ -6,7 +6,7 @@ import click
 import pytest
 
 from seisblock.cli import COMMANDS, main
-from tests.pages import FENCED, PAGES, agrees, differences, drawn_otherwise, lines_of
+from tests.pages import FENCED, PAGES, changed_figures, lines_of, matches, page_differences
 
 SLOW = {"docs/guides/fit.md"}
 """Pages whose lines take more than some seconds."""
@@ -29,8 +29,8 @@ def test_page_output_equals_program(name, tmp_path, monkeypatch):
     """What a reader sees is what the commands print at 80 columns, what Python answers, and what the figures' lines draw."""
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
-    assert differences(PAGES[name]) == []
-    assert drawn_otherwise(PAGES[name], tmp_path) == []
+    assert page_differences(PAGES[name]) == []
+    assert changed_figures(PAGES[name], tmp_path) == []
 
 
 def test_page_lines_are_all_recognised():
@@ -56,8 +56,8 @@ def test_shown_commands_and_options_exist(name):
 
 def test_page_comparison_detects_changes():
     """A line of another number is another line; dots stand for any lines, not for parts of one."""
-    assert agrees("NS: falls\n...\nend", "NS: falls\na\n\nb\nend")
-    assert agrees("NS: falls\n...", "NS: falls\na")
-    assert not agrees("NS: falls\n...\nend", "NS: stands\na\nend")
-    assert not agrees("NS: falls ... 3", "NS: falls 1 3")
+    assert matches("NS: falls\n...\nend", "NS: falls\na\n\nb\nend")
+    assert matches("NS: falls\n...", "NS: falls\na")
+    assert not matches("NS: falls\n...\nend", "NS: stands\na\nend")
+    assert not matches("NS: falls ... 3", "NS: falls 1 3")
     assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].shown == "x"

@@ -182,13 +182,13 @@ def test_vertical_has_same_meaning_everywhere(name):
     for asked in (True, 0.5):
         with pytest.raises(sb.ComponentError, match=r"level.csv: no vertical component \(components: NS, EW\)"):
             solve(level, asked)
-    assert told(solve(level, None)) == told(solve(level, False))
+    assert outcome_text(solve(level, None)) == outcome_text(solve(level, False))
     shaken = sb.motion_of(sb.crop(RECORD, 24.0, 24.5), "EW")
-    assert told(solve(shaken, None)) == told(solve(shaken, True)) == told(solve(shaken, 1.0))
-    assert told(solve(shaken, 0.5))
+    assert outcome_text(solve(shaken, None)) == outcome_text(solve(shaken, True)) == outcome_text(solve(shaken, 1.0))
+    assert outcome_text(solve(shaken, 0.5))
 
 
-def told(answer):
+def outcome_text(answer):
     """Return what an answer says, to the last digit."""
     return repr(getattr(answer, "outcome", answer))
 

@@ -39,7 +39,7 @@ def test_suspicious_unit_warns_at_callers_line(call, says):
     assert [entry.filename for entry in told] == [__file__]
 
 
-def quiet(call):
+def call_without_warnings(call):
     """Return what a call gives, which may not warn."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -48,24 +48,24 @@ def quiet(call):
 
 def test_common_values_do_not_warn():
     """Up to 20 m, 5 g and 0.1 s nothing is said."""
-    quiet(lambda: sb.Block(MAX_UNITLESS_LENGTH, MAX_UNITLESS_LENGTH))
-    quiet(lambda: sb.Motion.from_arrays(50.0 * SINE / SINE.max(), 0.1))
-    quiet(lambda: sb.motion_of(sb.read("synthetic_jma.csv"), "EW"))
+    call_without_warnings(lambda: sb.Block(MAX_UNITLESS_LENGTH, MAX_UNITLESS_LENGTH))
+    call_without_warnings(lambda: sb.Motion.from_arrays(50.0 * SINE / SINE.max(), 0.1))
+    call_without_warnings(lambda: sb.motion_of(sb.read("synthetic_jma.csv"), "EW"))
 
 
 def test_internal_calls_do_not_warn(tmp_path):
     """Sizes that follow from others, versions, motions scaled within studies, and a record whose doubt says it already."""
-    house = quiet(lambda: sb.from_slenderness(0.3, 0.4))
+    house = call_without_warnings(lambda: sb.from_slenderness(0.3, 0.4))
     assert house.height > MAX_UNITLESS_LENGTH
-    motion = quiet(lambda: sb.motion_of(sb.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
-    quiet(lambda: sb.perturb(house, motion, 2))
-    quiet(lambda: replace(house, mass=1e6).with_wear(0.1))
-    quiet(lambda: sb.mode_map([0.3], [100.0], [0.2], motion))
+    motion = call_without_warnings(lambda: sb.motion_of(sb.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
+    call_without_warnings(lambda: sb.perturb(house, motion, 2))
+    call_without_warnings(lambda: replace(house, mass=1e6).with_wear(0.1))
+    call_without_warnings(lambda: sb.mode_map([0.3], [100.0], [0.2], motion))
     path = tmp_path / "gal.csv"
     path.write_text("time,NS (m/s2)\n" + "".join(f"{0.01 * i:.2f},{400.0 * a:.6f}\n" for i, a in enumerate(SINE)))
     record = sb.read(path)
     assert [doubt.kind for doubt in record.doubts] == ["size"]
-    quiet(lambda: sb.motion_of(record, "NS"))
+    call_without_warnings(lambda: sb.motion_of(record, "NS"))
 
 
 def test_command_line_warns_once(tmp_path):

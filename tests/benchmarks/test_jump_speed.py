@@ -28,7 +28,7 @@ def flight():
     return integrate(flying.FLIGHT_MODEL, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0, *[0.0] * 4], modes.FLIGHT, keep_path=False)
 
 
-def rest():
+def integrate_at_rest():
     return integrate(rocking.ROCKING_MODEL, QUIET, parameters(), [0.0, 0.0], rocking.REST, keep_path=False)
 
 
@@ -37,7 +37,7 @@ def rocks():
     return integrate(rocking.ROCKING_MODEL, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
 
 
-MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}
+MODES = {"rest": (integrate_at_rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}
 
 
 @pytest.mark.parametrize(("run", "mode"), MODES.values(), ids=MODES)

@@ -18,7 +18,7 @@ from seisblock.models.respond.model import RESPOND
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import strong_motion
-from tests.models.respond.cases import leaning
+from tests.models.respond.cases import at_lean
 
 SAMPLES = 10_000
 WEAK = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01, vertical=0.2 * np.sin(0.11 * np.arange(SAMPLES)))
@@ -30,7 +30,7 @@ def strong_minute():
     return Motion(2.0 * motion.acceleration, motion.dt)
 
 
-def bound(benchmark, seconds):
+def assert_faster_than(benchmark, seconds):
     """Hold the fastest round against a bound, when rounds are timed at all."""
     assert benchmark.stats is None or benchmark.stats.stats.min < seconds
 
@@ -51,19 +51,19 @@ def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     benchmark(work)
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / samples * 1e9
-    bound(benchmark, nanoseconds * 1e-9 * samples)
+    assert_faster_than(benchmark, nanoseconds * 1e-9 * samples)
 
 
 def test_respond_rocking_per_sample(benchmark):
     """At most 400 ns per sample, with vertical motion, energies and friction's limits."""
     block = from_slenderness(0.25, 2.14)
-    one_mode(benchmark, block, WEAK, leaning(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
+    one_mode(benchmark, block, WEAK, at_lean(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
 
 
 def test_respond_slide_rocking_per_sample(benchmark):
     """At most 400 ns per sample; the block is so large that one swing lasts half a minute."""
     block = Block(240.0, 2400.0)
-    one_mode(benchmark, block, WEAK, leaning(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
+    one_mode(benchmark, block, WEAK, at_lean(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
 
 
 def test_respond_sliding_per_sample(benchmark):
@@ -101,7 +101,7 @@ def test_respond_probability_of_200_samples(benchmark):
     assert found.overturned.size == 200
     assert (found.impacts > 10).sum() > 100
     assert (found.slip_path_m > 0.0).sum() > 100
-    bound(benchmark, 1.5)
+    assert_faster_than(benchmark, 1.5)
 
 
 def test_solve_respond_of_60_s(benchmark):
@@ -109,10 +109,10 @@ def test_solve_respond_of_60_s(benchmark):
     motion = strong_minute()
     response = benchmark(solve_respond, Block(0.45, 1.4), motion, mu=0.4)
     assert len(response.outcome.events) > 3
-    bound(benchmark, 0.1)
+    assert_faster_than(benchmark, 0.1)
 
 
-def warm(*words):
+def run_command(*words):
     """Run a command in a process of its own; return its answer and the processor time it took, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([sys.executable, "-m", "seisblock", *words, "--quiet", "--json"], capture_output=True, check=True)
@@ -127,14 +127,14 @@ def test_respond_command_with_warm_cache(benchmark):
     spent = []
 
     def run():
-        answer, took = warm(*words)
+        answer, took = run_command(*words)
         spent.append(took)
         return answer
 
     answer = benchmark.pedantic(run, rounds=5, warmup_rounds=1)
     assert [result["probability"]["runs"] for result in answer["results"]] == [200, 200]
     if benchmark.stats is not None:
-        base = min(warm("slide", "--mu", "0.3")[1] for _ in range(5))
+        base = min(run_command("slide", "--mu", "0.3")[1] for _ in range(5))
         benchmark.extra_info |= {"processor_s": min(spent), "over_slide": min(spent) / base}
         print(f"respond: {min(spent):.2f} s of processor time for a warm command, slide: {base:.2f} s")
         assert min(spent) < 2.0 * base

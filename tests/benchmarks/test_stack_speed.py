@@ -52,13 +52,13 @@ def test_stack_and_mujoco(stones, pga, capsys):
     0.1 %, 0.1 % and 0.5 %.
     """
     pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
-    from tests.crosscheck.mujoco_pile import falls
+    from tests.crosscheck.mujoco_pile import any_stone_falls
 
     pile, motion = one_block(1.0) if stones == 1 else load_pile("wagata", mu=0.8), shaking(pga)
     runs = {
         "seisblock": lambda: solve_stack(pile, motion),
-        "MuJoCo 1 ms": lambda: falls(pile, motion, timestep=1e-3),
-        "MuJoCo 2 ms": lambda: falls(pile, motion, timestep=2e-3),
+        "MuJoCo 1 ms": lambda: any_stone_falls(pile, motion, timestep=1e-3),
+        "MuJoCo 2 ms": lambda: any_stone_falls(pile, motion, timestep=2e-3),
     }
     assert not runs["seisblock"]().outcome.overturned_any
     assert not runs["MuJoCo 1 ms"]()

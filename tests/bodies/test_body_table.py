@@ -12,7 +12,7 @@ from seisblock.core.units import SUN
 from seisblock.studies.report.models import body_models
 
 
-def told(tmp_path, text, encoding="utf-8"):
+def read_table(tmp_path, text, encoding="utf-8"):
     """Return what a table says of its bodies."""
     path = tmp_path / "bodies.csv"
     path.write_bytes(text.encode(encoding))
@@ -22,7 +22,7 @@ def told(tmp_path, text, encoding="utf-8"):
 def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
     """A cell's own unit counts, then that of its column, then metres and kilograms."""
     text = "# the museum\nname,width (cm),height,mass_t,inset,slope (deg)\na,12,40cm,0.5,5%,\nb,8sun,1.6,900kg,1cm,3\n"
-    assert told(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
+    assert read_table(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
         "a": {"width": 0.12, "height": 0.4, "mass": 500.0, "inset": EdgeWear(share=0.05)},
         "b": {"width": pytest.approx(8 * SUN), "height": 1.6, "mass": 900.0, "inset": EdgeWear(length_m=0.01), "slope_deg": 3.0},
     }
@@ -31,7 +31,7 @@ def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
 def test_body_table_accepts_japanese(tmp_path, encoding):
     """Names, full-width digits and encodings as spreadsheets in Japan write them."""
-    found = told(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
+    found = read_table(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
     assert found == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
 
 
@@ -65,7 +65,7 @@ def test_body_table_rows_may_name_bodies_or_files(tmp_path):
 def test_body_table_error_names_its_line(tmp_path, text, says):
     """One sentence, with the file."""
     with pytest.raises(BodyError, match=says) as error:
-        told(tmp_path, text)
+        read_table(tmp_path, text)
     assert "bodies.csv" in str(error.value)
 
 

@@ -19,7 +19,7 @@ NO_SIZES = (*NO_NUMBERS, "1e-320")
 STONE = 'kind = "pile"\n[[stone]]\nname = "a"\nwidth = 1\ndepth = 1\nheight = 1\n'
 
 
-def written(tmp_path, text):
+def write_body(tmp_path, text):
     """Return a file."""
     path = tmp_path / "body.toml"
     path.write_text(text, encoding="utf-8")
@@ -31,7 +31,7 @@ def written(tmp_path, text):
 def test_block_file_rejects_invalid_values(key, value, tmp_path):
     """Its sizes, mass and inertia: ``width = true`` was 1 m."""
     entries = {"width": "0.3", "height": "1.0", key: value}
-    path = written(tmp_path, 'kind = "block"\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
+    path = write_body(tmp_path, 'kind = "block"\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
     with pytest.raises(InputError, match=key.split("_")[-1].replace("height", "(height|centre)")):
         load_block(path)
 
@@ -40,7 +40,7 @@ def test_block_file_rejects_invalid_values(key, value, tmp_path):
 @pytest.mark.parametrize("key", ["mu", "mu_kinetic"])
 def test_contact_values_reject_invalid_types(key, value, tmp_path):
     """What the commands look up beside the block."""
-    table = read_body_toml(written(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
+    table = read_body_toml(write_body(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
     with pytest.raises(BodyError, match=key):
         table_friction(table, "body.toml")
     with pytest.raises(BodyError, match="restitution"):
@@ -54,11 +54,11 @@ def test_pile_stone_rejects_invalid_values(key, value, tmp_path):
     entries = {"name": '"a"', "width": "1", "depth": "1", "height": "1", key: value}
     if (key, value) in {("on", '"x"'), ("name", '"x"')}:
         value = entries[key] = "3"
-    path = written(tmp_path, 'kind = "pile"\n[[stone]]\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
+    path = write_body(tmp_path, 'kind = "pile"\n[[stone]]\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
     with pytest.raises(InputError):
         load_pile(path)
     with pytest.raises(BodyError, match=r"at least one|unknown entries a"):
-        load_pile(written(tmp_path, f'kind = "pile"\nstone = [{value}]\n'))
+        load_pile(write_body(tmp_path, f'kind = "pile"\nstone = [{value}]\n'))
 
 
 @pytest.mark.parametrize(
@@ -67,14 +67,14 @@ def test_pile_stone_rejects_invalid_values(key, value, tmp_path):
 def test_name_lists_reject_plain_text(line, tmp_path):
     """A text is no list of its letters."""
     with pytest.raises(BodyError, match=f"{line.split()[0]} must be a"):
-        load_pile(written(tmp_path, STONE.replace("[[stone]]", f"{line}\n[[stone]]")))
+        load_pile(write_body(tmp_path, STONE.replace("[[stone]]", f"{line}\n[[stone]]")))
 
 
 @pytest.mark.parametrize("value", [*NO_NUMBERS[:9], "{ mu = 'x' }", "{ mu = [1] }", "{ mu = true }"])
 def test_two_layer_contact_rejects_invalid_values(value, tmp_path):
     """A table of numbers."""
     whole = sample_path("chozusha.toml").read_text(encoding="utf-8").split("[contact]")[0]
-    path = written(tmp_path, f"{whole}\ncontact = {value}\n")
+    path = write_body(tmp_path, f"{whole}\ncontact = {value}\n")
     assert load_two_layer(path).width == 2.08
     with pytest.raises(BodyError, match="contact"):
         load_contact(path)
@@ -82,7 +82,7 @@ def test_two_layer_contact_rejects_invalid_values(value, tmp_path):
 
 def test_source_is_always_file_name(tmp_path):
     """``source`` is the name of the file, whatever it says."""
-    path = written(tmp_path, 'kind = "block"\nsource = "another"\nwidth = 0.3\n')
+    path = write_body(tmp_path, 'kind = "block"\nsource = "another"\nwidth = 0.3\n')
     with pytest.raises(BodyError, match=r"body\.toml: height is missing"):
         load_block(path)
 
@@ -107,7 +107,7 @@ def test_impossible_file_names_are_rejected():
 @pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
 def test_unreadable_file_states_system_reason(tmp_path):
     """The reason of the system."""
-    path = written(tmp_path, STONE)
+    path = write_body(tmp_path, STONE)
     path.chmod(0)
     with pytest.raises(BodyError, match="Permission denied"):
         read_body_toml(path)
@@ -116,7 +116,7 @@ def test_unreadable_file_states_system_reason(tmp_path):
 def test_pile_with_too_many_stones_is_rejected(tmp_path):
     """Each pair of stones is looked at: the number is refused with what is allowed."""
     stone = "[[stone]]\nname = '{i}'\nwidth = 1\ndepth = 1\nheight = 1\n"
-    path = written(tmp_path, "kind = 'pile'\n" + "".join(stone.format(i=i) for i in range(5000)))
+    path = write_body(tmp_path, "kind = 'pile'\n" + "".join(stone.format(i=i) for i in range(5000)))
     start = time.process_time()
     with pytest.raises(BodyError, match="5000 stones of a pile exceed the limit of 200"):
         load_pile(path)

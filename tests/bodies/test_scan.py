@@ -28,7 +28,7 @@ EXACT = 1e-12
 """Sums of some hundred terms, relative."""
 
 
-def regular(sides, radius):
+def polygon_properties(sides, radius):
     """Return area, and second moment about a line through the middle, of a regular polygon."""
     turn = 2.0 * math.pi / sides
     return 0.5 * sides * radius**2 * math.sin(turn), sides * radius**4 / 24.0 * math.sin(turn) * (2.0 + math.cos(turn))
@@ -43,10 +43,10 @@ def test_scan_volume_centre_and_inertia_of_frusta(sides, below, above):
     height, far = 0.9, np.array([3.0, -2.0, 5.0])
     vertices, faces = frustum(sides, below, above, height)
     used = np.unique(faces)
-    found = mass_properties(Mesh(*_shared(vertices[used] + far, np.searchsorted(used, faces))))
+    found = mass_properties(Mesh(*_merge_vertices(vertices[used] + far, np.searchsorted(used, faces))))
     z = Polynomial([0.0, 1.0])
     radius = below + (above - below) / height * z
-    area, moment = regular(sides, 1.0)
+    area, moment = polygon_properties(sides, 1.0)
     volume = (area * radius**2).integ()(height)
     centre = (area * radius**2 * z).integ()(height) / volume
     across = (moment * radius**4).integ()(height) / volume
@@ -58,7 +58,7 @@ def test_scan_volume_centre_and_inertia_of_frusta(sides, below, above):
     assert found.pieces == 1
 
 
-def _shared(vertices, faces):
+def _merge_vertices(vertices, faces):
     """Return a mesh without the doubled apex of a cone."""
     _, first, number = np.unique(vertices.round(12), axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces]
@@ -67,16 +67,16 @@ def _shared(vertices, faces):
 
 
 @pytest.fixture(scope="module")
-def boxed(tmp_path_factory):
+def box_scan(tmp_path_factory):
     """Return the body of a box of 0.3 x 0.4 x 0.9 m with a density of 2000 kg/m^3."""
     path = write_ply(tmp_path_factory.mktemp("box") / "box.ply", *box(0.3, 0.4, 0.9))
     return scan_body(path, density=2000.0)
 
 
-def test_scanned_box_equals_block_along_its_sides(boxed):
+def test_scanned_box_equals_block_along_its_sides(box_scan):
     """+x is east: towards 90 degrees it is as wide as along x. Mass, centre, inertia, alpha and p are those of the rectangle."""
     for azimuth, width, depth in ((90.0, 0.3, 0.4), (0.0, 0.4, 0.3), (270.0, 0.3, 0.4), (180.0, 0.4, 0.3)):
-        found, expected = boxed.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
+        found, expected = box_scan.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
         assert found.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
         for name in ("arms", "radii", "slendernesses", "corner_inertias", "lever_ratios", "restitutions"):
             assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
@@ -92,22 +92,22 @@ def test_zero_products_of_inertia_are_exactly_zero(sides, tmp_path):
 
 
 @pytest.mark.parametrize("azimuth", [13.0, 45.0, 100.0, 222.0, 359.0])
-def test_scanned_box_pivots_at_corner_between_sides(boxed, azimuth):
+def test_scanned_box_pivots_at_corner_between_sides(box_scan, azimuth):
     """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""
     angle = math.radians(90.0 - azimuth)
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
-    found = boxed.body.block_toward(azimuth)
+    found = box_scan.body.block_toward(azimuth)
     mass = 2000.0 * 0.3 * 0.4 * 0.9
     assert found.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
     about_y, about_x = mass * (0.3**2 + 0.9**2) / 12, mass * (0.4**2 + 0.9**2) / 12
     assert found.gyration_squared * mass == pytest.approx(about_y * c * c + about_x * s * s, rel=1e-11)
 
 
-def test_facing_rotates_the_body(boxed):
+def test_facing_rotates_the_body(box_scan):
     """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
-    turned = ScannedBody(**{**vars_of(boxed.body), "facing": 130.0})
+    turned = ScannedBody(**{**vars_of(box_scan.body), "facing": 130.0})
     for azimuth in (0.0, 17.0, 200.0):
-        before, after = boxed.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
+        before, after = box_scan.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
         assert before.arms == pytest.approx(after.arms, rel=1e-12) and before.gyration_squared == pytest.approx(
             after.gyration_squared, rel=1e-12
         )
@@ -143,15 +143,15 @@ def test_scan_accepts_any_up_axis(up, tmp_path):
     assert body.block_toward(77.0).arms == pytest.approx(upright.block_toward(77.0).arms, abs=1e-12)
 
 
-def test_tilted_scan_is_levelled(tmp_path, boxed):
+def test_tilted_scan_is_levelled(tmp_path, box_scan):
     """A box turned by 4 degrees about any level axis rests on its base again: the same body, and the turn is told."""
     vertices, faces = box(0.3, 0.4, 0.9)
     leaning = vertices @ Rotation.from_rotvec(math.radians(4.0) * np.array([math.cos(1.0), math.sin(1.0), 0.0])).as_matrix().T
     found = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
     assert math.degrees(found.tilt) == pytest.approx(4.0, abs=1e-6)
     assert found.body.height == pytest.approx(0.9, abs=1e-8)
-    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(boxed.body)[0], abs=1e-7)
-    assert np.array(found.body.inertia) == pytest.approx(np.array(boxed.body.inertia), abs=1e-6)
+    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(box_scan.body)[0], abs=1e-7)
+    assert np.array(found.body.inertia) == pytest.approx(np.array(box_scan.body.inertia), abs=1e-6)
     assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(found))
 
 
@@ -229,15 +229,15 @@ def test_inset_may_remove_a_side():
     assert support_distance(roof, (0.0, 1.0)) == pytest.approx(1.1)
 
 
-def test_inset_moves_every_side_of_base(boxed):
+def test_inset_moves_every_side_of_base(box_scan):
     """10 mm in: arms shrink by 10 mm towards sides, by more towards corners; a share is one of the least width, 0.3 m."""
-    worn = boxed.body.with_wear(EdgeWear(length_m=0.01))
+    worn = box_scan.body.with_wear(EdgeWear(length_m=0.01))
     assert worn.block_toward(90.0).arms == pytest.approx((0.14, 0.14), rel=EXACT)
     assert worn.block_toward(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
     assert worn.block_toward(90.0).inset == pytest.approx(0.01, rel=1e-9)
-    assert boxed.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
+    assert box_scan.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
     with pytest.raises(BodyError, match="exceeds the distance of the centre of gravity"):
-        boxed.body.with_wear(EdgeWear(length_m=0.16))
+        box_scan.body.with_wear(EdgeWear(length_m=0.16))
 
 
 def test_opposite_azimuth_swaps_sides_of_block():
@@ -267,10 +267,10 @@ def test_azimuth_table_equals_blocks():
     assert abs(azimuth - least.azimuth_deg) <= 1.0
 
 
-def test_scanned_box_rocks_like_block(boxed):
+def test_scanned_box_rocks_like_block(box_scan):
     """Towards its side, a scanned box leans, hits and falls as the block of its sizes, at the same times."""
     pulse = Motion.from_arrays(4.2 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401)), 0.01, name="90")
-    scanned = solve_rock(block_for_motion(boxed.body, pulse), pulse).outcome
+    scanned = solve_rock(block_for_motion(box_scan.body, pulse), pulse).outcome
     drawn = solve_rock(Block(0.3, 0.9), pulse).outcome
     assert scanned.rocks and scanned.impacts == drawn.impacts
     assert scanned.max_rotation_rad == pytest.approx(drawn.max_rotation_rad, rel=1e-9)
@@ -304,7 +304,7 @@ def test_scan_body_round_trips_through_toml(tmp_path):
 BOX = box(0.3, 0.4, 0.9)
 
 
-def spoilt(what):
+def faulty_box(what):
     """Return vertices and faces of a box of which something is wrong."""
     vertices, faces = BOX[0].copy(), BOX[1].copy()
     if what == "open":
@@ -343,7 +343,7 @@ def spoilt(what):
 def test_scan_rejects_invalid_surfaces(what, told_so, tmp_path):
     """Open, inside out, non-manifold, flat, on its tip, top-heavy, not finite: each in its own sentence."""
     with pytest.raises(BodyError, match=told_so):
-        scan_body(write_ply(tmp_path / "wrong.ply", *spoilt(what)))
+        scan_body(write_ply(tmp_path / "wrong.ply", *faulty_box(what)))
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from seisblock.cli import main
 
 
 @pytest.fixture
-def drawn(tmp_path):
+def draw_figure(tmp_path):
     def draw(*words):
         path = tmp_path / "f.png"
         told = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2", "--plot", str(path), *words])
@@ -28,9 +28,9 @@ def drawn(tmp_path):
         (("--size", "90mm×9cm"), (9 / 2.54 * 200, 9 / 2.54 * 200)),
     ],
 )
-def test_size_and_dpi_set_figure_dimensions(drawn, words, pixels):
+def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
     """200 dots per inch unless told otherwise; centimetres unless a unit is named."""
-    told, found = drawn(*words)
+    told, found = draw_figure(*words)
     assert told.exit_code == 0, told.output
     assert found == pytest.approx(pixels, abs=1)
 
@@ -47,9 +47,9 @@ def test_size_and_dpi_set_figure_dimensions(drawn, words, pixels):
         (("--dpi", "0"), "is not in the range", 2),
     ],
 )
-def test_size_rejects_invalid_and_huge_values(drawn, words, message, code):
+def test_size_rejects_invalid_and_huge_values(draw_figure, words, message, code):
     """A size that is none, and one that is larger than a picture can be."""
-    told, found = drawn(*words)
+    told, found = draw_figure(*words)
     assert told.exit_code == code and found is None
     assert message in " ".join(told.stderr.split()) and "Traceback" not in told.output
 

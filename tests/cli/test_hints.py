@@ -14,7 +14,7 @@ GIVEN = (
 )
 
 
-def prepared(line):
+def preparation_options(line):
     """Return what `respond` is told of its record by a line."""
     told = main.get_command(None, "respond").make_context("respond", shlex.split(line), resilient_parsing=False).params
     names = (
@@ -38,7 +38,7 @@ def prepared(line):
 @pytest.mark.parametrize("given", GIVEN)
 def test_suggested_command_repeats_record_options(given):
     """Every option of the record is typed again: without the storey or the window it would be another answer."""
-    asked = prepared(f"synthetic_jma.csv --component NS --component 30 {given} --width 1 --height 2 --mu 0.5")
+    asked = preparation_options(f"synthetic_jma.csv --component NS --component 30 {given} --width 1 --height 2 --mu 0.5")
     line = respond_command(Source(**asked), "--width", "1", "--height", "2", "--mu", "0.5")
     assert line.startswith("seisblock respond synthetic_jma.csv ")
-    assert prepared(line.removeprefix("seisblock respond ")) == asked
+    assert preparation_options(line.removeprefix("seisblock respond ")) == asked

@@ -14,7 +14,7 @@ from tests.stations import EPICENTRE, bundle, station_files
 
 
 @pytest.fixture(scope="module")
-def answered(tmp_path_factory):
+def map_result(tmp_path_factory):
     """Return what a bundle of six stations, one of them damaged, and a record without coordinates give: result, and the folder of files."""
     folder = tmp_path_factory.mktemp("map")
     path = bundle(folder / "event.knt.tar.gz", 6, damaged=(2,))
@@ -23,9 +23,9 @@ def answered(tmp_path_factory):
     return CliRunner().invoke(main, words), folder
 
 
-def test_map_document_lists_worst_first_and_names_failures(answered):
+def test_map_document_lists_worst_first_and_names_failures(map_result):
     """Seven records: six answers, the worst first; the damaged one and the one without a place are named in the warnings."""
-    result, _ = answered
+    result, _ = map_result
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)
     entries = document["results"]
@@ -43,9 +43,9 @@ def test_map_document_lists_worst_first_and_names_failures(answered):
     assert "SYN 合成波形 SYNTHETIC: no coordinates in the file; listed, not on the map" in text
 
 
-def test_map_geojson_is_valid_feature_collection(answered):
+def test_map_geojson_is_valid_feature_collection(map_result):
     """RFC 7946: a FeatureCollection of points, longitude before latitude; the keys of the document; no point without a place."""
-    result, folder = answered
+    result, folder = map_result
     entries = {entry["station"]: entry for entry in json.loads(result.stdout)["results"]}
     told = json.loads((folder / "a.geojson").read_text(encoding="utf-8"))
     assert told["type"] == "FeatureCollection" and len(told["features"]) == 5
@@ -58,9 +58,9 @@ def test_map_geojson_is_valid_feature_collection(answered):
     assert told["earthquake"]["coordinates"] == [138.87, 37.288]
 
 
-def test_map_csv_has_row_per_record(answered):
+def test_map_csv_has_row_per_record(map_result):
     """A row for each record, every digit of its numbers, empty where there is nothing."""
-    result, folder = answered
+    result, folder = map_result
     entries = json.loads(result.stdout)["results"]
     with (folder / "a.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))

@@ -27,7 +27,7 @@ from seisblock.report.html.report_text import verdict
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
 from tests.brief_record import brief_record
-from tests.i18n.english import english_in, seen_in
+from tests.i18n.english import english_words, visible_text
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -47,7 +47,7 @@ def pages():
 @pytest.mark.slow
 def test_report_is_fully_translated(pages):
     """Cards, sentences, tables, captions and provenance; references are quoted."""
-    assert not english_in(seen_in(pages["ja"])) and english_in(seen_in(pages["en"]))
+    assert not english_words(visible_text(pages["ja"])) and english_words(visible_text(pages["en"]))
 
 
 def test_report_loads_nothing(pages):

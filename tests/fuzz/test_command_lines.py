@@ -68,7 +68,7 @@ def complaint(words, result):
     return ""
 
 
-def spoilt(words, whole):
+def changed_inputs(words, whole):
     """Return the files that are not what they were, though they were no output alone; what was written is put back."""
     changed = [path for path, data in whole.items() if path.read_bytes() != data]
     for path in changed:
@@ -100,6 +100,6 @@ def test_random_command_line_gives_answer_or_one_error(command, seeds, folder):
             result = runner.invoke(main, words, input="1,2\n")
         codes.add(result.exit_code)
         assert complaint(words, result) == "", (seed, words, result.output[-500:])
-        assert spoilt(words, whole) == [], (seed, words)
+        assert changed_inputs(words, whole) == [], (seed, words)
     assert codes <= CODES
     assert sys.stdout is not None

@@ -18,14 +18,14 @@ WORD = r"[A-Za-z][a-z]+"
 ENGLISH = re.compile(rf"{WORD}(?:[,;:.]? {WORD}){{2,}}")
 
 
-def english_in(text):
+def english_words(text):
     """Return what is English in a text: three words in a row that are neither names, units nor citations."""
     for name in NAMES:
         text = re.sub(name, "·", text)
     return [found.group() for found in ENGLISH.finditer(text)]
 
 
-def seen_in(page):
+def visible_text(page):
     """Return what one reads on a page: without scripts, styles, tags, quoted references and the foot."""
     for part in ("script", "style", "ul", "footer"):
         page = re.sub(rf"<{part}.*?</{part}>", "", page, flags=re.DOTALL)

@@ -8,7 +8,7 @@ import pytest
 
 from seisblock.core.i18n import LANGUAGES, format_percent, gettext, lazy_gettext
 from tests.catalogue import CHECK_FUNCTIONS, PACKAGE, PLURALS, all_messages, message_calls, message_key, message_literals, read_catalogue
-from tests.trees import tree_of
+from tests.trees import syntax_tree
 
 TYPED = "10%"
 """What one types, where a blank would make two words of it."""
@@ -23,7 +23,7 @@ def every_text():
 
 
 @pytest.fixture(scope="module", params=LANGUAGES[1:])
-def held(request):
+def entries(request):
     """A catalogue, by what it translates."""
     return {message_key(message): message for message in read_catalogue(request.param) if message.id}
 
@@ -39,34 +39,36 @@ def is_glued(argument):
     return isinstance(argument, ast.JoinedStr) or (isinstance(argument, ast.BinOp) and any(texts))
 
 
-def test_percentages_have_one_form(every_text, held):
+def test_percentages_have_one_form(every_text, entries):
     """Templates and translations have a blank before the sign, or leave it to the format; no f-string writes its own."""
-    told = [*every_text, *(str(message.string) for message in held.values())]
+    told = [*every_text, *(str(message.string) for message in entries.values())]
     assert not [text for text in told if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
-    specs = (node for path in SOURCES for node in ast.walk(tree_of(path)) if isinstance(node, ast.FormattedValue))
+    specs = (node for path in SOURCES for node in ast.walk(syntax_tree(path)) if isinstance(node, ast.FormattedValue))
     assert not [
         ast.unparse(node) for node in specs if node.format_spec is not None and ast.unparse(node.format_spec).rstrip("'\"").endswith("%")
     ]
     assert (gettext("{share:.0%}", share=0.043), format_percent(0.043, ".1"), format_percent(0.05, "g")) == ("4 %", "4.3 %", "5 %")
 
 
-def test_every_message_is_translated(every_text, held):
+def test_every_message_is_translated(every_text, entries):
     """Missing, empty and fuzzy are the same to a reader: ``python -m tests.catalogue`` adds what is new."""
     missing = [
-        f"{place}: {text}" for text, place in every_text.items() if text not in held or not any(held[text].string) or held[text].fuzzy
+        f"{place}: {text}"
+        for text, place in every_text.items()
+        if text not in entries or not any(entries[text].string) or entries[text].fuzzy
     ]
     assert not missing, "\n".join(missing)
 
 
-def test_catalogue_has_no_obsolete_entry(every_text, held):
+def test_catalogue_has_no_obsolete_entry(every_text, entries):
     """What the source no longer says goes: ``python -m tests.catalogue`` takes it out."""
-    stale = set(held) - set(every_text)
+    stale = set(entries) - set(every_text)
     assert not stale, "\n".join(sorted(stale))
 
 
-def test_translations_keep_fields_and_formats(held):
+def test_translations_keep_fields_and_formats(entries):
     """Fields, their conversions and their formats are those of the template: a number keeps its digits in every language."""
-    for key, message in held.items():
+    for key, message in entries.items():
         strings = [message.string] if isinstance(message.string, str) else message.string
         for string in strings:
             assert fields_of(string) in (fields_of(key), fields_of(PLURALS.get(key, key))), key
@@ -75,7 +77,7 @@ def test_translations_keep_fields_and_formats(held):
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_messages_are_literal_templates_with_values(path):
     """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
-    for call, argument in message_calls(tree_of(path)):
+    for call, argument in message_calls(syntax_tree(path)):
         where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
         assert not is_glued(argument), f"{where}: {ast.unparse(argument)} cannot be translated"
         function = getattr(call.func, "attr", getattr(call.func, "id", ""))

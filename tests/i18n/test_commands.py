@@ -12,7 +12,7 @@ from seisblock.cli import COMMANDS, locale, main
 from seisblock.core import i18n
 from seisblock.report.text.wrap import display_width
 from tests.architecture.test_vocabulary import is_polite, japanese_sentences
-from tests.i18n.english import english_in
+from tests.i18n.english import english_words
 from tests.lengths import all_but_slow
 
 WIDTH = 80
@@ -192,7 +192,7 @@ QUOTING = {"cite", "samples"}
 
 
 @pytest.fixture(scope="module")
-def spoken(tmp_path_factory):
+def run_in_language(tmp_path_factory):
     """Run command lines in a language, each once; click is told through compiled catalogues, as an installation has them."""
     folder, written = tmp_path_factory.mktemp("locale"), tmp_path_factory.mktemp("written")
     shutil.copytree(i18n.LOCALE_DIR, folder, dirs_exist_ok=True)
@@ -221,29 +221,29 @@ def line_of(parts):
 
 
 @pytest.mark.parametrize("line", TOLD, ids=line_of)
-def test_output_is_fully_japanese(line, spoken):
+def test_output_is_fully_japanese(line, run_in_language):
     """Tables, sentences, notes and warnings, on both streams."""
-    answer = spoken(line, "ja")
+    answer = run_in_language(line, "ja")
     assert answer.exit_code == 0, answer.output
-    assert line[0] in QUOTING or not english_in(answer.stdout)
-    assert not english_in(answer.stderr)
+    assert line[0] in QUOTING or not english_words(answer.stdout)
+    assert not english_words(answer.stderr)
     assert not (answer.stdout + answer.stderr).isascii() or line == ("schema",)
 
 
 @pytest.mark.parametrize("line", REFUSALS, ids=line_of)
-def test_errors_are_fully_japanese(line, spoken):
+def test_errors_are_fully_japanese(line, run_in_language):
     """What is wrong and what to do, also where click says it."""
-    answer = spoken(line, "ja")
+    answer = run_in_language(line, "ja")
     assert answer.exit_code != 0 or not line
-    assert not english_in(answer.stderr + answer.stdout)
+    assert not english_words(answer.stderr + answer.stdout)
     assert not answer.output.isascii()
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
-def test_help_is_fully_japanese(command, spoken):
+def test_help_is_fully_japanese(command, run_in_language):
     """Lines of commands and of options; examples are command lines."""
-    answer = spoken((*command.split(), "--help"), "ja")
-    assert answer.exit_code == 0 and not english_in(answer.stdout)
+    answer = run_in_language((*command.split(), "--help"), "ja")
+    assert answer.exit_code == 0 and not english_words(answer.stdout)
     assert not re.search(r"\[既定|既定値", answer.stdout), "one bracket for all commands"
     text = "".join(line.strip() for line in answer.stdout.partition("使用例")[0].splitlines())
     assert [sentence for sentence in japanese_sentences(text) if not is_polite(sentence)] == [], "one register for all commands"
@@ -251,9 +251,9 @@ def test_help_is_fully_japanese(command, spoken):
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [*TOLD, *((command, "--help") for command in COMMANDS)], ids=line_of)
-def test_output_fits_80_columns(line, lang, spoken):
+def test_output_fits_80_columns(line, lang, run_in_language):
     """Wide letters take two columns; a table that does not fit is not readable, whatever its language."""
-    answer = spoken(line, lang)
+    answer = run_in_language(line, lang)
     assert answer.exit_code == 0, answer.output
     examples = "  seisblock "  # to be copied in one piece
     wide = [text for text in answer.stdout.splitlines() if display_width(text.rstrip()) > WIDTH and not text.startswith(examples)]
@@ -262,17 +262,17 @@ def test_output_fits_80_columns(line, lang, spoken):
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", TOLD, ids=line_of)
-def test_output_has_no_negative_zero(line, lang, spoken):
+def test_output_has_no_negative_zero(line, lang, run_in_language):
     """F2: what rounds to zero has no sign, on either stream."""
-    answer = spoken(line, lang)
+    answer = run_in_language(line, lang)
     assert not MINUS_NOTHING.findall(answer.stdout + answer.stderr)
 
 
 @pytest.mark.parametrize("lang", i18n.LANGUAGES)
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] not in QUOTING], ids=line_of)
-def test_output_percentages_have_one_form(line, lang, spoken):
+def test_output_percentages_have_one_form(line, lang, run_in_language):
     """A blank stands before the sign, as before every unit, in both languages and on either stream."""
-    answer = spoken(line, lang)
+    answer = run_in_language(line, lang)
     assert not CLOSE_PERCENT.findall(answer.stdout + answer.stderr)
 
 
@@ -283,9 +283,9 @@ def test_negative_zero_rule_detects_violations():
 
 
 @pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] in ANSWERING], ids=line_of)
-def test_output_begins_with_the_result(line, spoken):
+def test_output_begins_with_the_result(line, run_in_language):
     """F2: an answer begins with its result; below it stand the line of its record and its tables."""
-    first, _, _ = spoken(line, "ja").stdout.partition("\n")
+    first, _, _ = run_in_language(line, "ja").stdout.partition("\n")
     assert VERDICT.search(first) and not HEADING.search(first)
 
 
@@ -297,6 +297,6 @@ def test_outputs_cover_every_command():
 
 def test_english_rule_detects_sentences():
     """The guard sees a sentence, and lets names, units, citations and command lines pass."""
-    assert english_in("警告：all samples are zero") == ["all samples are zero"]
-    assert english_in("なし: No such option") and not english_in("K-NET の NS、PGA 934 gal。seisblock rock を使う")
-    assert not english_in("Furukawa2009 eq. (9)、--width と --height HZ、JMA CSV、'some odd name here'")
+    assert english_words("警告：all samples are zero") == ["all samples are zero"]
+    assert english_words("なし: No such option") and not english_words("K-NET の NS、PGA 934 gal。seisblock rock を使う")
+    assert not english_words("Furukawa2009 eq. (9)、--width と --height HZ、JMA CSV、'some odd name here'")

@@ -9,7 +9,7 @@ from matplotlib.text import Text
 
 from seisblock.cli import main
 from tests.catalogue import message_key, read_catalogue
-from tests.i18n.english import english_in
+from tests.i18n.english import english_words
 from tests.i18n.test_commands import BLOCK, SHORT
 from tests.lengths import all_but_slow
 
@@ -34,7 +34,7 @@ FIGURES = (
 
 
 @pytest.fixture
-def drawn(monkeypatch):
+def figure_texts(monkeypatch):
     """Every text of the figures that are saved."""
     texts = []
     save = Figure.savefig
@@ -48,15 +48,15 @@ def drawn(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def translated():
+def translations():
     """What a catalogue translates into something else: it should not be read on a Japanese figure."""
     return {message_key(message) for message in read_catalogue("ja") if message.id and message.string != message.id}
 
 
 @pytest.mark.parametrize("line", all_but_slow(FIGURES, {line for line in FIGURES if line[0] not in {"measure", "stack"}}), ids=" ".join)
-def test_figures_are_fully_japanese(line, drawn, translated, tmp_path):
+def test_figures_are_fully_japanese(line, figure_texts, translations, tmp_path):
     """Titles, axes, legends and notes; no piece of a text is one that the catalogue has a Japanese word for."""
     answer = CliRunner().invoke(main, ["--lang", "ja", *line, "--plot", str(tmp_path / "figure.svg"), "--quiet"])
     assert answer.exit_code == 0, answer.output
-    left = [text for text in drawn if english_in(text) or translated.intersection(re.split(r"\s{2,}|[:：、,;] *|\n", text))]
-    assert len(drawn) > 20 and not left
+    left = [text for text in figure_texts if english_words(text) or translations.intersection(re.split(r"\s{2,}|[:：、,;] *|\n", text))]
+    assert len(figure_texts) > 20 and not left

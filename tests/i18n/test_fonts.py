@@ -16,7 +16,7 @@ SERIF = [entry for entry in fontManager.ttflist if entry.name == "DejaVu Serif" 
 
 
 @pytest.fixture
-def installed(monkeypatch):
+def install_fonts(monkeypatch):
     """Pretend that only some fonts are there: entries of the list are what matplotlib knows of them."""
     fonts.japanese_font.cache_clear()
 
@@ -35,20 +35,20 @@ def entry(family, weight):
     return replace(SERIF[0], name=family, weight=weight)
 
 
-def test_regular_weight_precedes_preferred_bold_family(installed):
+def test_regular_weight_precedes_preferred_bold_family(install_fonts):
     """F5: with Noto Sans CJK in bold only, a figure is drawn in IPAGothic; with nothing else it is bold, by choice."""
-    installed(entry("Noto Sans CJK JP", 700), entry("IPAGothic", "normal"))
+    install_fonts(entry("Noto Sans CJK JP", 700), entry("IPAGothic", "normal"))
     assert fonts.japanese_font() == fonts.Typeface("IPAGothic", (400,))
     fonts.japanese_font.cache_clear()
-    installed(entry("Noto Sans CJK JP", "bold"))
+    install_fonts(entry("Noto Sans CJK JP", "bold"))
     assert fonts.japanese_font() == fonts.Typeface("Noto Sans CJK JP", (700,))
     assert fonts.Typeface("x", (300, 700)).nearest("normal") == 300
 
 
 @pytest.mark.parametrize("weights", [(400,), (700,), (400, 700), (250,)])
-def test_matplotlib_emits_no_font_warning(weights, installed, caplog, tmp_path):
+def test_matplotlib_emits_no_font_warning(weights, install_fonts, caplog, tmp_path):
     """F5: no line "findfont: failed to find font weight" and no warning, whatever weights there are and a text asks for."""
-    installed(*(entry("Noto Sans CJK JP", weight) for weight in weights))
+    install_fonts(*(entry("Noto Sans CJK JP", weight) for weight in weights))
     with use_locale("ja"), caplog.at_level(logging.INFO, "matplotlib"), warnings.catch_warnings():
         warnings.simplefilter("error")
         figure, (axis,) = style.new_figure(1, title="title")
@@ -68,9 +68,9 @@ class BareSystem(FontManager):
         self.ttflist = [entry for entry in self.ttflist if entry.name == fonts.LATIN]
 
 
-def test_extra_ja_font_is_used_without_system_font(installed, monkeypatch, tmp_path):
+def test_extra_ja_font_is_used_without_system_font(install_fonts, monkeypatch, tmp_path):
     """The extra `ja`: a Japanese figure on a machine without Japanese fonts, and no word about them."""
-    installed()
+    install_fonts()
     monkeypatch.setattr(fonts, "FontManager", BareSystem)
     assert fonts.japanese_font() == fonts.Typeface("IPAexGothic", (400,))
     answer = CliRunner().invoke(main, ["jump", "--component", "EW", "--lang", "ja", "--plot", str(tmp_path / "jump.png")])
@@ -136,11 +136,11 @@ def test_record_name_with_dollar_is_drawn(tmp_path):
     assert (tmp_path / "out.png").stat().st_size > 10_000
 
 
-def test_missing_glyphs_give_one_warning(installed, monkeypatch, tmp_path, recwarn):
+def test_missing_glyphs_give_one_warning(install_fonts, monkeypatch, tmp_path, recwarn):
     """A figure in English with a Japanese name of a stone: one sentence, and no warning of matplotlib's for each letter."""
     monkeypatch.setattr(fonts, "FONT_PACKAGE", "no_such_package_of_fonts")
     monkeypatch.setattr(fonts, "FontManager", lambda: fontManager)
-    installed()
+    install_fonts()
     pile = tmp_path / "pile.toml"
     pile.write_text('kind = "pile"\n[[stone]]\nname = "竿"\nwidth = "25cm"\ndepth = "25cm"\nheight = "70cm"\n', encoding="utf-8")
     told = CliRunner().invoke(main, ["stack", "--window", "24:25", "--stones", str(pile), "--plot", str(tmp_path / "out.png")])

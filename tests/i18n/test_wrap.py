@@ -37,7 +37,7 @@ def test_character_width_equals_rich():
     assert not is_wide("θ/α ² – ×")
 
 
-def shown(*parts, width=80):
+def console_output(*parts, width=80):
     """Return what the console prints."""
     screen = console()
     screen.file, screen.width = io.StringIO(), width
@@ -48,22 +48,22 @@ def shown(*parts, width=80):
 
 def test_console_breaks_japanese_between_characters():
     """A sentence fills its lines, alone or with others, but for what is not broken: at most a number with its unit and what closes it."""
-    lines = shown(styled_line(TEXT * 2), width=40).splitlines()
+    lines = console_output(styled_line(TEXT * 2), width=40).splitlines()
     longest = cell_len(" 14.0 cm）。")
     assert all(40 - longest < cell_len(found) <= 40 for found in lines[:-1]), lines
     for width in range(20, 60):
-        assert not any(found.startswith(" ") for found in shown(styled_line(TEXT), width=width).splitlines()), width
+        assert not any(found.startswith(" ") for found in console_output(styled_line(TEXT), width=width).splitlines()), width
 
 
 @pytest.mark.parametrize("width", range(30, 60))
 def test_wrapped_indented_sentence_is_complete(width):
     """Blanks at the head of a line take room, too: nothing is cut off at the edge of the terminal."""
-    told = shown(styled_line("  " + TEXT * 2), width=width)
+    told = console_output(styled_line("  " + TEXT * 2), width=width)
     assert "".join(told.split()) == "".join((TEXT * 2).split())
 
 
 def test_console_escapes_markup_and_control_characters():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"
-    told = shown(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)
+    told = console_output(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), styled_line(hostile), width=120)
     assert told.count("[red]A[/red] :warning: \\x1b[31m") == 5 and "\x1b" not in told

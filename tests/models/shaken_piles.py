@@ -40,7 +40,7 @@ def shaking(rng):
     return Motion(np.array(rows), DT)
 
 
-def shaken(seed):
+def random_case(seed):
     """Return a pile and its shaking."""
     rng = np.random.default_rng(seed)
     return pile(rng, 1 + seed % 5), shaking(rng)

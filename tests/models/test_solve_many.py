@@ -51,7 +51,7 @@ def test_uplift_many_lifts_above_uplift_scale_only():
     assert found.row_dict(2, 0.0) == {key: getattr(twice, key) for key in found.row_dict(2, 0.0)}
 
 
-def layered(count, seed=5):
+def layered_blocks(count, seed=5):
     """Return two-layer blocks, narrow and wide, and what is under them, smooth and rough."""
     rng = np.random.default_rng(seed)
     sizes = rng.uniform([0.4, 0.6, 0.8, 300.0], [2.4, 1.1, 1.9, 1500.0], (count, 4))
@@ -60,7 +60,7 @@ def layered(count, seed=5):
     return blocks, [Contact(mu, mu * kinetic, ex, ey) for mu, kinetic, ex, ey in on]
 
 
-def pushed(samples):
+def push_and_noise(samples):
     """Return a long push, and the shaking that follows it."""
     noise = shaking(10.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=11).acceleration
     push = 5.0 * np.sin(np.pi * np.arange(120) / 120.0)
@@ -79,8 +79,8 @@ def pushed(samples):
 )
 def test_jump_many_rows_equal_solve_jump(options, samples, fates):
     """Every scalar of the outcome, and every warning; of records that end in the middle of a chain, too, and of feet that jam."""
-    blocks, contacts = layered(12)
-    motion = pushed(samples)
+    blocks, contacts = layered_blocks(12)
+    motion = push_and_noise(samples)
     found = jump_many(blocks, motion, contacts=contacts, **options)
     assert set(found.outcome_code.tolist()) == fates
     for row, (block, contact) in enumerate(zip(blocks, contacts, strict=True)):
@@ -96,7 +96,7 @@ def test_jump_many_rows_equal_solve_jump(options, samples, fates):
 
 def test_jump_many_rocks_above_threshold_factor_only():
     """It rocks above its threshold, and not below; a factor of two is exact."""
-    (block,), (contact,) = layered(1)
+    (block,), (contact,) = layered_blocks(1)
     motion = shaking(10.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=11)
     alone = solve_jump(block, motion, contact=contact).outcome
     limit = alone.rocking_threshold_m_s2 / np.abs(motion.horizontal).max()

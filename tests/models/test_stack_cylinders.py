@@ -31,7 +31,7 @@ from seisblock.validation.stack_round import (
     roll_on_rim,
     tilted_axes,
 )
-from tests.models.test_stack_rigid import after_one_impact, cycle, lean_of, still
+from tests.models.test_stack_rigid import lean_of, restitution_at_impact, sine_cycle, still_ground
 
 R = RADIUS
 
@@ -79,7 +79,7 @@ def test_wobbling_drum_gains_no_energy():
         stone, lean = drum(height), rng.uniform(0.1, 0.6) * math.atan(2.0 * R / height)
         axes = tilted_axes(lean)
         foot, spin = R * axes[:, 0] - 0.5 * height * axes[:, 2], rng.normal(size=3) * lean * 0.7 * math.sqrt(G / R)
-        end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(10.0, 2.5e-3))
+        end = release(stone, axes, -foot[2], -np.cross(spin, foot), spin, still_ground(10.0, 2.5e-3))
         swing = 0.5 * np.sum(np.cross(spin, foot) ** 2) + 0.5 * (axes.T @ spin) ** 2 @ stone.gyration_squared
         assert end.output.energy_ledger[CREATED] < 1e-3 * stone.mass * (swing + G * (-foot[2] - 0.5 * height))
 
@@ -118,8 +118,8 @@ def test_drum_in_plane_rocks_like_planar_block():
     def height(lean):
         return math.cos(alpha - lean) - math.cos(alpha)
 
-    response = solve_stack(Pile("one", (stone,), mu=5.0), still(3.0), tilts={"block": 0.6 * alpha})
-    assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(kept, abs=2e-3)
+    response = solve_stack(Pile("one", (stone,), mu=5.0), still_ground(3.0), tilts={"block": 0.6 * alpha})
+    assert restitution_at_impact(response, alpha, 0.6 * alpha) == pytest.approx(kept, abs=2e-3)
     assert effective_base(response).restitution == pytest.approx(kept, abs=1e-12)
     lean = lean_of(response)
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
@@ -136,13 +136,13 @@ def test_stone_on_exact_base_overturns_at_respond_threshold(make, worn):
     plane, pile = planar_block(stone).with_wear(worn), Pile("one", (stone,), mu=1.0).with_wear(worn)
 
     def falls(pga):
-        return bool(solve_respond(plane, cycle(pga, 1.5), mu=1.0).outcome.overturned)
+        return bool(solve_respond(plane, sine_cycle(pga, 1.5), mu=1.0).outcome.overturned)
 
     low, high = 2.0, 6.0
     while high - low > 2e-3 * low:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if falls(middle) else (middle, high)
-    below, above = (solve_stack(pile, cycle(part * high, 1.5), stop_at_fall=True) for part in (0.98, 1.02))
+    below, above = (solve_stack(pile, sine_cycle(part * high, 1.5), stop_at_fall=True) for part in (0.98, 1.02))
     assert not below.outcome.overturned_any
     assert above.outcome.overturned_any
     found = effective_base(above)
@@ -154,7 +154,7 @@ def test_worn_stone_pivots_at_overhang_of_wider_stone(law):
     """It turns about its own worn edges and the sharp one of the stone below; on springs it fell to the side that was worn by neither."""
     lower, upper = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower")
     pile = Pile("over", (lower, upper), mu=2.0).with_wear(0.2)
-    found = solve_stack(pile, cycle(1.0, 1.7), law=law)
+    found = solve_stack(pile, sine_cycle(1.0, 1.7), law=law)
     assert not found.outcome.overturned_any
     points = pile_arrays(pile, PileContact(), 2).grids[1]
     ends = points[points[:, :, 2] > 0.0][:, 0]
@@ -164,7 +164,7 @@ def test_worn_stone_pivots_at_overhang_of_wider_stone(law):
 @pytest.mark.parametrize("degrees", [20.0, 45.0])
 def test_column_response_is_isotropic(degrees):
     """Shaken along any azimuth, its lean is the one along x, turned."""
-    pile, shaking = Pile("one", (drum(0.8, 0.26),), mu=1.0), cycle(4.0, 1.5)
+    pile, shaking = Pile("one", (drum(0.8, 0.26),), mu=1.0), sine_cycle(4.0, 1.5)
     along = solve_stack(pile, shaking)
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     aside = solve_stack(pile, Motion(np.array([c, s, 0.0])[:, None] * shaking.acceleration[0], shaking.dt))
@@ -185,7 +185,7 @@ PILES = {
 def test_round_stones_keep_rest_momentum_and_energy(name):
     """At rest they stay; shaken along three axes they keep momentum, and create less than 1e-3 of the energy of a fall."""
     pile = Pile(name, PILES[name], mu=0.6)
-    rest = solve_stack(pile, still(2.0)).outcome
+    rest = solve_stack(pile, still_ground(2.0)).outcome
     assert not rest.overturned
     assert max(rest.residual_slip_m.values()) < 1e-5
     time = np.arange(0.0, 3.0, 0.005)
@@ -201,8 +201,8 @@ def test_bundled_column_stands_at_rest_and_reports_fall_direction():
     """The bundled column of drums and a capital stands still, and falls under strong shaking to a side that is said."""
     column = load_pile("column")
     assert all(stone.is_round for stone in column.stones[:-1])
-    assert not solve_stack(column, still(1.0)).outcome.overturned_any
-    fallen = [stone for stone in solve_stack(column, cycle(9.0, 0.8), stop_at_fall=True).outcome.stones if stone.state == "fallen"]
+    assert not solve_stack(column, still_ground(1.0)).outcome.overturned_any
+    fallen = [stone for stone in solve_stack(column, sine_cycle(9.0, 0.8), stop_at_fall=True).outcome.stones if stone.state == "fallen"]
     assert fallen
     assert all(stone.fell_towards_deg is not None for stone in fallen)
 
@@ -218,4 +218,4 @@ def test_bundled_column_stands_at_rest_and_reports_fall_direction():
 def test_solve_stack_rejects_unsupported_options_of_round_and_worn_bases(stone, more, said):
     pile = Pile("one", (stone,)).with_wear(more.pop("inset", 0.0))
     with pytest.raises(ParameterError, match=said):
-        solve_stack(pile, still(0.1), **more)
+        solve_stack(pile, still_ground(0.1), **more)

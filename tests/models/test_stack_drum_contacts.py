@@ -15,7 +15,7 @@ from seisblock.models.stack.options import EDGES
 from seisblock.models.stack.recorder import CREATED, DISSIPATED
 from seisblock.models.stack.simulation import Simulation
 from seisblock.validation.stack_round import tilted_axes
-from tests.models.test_stack_rigid import still
+from tests.models.test_stack_rigid import still_ground
 
 RADIUS, LONG, SHORT, SPEED = 0.25, 0.7, 0.3, 1.0
 SIDE_BY_SIDE = 2.0 * RADIUS * math.sqrt(0.5)
@@ -35,7 +35,7 @@ def roll_against(along, turned, restitution):
         body[X : X + 3], body[V : V + 6] = centre, 0.0
         body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), lies.as_matrix().ravel()
     pile.bodies[1, V + 1] = -SPEED
-    return Simulation(pile, still(1.5), (1.0, 1.0), G, 1, True, False, {}).run(), stones[1].mass
+    return Simulation(pile, still_ground(1.5), (1.0, 1.0), G, 1, True, False, {}).run(), stones[1].mass
 
 
 @pytest.mark.parametrize("restitution", [PLASTIC_RESTITUTION, 0.1, 0.9])

@@ -11,7 +11,7 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Motion
-from tests.models.shaken_piles import shaken
+from tests.models.shaken_piles import random_case
 from tests.models.test_stack_long_shaking import noise
 
 SHARES = (0.05, 0.1, 0.2, 0.3)
@@ -31,7 +31,7 @@ def created_energy(pile, outcome):
 @pytest.mark.parametrize("seed", [47, 103, 119, 152])
 def test_bevel_on_edge_contact_creates_no_energy(seed):
     """Runs that were refused while the normals and edges of bevels were none along which stones stay apart."""
-    pile, shaking = shaken(seed)
+    pile, shaking = random_case(seed)
     pile = worn_pile(pile, SHARES[seed % 4])
     outcome = solve_stack(pile, shaking, law="rigid").outcome
     assert outcome.overturned_any
@@ -43,7 +43,7 @@ def test_random_worn_piles_create_no_energy():
     """At most 1e-4 of its weight times its height in any of them, most of which fall."""
     fell = []
     for seed in range(200):
-        pile, shaking = shaken(seed)
+        pile, shaking = random_case(seed)
         pile = worn_pile(pile, SHARES[seed % 4])
         outcome = solve_stack(pile, shaking, law="rigid").outcome
         assert created_energy(pile, outcome) < 1e-4
@@ -54,7 +54,7 @@ def test_random_worn_piles_create_no_energy():
 @pytest.mark.parametrize("seed", [1, 6, 35, 45])
 def test_stone_on_contact_grid_leans_on_its_bevel(seed):
     """Its grid alone held it until it leaned by 45 degrees, when the border above the bevel had long come in."""
-    pile, shaking = shaken(seed)
+    pile, shaking = random_case(seed)
     outcome = solve_stack(pile, shaking, law="rigid", points=5).outcome
     assert created_energy(pile, outcome) < 1e-4
 

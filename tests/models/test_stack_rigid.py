@@ -22,7 +22,7 @@ from seisblock.models.stack.solve import solve_stack
 from seisblock.models.stack.step import POINT
 from seisblock.records import Motion
 from tests.crosscheck.test_stack_against_housner import housner
-from tests.models.shaken_piles import shaken
+from tests.models.shaken_piles import random_case
 from tests.report.long_record import STONES, motion
 
 WIDTH = 0.2424
@@ -33,11 +33,11 @@ def block(ratio=3.0, **more):
     return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
 
 
-def still(seconds, dt=0.002):
+def still_ground(seconds, dt=0.002):
     return Motion.from_arrays(np.zeros(round(seconds / dt)), dt)
 
 
-def cycle(pga, hertz, dt=0.01):
+def sine_cycle(pga, hertz, dt=0.01):
     """Return one cycle of a sine and 1.5 s of rest."""
     time = np.arange(0.0, 1.0 / hertz + 0.5 * dt, dt)
     return Motion.from_arrays(np.append(pga * np.sin(2.0 * math.pi * hertz * time), np.zeros(150)), dt)
@@ -47,7 +47,7 @@ def lean_of(response):
     return 2.0 * np.arctan2(response["block_qy"], response["block_qw"])
 
 
-def after_one_impact(response, alpha, start):
+def restitution_at_impact(response, alpha, start):
     """Return the ratio of angular velocities, from the leans before and after the first impact."""
     lean = lean_of(response)
     crossed = int(np.argmax(lean < 0.0))
@@ -64,7 +64,7 @@ def test_free_rocking_of_rigid_stone_follows_housner(ratio, start, step):
     """
     alpha = math.atan(1.0 / ratio)
     times, amplitudes = housner(ratio, WIDTH, start, 6)
-    response = solve_stack(block(ratio, mu=5.0), still(times[-1] + 0.2, 0.005), tilts={"block": start * alpha}, step=step)
+    response = solve_stack(block(ratio, mu=5.0), still_ground(times[-1] + 0.2, 0.005), tilts={"block": start * alpha}, step=step)
     lean, time = lean_of(response) / alpha, response.time
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
     part = lean[crossings] / (lean[crossings] - lean[crossings + 1])
@@ -82,24 +82,24 @@ def test_rigid_stone_overturns_at_respond_threshold(hertz, limit):
     plane, pile = Block(WIDTH, 3.0 * WIDTH), block(mu=1.0)
 
     def falls(pga):
-        return bool(solve_respond(plane, cycle(pga, hertz), mu=1.0).outcome.overturned)
+        return bool(solve_respond(plane, sine_cycle(pga, hertz), mu=1.0).outcome.overturned)
 
     low, high = 3.0, 6.0
     while high - low > 5e-4 * low:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if falls(middle) else (middle, high)
     assert high == pytest.approx(limit, abs=0.01)
-    assert not solve_stack(pile, cycle(0.997 * high, hertz), stop_at_fall=True).outcome.overturned_any
-    assert solve_stack(pile, cycle(1.003 * high, hertz), stop_at_fall=True).outcome.overturned_any
+    assert not solve_stack(pile, sine_cycle(0.997 * high, hertz), stop_at_fall=True).outcome.overturned_any
+    assert solve_stack(pile, sine_cycle(1.003 * high, hertz), stop_at_fall=True).outcome.overturned_any
 
 
 @pytest.mark.parametrize("given", [None, 0.7, 0.95])
 def test_impact_has_housner_or_given_restitution(given):
     """Without a restitution Housner's ratio is left of the turning; with one, that, whether more or less than Housner's."""
     alpha = math.atan(0.25)
-    response = solve_stack(block(4.0, mu=5.0), still(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
+    response = solve_stack(block(4.0, mu=5.0), still_ground(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
     expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if given is None else given
-    assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(expected, abs=0.008)
+    assert restitution_at_impact(response, alpha, 0.6 * alpha) == pytest.approx(expected, abs=0.008)
     assert effective_base(response).restitution == pytest.approx(expected, abs=1e-12)
     assert response.outcome.created_j < 1e-3 * response.outcome.lost_j
 
@@ -113,9 +113,9 @@ def test_contact_grid_uses_reported_base_width_and_restitution(points, contact):
     assert found.restitution > found.housner_ratio + 0.05
     alpha = math.atan(0.8 / 3.0)
     tall = block(3.0, mu=5.0)
-    seen = solve_stack(tall, still(1.2), points=points, contact=contact, tilts={"block": 0.6 * alpha})
-    assert after_one_impact(seen, alpha, 0.6 * alpha) == pytest.approx(found.restitution, abs=0.02)
-    assert solve_stack(tall, still(3.0), points=points, contact=contact, tilts={"block": 1.04 * alpha}).outcome.overturned_any
+    seen = solve_stack(tall, still_ground(1.2), points=points, contact=contact, tilts={"block": 0.6 * alpha})
+    assert restitution_at_impact(seen, alpha, 0.6 * alpha) == pytest.approx(found.restitution, abs=0.02)
+    assert solve_stack(tall, still_ground(3.0), points=points, contact=contact, tilts={"block": 1.04 * alpha}).outcome.overturned_any
 
 
 @pytest.mark.parametrize("elsewhere", [0.4, 0.8])
@@ -161,7 +161,7 @@ def test_sleeping_stones_carry_load_or_wake():
     """A stone that rocks on two that lie rocks as on the ground; a joint that has to slide or to open under it does."""
     stones = (PileStone("foot", 0.5, 0.5, 0.25), PileStone("middle", 0.36, 0.36, 0.25, on="foot"))
     head = PileStone("block", WIDTH, WIDTH, 3.0 * WIDTH)
-    motion = cycle(3.9, 2.0)
+    motion = sine_cycle(3.9, 2.0)
     alone = solve_stack(Pile("alone", (head,), mu=0.8), motion).outcome
     above = solve_stack(Pile("above", (*stones, replace(head, on="middle")), mu=0.8), motion).outcome
     assert alone.max_tilt_rad["block"] > 0.01
@@ -176,7 +176,7 @@ def test_sleeping_stones_carry_load_or_wake():
 def test_quarter_turn_of_rigid_pile_and_motion_changes_little():
     """A square pile shaken along y does what it does along x, to what the order of the points leaves."""
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
-    along = cycle(4.0, 1.5)
+    along = sine_cycle(4.0, 1.5)
     across = Motion(along.acceleration[[1, 0, 2]], along.dt)
     one, other = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
     assert one.outcome.overturned == other.outcome.overturned
@@ -185,7 +185,7 @@ def test_quarter_turn_of_rigid_pile_and_motion_changes_little():
 
 def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
     """Slices of a few steps end with the same state and books as one slice."""
-    motion, body = cycle(6.0, 2.0), load_pile("wagata")
+    motion, body = sine_cycle(6.0, 2.0), load_pile("wagata")
     whole = solve_stack(body, motion)
     monkeypatch.setattr("seisblock.models.stack.simulation.POINTS_PER_SLICE", 1000)
     assert solve_stack(body, motion).outcome == whole.outcome
@@ -207,18 +207,18 @@ def test_slicing_a_rigid_run_changes_no_bit(monkeypatch):
 def test_solve_stack_rejects_conflicting_options(more, said):
     """Each in one sentence."""
     with pytest.raises(ParameterError, match=said):
-        solve_stack(block(), cycle(1.0, 1.0), **more)
+        solve_stack(block(), sine_cycle(1.0, 1.0), **more)
 
 
 def test_contact_springs_reject_kinetic_friction():
     with pytest.raises(ParameterError, match="has a kinetic friction coefficient, but contact springs use a single one"):
-        solve_stack(block().with_kinetic_friction(0.1), cycle(1.0, 1.0), law="springs")
+        solve_stack(block().with_kinetic_friction(0.1), sine_cycle(1.0, 1.0), law="springs")
 
 
 @pytest.mark.parametrize("seed", [13, 24, 43, 150, 152, 164, 188])
 def test_collapsing_rigid_piles_create_no_energy(seed):
     """Piles that made up to 600 times their own energy while corners and edges pushed stones out of each other one by one."""
-    outcome = solve_stack(*shaken(seed), law="rigid").outcome
+    outcome = solve_stack(*random_case(seed), law="rigid").outcome
     assert max(outcome.max_tilt_rad.values()) > 0.1
     assert outcome.created_j < 5e-4 * outcome.lost_j
     assert outcome.momentum_error < 1e-12
@@ -228,7 +228,7 @@ def test_collapsing_rigid_piles_create_no_energy(seed):
 def test_random_rigid_piles_create_no_energy():
     """At most 1e-4 of its weight times its height in any of them, as many of which fall as stand."""
     fell = []
-    for pile, shaking in map(shaken, range(200)):
+    for pile, shaking in map(random_case, range(200)):
         outcome = solve_stack(pile, shaking, law="rigid").outcome
         tall = sum(stone.height for stone in pile.stones)
         assert outcome.created_j < 1e-4 * sum(stone.mass for stone in pile.stones) * G * tall
@@ -257,16 +257,16 @@ def test_created_energy_falls_back_to_finer_steps_then_springs(monkeypatch):
     monkeypatch.setattr("seisblock.models.stack.solve.stack_outcome", judged)
     refused[:] = [1e-3]
     for more in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
-        found = solve_stack(block(), cycle(3.0, 1.0), **more)
+        found = solve_stack(block(), sine_cycle(3.0, 1.0), **more)
         assert found.options.law == "rigid"
         assert found.outcome.step_s < 1e-3
         assert "solved with a finer step of" in found.warnings[0]
     with pytest.raises(SolverError, match="created"):
-        solve_stack(block(), cycle(3.0, 1.0), step=2e-3)
+        solve_stack(block(), sine_cycle(3.0, 1.0), step=2e-3)
     refused[:] = [0.0]
     with pytest.raises(SolverError, match="created"):
-        solve_stack(block(), cycle(3.0, 1.0), law="rigid")
-    found = solve_stack(block(), cycle(3.0, 1.0))
+        solve_stack(block(), sine_cycle(3.0, 1.0), law="rigid")
+    found = solve_stack(block(), sine_cycle(3.0, 1.0))
     assert found.options.law == "springs"
     assert "solved with contact springs, since rigid contact failed" in found.warnings[0]
 

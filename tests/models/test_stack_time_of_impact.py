@@ -11,7 +11,7 @@ from seisblock.models.stack.arrays import PLASTIC_RESTITUTION, pile_arrays
 from seisblock.models.stack.frames import INERTIA, INVERSE, MASS, L, Q, R, V, W, X
 from seisblock.models.stack.recorder import CREATED
 from seisblock.models.stack.simulation import Simulation
-from tests.models.test_stack_rigid import still
+from tests.models.test_stack_rigid import still_ground
 
 WIDTH, HEIGHT = 0.6, 0.25
 STEPS = 2
@@ -29,7 +29,7 @@ def throw_stones(count, places, velocities, *, spins=None, turns=None, restituti
         body[X : X + 3], body[V : V + 3], body[L : L + 3] = places[i], velocities[i], inertia @ body[W : W + 3]
         body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), lies.as_matrix().ravel()
     weight = pile.inertias[:count, MASS].sum() * G * HEIGHT * count
-    end = Simulation(pile, still(seconds, 0.005), (1.0, 1.0), G, STEPS, True, False, {}).run()
+    end = Simulation(pile, still_ground(seconds, 0.005), (1.0, 1.0), G, STEPS, True, False, {}).run()
     return end, end.output.energy_ledger[CREATED] / weight
 
 
@@ -94,7 +94,7 @@ def test_almost_flat_stone_with_high_friction_does_not_rebound(seed):
     body[V : V + 3], body[L : L + 3] = speed * dice.normal(size=3), inertia @ body[W : W + 3]
     body[X + 2] = np.abs(axes[2]) @ [width / 2.0, depth / 2.0, height / 2.0]
     body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), axes.ravel()
-    end = Simulation(pile, still(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).run()
+    end = Simulation(pile, still_ground(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).run()
     assert end.output.energy_ledger[CREATED] < 2e-4 * pile.inertias[0, MASS] * G * height
 
 

@@ -38,7 +38,7 @@ def sparse_tar(size):
     return buffer.getvalue()
 
 
-def deflated(size, level=9):
+def zip_of_zeros(size, level=9):
     """Return a zip of one member of so many zero bytes."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=level) as archive:
@@ -47,12 +47,12 @@ def deflated(size, level=9):
 
 
 @pytest.fixture
-def small(monkeypatch):
+def set_limits(monkeypatch):
     """Return a function that sets limits through the environment."""
     return lambda **limits: [monkeypatch.setenv(f"SEISBLOCK_READ_{name.upper()}", str(value)) for name, value in limits.items()]
 
 
-def refused(path, says):
+def assert_refused(path, says):
     """Check that a file is refused for its size."""
     with pytest.raises(RecordError) as caught:
         read(path)
@@ -68,37 +68,37 @@ def test_sparse_tar_member_is_skipped(tmp_path):
         read(path)
 
 
-def test_declared_member_size_is_checked_first(tmp_path, small):
+def test_declared_member_size_is_checked_first(tmp_path, set_limits):
     """A member that says it is too large is not unpacked; the message names the number, the limit and the variable that lifts it."""
-    small(mib=2)
+    set_limits(mib=2)
     path = tmp_path / "large.zip"
-    path.write_bytes(deflated(5 * 2**20))
-    refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_READ_MIB to read more")
+    path.write_bytes(zip_of_zeros(5 * 2**20))
+    assert_refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_READ_MIB to read more")
     (tmp_path / "plain.csv").write_bytes(b"1\n" * 2**21)
-    refused(tmp_path / "plain.csv", "4 MiB, more than the limit of 2")
+    assert_refused(tmp_path / "plain.csv", "4 MiB, more than the limit of 2")
 
 
 @pytest.mark.parametrize("packer", [gzip, bz2, lzma])
-def test_unpacked_bytes_are_counted(packer, tmp_path, small):
+def test_unpacked_bytes_are_counted(packer, tmp_path, set_limits):
     """What is unpacked is counted, whatever was declared."""
-    small(mib=1)
+    set_limits(mib=1)
     path = tmp_path / "bomb.csv.gz"
     path.write_bytes(packer.compress(b"0" * 3 * 2**20))
-    refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_READ_MIB")
+    assert_refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_READ_MIB")
 
 
-def test_nested_archives_share_one_limit(tmp_path, small):
+def test_nested_archives_share_one_limit(tmp_path, set_limits):
     """Four archives of 0.6 MiB each exceed 2 MiB together, however they are packed."""
-    small(mib=2)
+    set_limits(mib=2)
     inner = {f"{i}.csv.gz": gzip.compress(b"%d\n" % i * 300_000) for i in range(4)}
     path = tmp_path / "many.tar"
     path.write_bytes(tar(inner))
-    refused(path, "the limit of 2 MiB")
+    assert_refused(path, "the limit of 2 MiB")
 
 
-def test_nesting_depth_and_member_count_are_limited(tmp_path, small):
+def test_nesting_depth_and_member_count_are_limited(tmp_path, set_limits):
     """An archive in an archive in an archive, and more files than anyone packs."""
-    small(nesting=3, members=50)
+    set_limits(nesting=3, members=50)
     data = tar({"a.NS": knet().encode()})
     for depth in range(5):
         path = tmp_path / f"{depth}.tar"
@@ -106,19 +106,19 @@ def test_nesting_depth_and_member_count_are_limited(tmp_path, small):
         if depth < 3:
             assert read(path).samples == 200
         else:
-            refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_READ_NESTING")
+            assert_refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_READ_NESTING")
         data = tar({"inner.tar": data})
     path = tmp_path / "crowd.tar"
     path.write_bytes(tar({f"{i}.txt": b"x" for i in range(60)}))
-    refused(path, "51 files, more than the limit of 50; set SEISBLOCK_READ_MEMBERS")
+    assert_refused(path, "51 files, more than the limit of 50; set SEISBLOCK_READ_MEMBERS")
 
 
-def test_sample_count_is_limited(tmp_path, small):
+def test_sample_count_is_limited(tmp_path, set_limits):
     """More samples than are wanted are refused by their number."""
-    small(samples=5)
+    set_limits(samples=5)
     path = tmp_path / "a.csv"
     path.write_bytes((JMA_HEADER + JMA_BODY).encode("cp932"))
-    refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_READ_SAMPLES")
+    assert_refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_READ_SAMPLES")
 
 
 @pytest.mark.parametrize("text", ["-1", "0", "lots", "1.5", "٣"])
@@ -136,15 +136,15 @@ def test_devices_are_rejected():
             read(device)
 
 
-def test_endless_pipe_is_read_up_to_limit(tmp_path, small):
+def test_endless_pipe_is_read_up_to_limit(tmp_path, set_limits):
     """What comes out of a pipe is read as far as the budget goes."""
-    small(mib=1)
+    set_limits(mib=1)
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     with subprocess.Popen(
         [sys.executable, "-c", f"open({str(pipe)!r}, 'wb').write(b'0' * 9_000_000)"], stderr=subprocess.DEVNULL
     ) as writer:
-        refused(pipe, "larger than the limit of 1 MiB")
+        assert_refused(pipe, "larger than the limit of 1 MiB")
         writer.wait()
 
 

@@ -23,7 +23,7 @@ def station_files(station, **options):
     return {f"{station}0410231756.{code}": knet(station=station, direction=direction, **options).encode() for code, direction in names}
 
 
-def zipped(files):
+def make_zip(files):
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for name, data in files.items():
@@ -63,7 +63,7 @@ def test_other_compression_formats_are_unpacked(suffix, pack, tmp_path):
 def test_zip_with_folders_gives_its_record(tmp_path):
     """A zip with subfolders and a note in it gives its one record; so does a lone .gz."""
     path = tmp_path / "mine.zip"
-    path.write_bytes(zipped({"a/readme.txt": b"hello, this is a note", **{f"a/b/{k}": v for k, v in station_files("NIG019").items()}}))
+    path.write_bytes(make_zip({"a/readme.txt": b"hello, this is a note", **{f"a/b/{k}": v for k, v in station_files("NIG019").items()}}))
     assert read(path).codes == ("NS", "EW", "UD")
     lone = tmp_path / "jma.csv.gz"
     lone.write_bytes(gzip.compress((JMA_HEADER + JMA_BODY).encode("cp932")))
@@ -73,10 +73,10 @@ def test_zip_with_folders_gives_its_record(tmp_path):
 @pytest.mark.parametrize(
     ("data", "says"),
     [
-        (zipped({"readme.txt": b"nothing here"}), "contents: readme.txt"),
-        (zipped({"plot.png": b"x"}), "plots only"),
+        (make_zip({"readme.txt": b"nothing here"}), "contents: readme.txt"),
+        (make_zip({"plot.png": b"x"}), "plots only"),
         (gzip.compress(bytes(range(256)))[:100], "damaged"),
-        (zipped(station_files("NIG019"))[:-200], "damaged"),
+        (make_zip(station_files("NIG019"))[:-200], "damaged"),
     ],
     ids=["no record", "plots only", "gzip cut short", "zip cut short"],
 )

@@ -30,7 +30,7 @@ DIGIT = {
 """Half a unit of the last digit that each format prints of these samples, m/s^2."""
 
 
-def written(tmp_path, text, name="record"):
+def write_text_file(tmp_path, text, name="record"):
     """Return a file that holds a text."""
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
@@ -98,7 +98,7 @@ def test_station_and_earthquake_are_read(kind, tmp_path):
 
 def test_azimuths_are_kept(tmp_path):
     """N10E and N80W are the azimuths 10 and 280; along north they act as their projections."""
-    record = read(written(tmp_path, layouts.geonet(ROWS)))
+    record = read(write_text_file(tmp_path, layouts.geonet(ROWS)))
     assert [(c.code, c.azimuth_deg) for c in record.components] == [("10", 10.0), ("280", 280.0), ("UD", None)]
     one, other = (component.acceleration for component in record.horizontals)
     north = np.cos(np.radians(10)) * one + np.cos(np.radians(280)) * other
@@ -112,7 +112,7 @@ def test_down_component_is_inverted(tmp_path):
         layouts.cosmos(ROWS[0], azimuth=401),
         layouts.csmip(ROWS, names=("0 Deg", "90 Deg", "Down")),
     ):
-        record = read(written(tmp_path, text))
+        record = read(write_text_file(tmp_path, text))
         row = ROWS[2] if len(record.components) == 3 else ROWS[0]
         np.testing.assert_allclose(record.component("UD").acceleration, -row / 100.0, atol=6e-5)
         assert any("positive down" in line for line in record.history)
@@ -120,7 +120,7 @@ def test_down_component_is_inverted(tmp_path):
 
 def test_volume_2_gives_accelerations_only(tmp_path):
     """Velocities and displacements of other lengths lie between the channels and are passed over; V1 in g and V2 in cm/s^2 agree."""
-    one, two = (read(written(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
+    one, two = (read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
     for code in ("NS", "EW", "UD"):
         np.testing.assert_allclose(one.component(code).acceleration, two.component(code).acceleration, atol=2e-5)
 
@@ -128,18 +128,18 @@ def test_volume_2_gives_accelerations_only(tmp_path):
 def test_single_channel_file_finds_other_components(tmp_path):
     """One letter of the name tells the component; another station, or another time, under such a name is not taken."""
     for letter, row in zip("NEZ", ROWS, strict=True):
-        written(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
+        write_text_file(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
     other = layouts.esm(ROWS[0], stream="HN1").replace("STATION_CODE: SYN1", "STATION_CODE: SYN2")
-    written(tmp_path, other, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
+    write_text_file(tmp_path, other, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
     record = read(tmp_path / "SY.SYN1..HNE.D.20200102.030400.C.ACC.ASC")
     assert record.codes == ("NS", "EW", "UD")
     for letter, azimuth, vertical, row in (("a", 360, 90, ROWS[0]), ("b", 0, 0, ROWS[2][:-1]), ("c", 270, 90, ROWS[1])):
-        written(tmp_path, layouts.smc(row, azimuth=azimuth, vertical=vertical), f"0111{letter}.smc")
+        write_text_file(tmp_path, layouts.smc(row, azimuth=azimuth, vertical=vertical), f"0111{letter}.smc")
     record = read(tmp_path / "0111c.smc")
     assert (record.codes, record.samples) == (("NS", "270", "UD"), 599)
     assert "shortest" in record.history[0]
     for seed, azimuth, row in (("HNN", 360, ROWS[0]), ("HNE", 90, ROWS[1]), ("HNZ", 400, ROWS[2])):
-        written(tmp_path, layouts.cosmos(row, azimuth=azimuth), f"SYN1--n.1.{seed}.--.acc.V2c")
+        write_text_file(tmp_path, layouts.cosmos(row, azimuth=azimuth), f"SYN1--n.1.{seed}.--.acc.V2c")
     assert read(tmp_path / "SYN1--n.1.HNZ.--.acc.V2c").codes == ("NS", "EW", "UD")
     assert [len(recording.files) for recording in iter_records([str(tmp_path)], ReadOptions())] == [3, 4, 3]
     assert len(read_all(sorted(tmp_path.glob("*.smc")))) == 1
@@ -157,7 +157,7 @@ def test_structure_locations_are_selected_as_stations(make, tmp_path):
         text = "".join(layouts.cosmos(row, azimuth=azimuth, structure=10, place=place[10:]) for row, azimuth, place in told)
     else:
         text = make(rows, names=names, places=places)
-    path = written(tmp_path, text)
+    path = write_text_file(tmp_path, text)
     with pytest.raises(ComponentError, match=r"2 stations; select one with `station`: .*Free field, .*Roof, west"):
         read(path)
     code = "SYN1" if make is None else "00001"
@@ -170,7 +170,7 @@ def test_structure_locations_are_selected_as_stations(make, tmp_path):
 
 def test_structure_channels_without_location_use_numbers(tmp_path):
     """Two channels in one direction at no place are two stations."""
-    path = written(tmp_path, layouts.csmip([ROWS[0], ROWS[1]], names=("90 Deg", "90 Deg")))
+    path = write_text_file(tmp_path, layouts.csmip([ROWS[0], ROWS[1]], names=("90 Deg", "90 Deg")))
     with pytest.raises(ComponentError, match="00001 channel 1, 00001 channel 2"):
         read(path)
     assert read(path, station="00001 channel 2").codes == ("EW",)
@@ -198,15 +198,15 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
 def test_files_without_even_accelerations_are_rejected(text, says, tmp_path):
     """One sentence says what the file holds, and which file to take."""
     with pytest.raises(RecordFormatError, match=says):
-        read(written(tmp_path, text))
+        read(write_text_file(tmp_path, text))
 
 
 def test_non_acceleration_units_are_rejected(tmp_path):
     """Volts in COSMOS, and CSMIP's samples in a unit that nobody knows."""
     with pytest.raises(UnitError, match="unknown acceleration unit"):
-        read(written(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
+        read(write_text_file(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
     with pytest.raises(UnitError, match="'volts'"):
-        read(written(tmp_path, layouts.csmip(ROWS, volume=1).replace("UNITS: G)", "UNITS: volts)")))
+        read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=1).replace("UNITS: G)", "UNITS: volts)")))
 
 
 @pytest.mark.parametrize(
@@ -222,17 +222,17 @@ def test_non_acceleration_units_are_rejected(tmp_path):
 def test_invalid_headers_are_rejected_with_line(text, says, tmp_path):
     """The line, what was expected, what was found."""
     with pytest.raises(RecordError, match=says):
-        read(written(tmp_path, text))
+        read(write_text_file(tmp_path, text))
 
 
 def test_adjacent_fixed_width_numbers_are_separated(tmp_path):
     """Samples of SMC stand without a blank between them; a lost character is found by the length of its line."""
     text = layouts.smc(ROWS[0])
     line = next(line for line in text.splitlines()[28:] if "-" in line[9:71].replace("E-", ""))
-    path = written(tmp_path, text)
+    path = write_text_file(tmp_path, text)
     assert read(path).samples == 600
     with pytest.raises(RecordFormatError, match="expected 8 numbers of 10 characters each"):
-        read(written(tmp_path, text.replace(line, line[:30] + line[31:])))
+        read(write_text_file(tmp_path, text.replace(line, line[:30] + line[31:])))
 
 
 @pytest.mark.parametrize(("name", "start"), [("hanmer_springs_2016", "2016-11-13T11:02:20"), ("shafter_1989", "1989-10-18T00:04:00")])

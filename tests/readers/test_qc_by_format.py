@@ -13,7 +13,7 @@ MIDDLE = 310
 """A sample in the strongest part of every component."""
 
 
-def changed(change):
+def damage_each(change):
     """Make a damage of each component."""
 
     def damage(rows):
@@ -53,7 +53,7 @@ def _enlarge(row):
 SAMPLES_DAMAGED = {"clipped": _clip, "spike": _spike, "held": _gap, "held too": _hold, "offset": _offset, "size": _enlarge}
 
 
-def noticed(data, kind, tmp_path):
+def kinds_found(data, kind, tmp_path):
     """Return the kinds of doubt about a file, `refused` where it is."""
     path = tmp_path / "damaged"
     path.write_bytes(data)
@@ -67,8 +67,8 @@ def noticed(data, kind, tmp_path):
 @pytest.mark.parametrize("kind", WRITERS)
 def test_sample_defects_are_flagged_in_every_format(kind, damage, tmp_path):
     """Flat peaks, lone spikes, gaps filled with zeros or the last value, offsets, more than 5 g."""
-    data = WRITERS[kind](changed(SAMPLES_DAMAGED[damage])(ROWS))
-    found = noticed(data, kind, tmp_path)
+    data = WRITERS[kind](damage_each(SAMPLES_DAMAGED[damage])(ROWS))
+    found = kinds_found(data, kind, tmp_path)
     assert found & {damage.split()[0], "refused"}
 
 
@@ -116,7 +116,7 @@ TEXTS = sorted(set(WRITERS) - {"mseed", "sac", "tar", "tar.gz", "zip"})
 @pytest.mark.parametrize("kind", TEXTS)
 def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
     """A count against the header, a clock that stumbles, seconds that are not whole, an end without an end of line."""
-    found = noticed(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
+    found = kinds_found(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
     assert bool(found - {"directions"}) != ((kind, damage) in SILENT | BARE), found
 
 
@@ -125,7 +125,7 @@ def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
 def test_truncated_binary_file_is_flagged(kind, share, tmp_path):
     """A download that stopped; zeros behind the last member of a tar are nobody's loss."""
     data = WRITERS[kind](ROWS).rstrip(b"\0" if kind == "tar" else b"")
-    assert noticed(data[: int(share * len(data))], kind, tmp_path) - {"directions"}
+    assert kinds_found(data[: int(share * len(data))], kind, tmp_path) - {"directions"}
 
 
 TWICE = {"jma": (b"NS,EW,UD", b"NS,NS,UD"), "knet-csv": (b",N-S(gal),E-W(gal)", b",N-S(gal),N-S(gal)"), "comma": (b"EW (gal)", b"NS (gal)"),
@@ -137,11 +137,11 @@ def test_duplicate_columns_are_rejected_in_every_format(kind, tmp_path):
     """None of them is believed."""
     data, (name, other) = WRITERS[kind](ROWS), TWICE[kind]
     assert name in data
-    assert noticed(data.replace(name, other), kind, tmp_path) == {"refused"}
+    assert kinds_found(data.replace(name, other), kind, tmp_path) == {"refused"}
 
 
 def test_jma_record_without_whole_seconds_is_flagged(tmp_path):
     """JMA publishes whole seconds: 599 samples at 100 Hz have lost one."""
     lines = WRITERS["jma"](ROWS).splitlines(keepends=True)
-    assert noticed(b"".join(lines[:-1]), "jma", tmp_path) == {"count"}
-    assert noticed(b"".join(lines), "jma", tmp_path) == set()
+    assert kinds_found(b"".join(lines[:-1]), "jma", tmp_path) == {"count"}
+    assert kinds_found(b"".join(lines), "jma", tmp_path) == set()

@@ -36,7 +36,7 @@ SAME = 1e-12
 """Round-off of a filter, over the largest sample that goes in: one that contracts its products differs by so much."""
 
 
-def extended(row, before, after):
+def mirror_extension(row, before, after):
     """Return a row with its mirror images."""
     longer = np.concatenate((np.full(before, np.nan), row, np.full(after, np.nan)))
     filters._fill_mirror_image(longer, before, row.size)
@@ -50,13 +50,13 @@ def test_chunked_highpass_equals_scipy(small_pieces, hz):
     sections, pad = filters._design(DT, hz)
     theirs = np.array([[gain, -2.0 * gain, gain, 1.0, first, second] for gain, first, second in sections])
     np.testing.assert_allclose(theirs, butter(4, hz, "highpass", fs=1.0 / DT, output="sos"), rtol=0.0, atol=1e-15)
-    row = extended(ROW - filters.end_line(ROW, DT, hz), pad, pad)
+    row = mirror_extension(ROW - filters.end_line(ROW, DT, hz), pad, pad)
     rest = theirs[0, 0] * np.array([[-1.0, 1.0], [0.0, 0.0]])  # of a constant nothing is left
     for _ in range(2):
         row = sosfilt(theirs, row, zi=rest * row[0])[0][::-1]
     expected = row[pad : pad + ROW.size]
     np.testing.assert_allclose(filters.highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
-    forwards = extended(ROW - filters.end_line(ROW, DT, hz), pad, 0)
+    forwards = mirror_extension(ROW - filters.end_line(ROW, DT, hz), pad, 0)
     expected = sosfilt(theirs, forwards)[pad:]
     np.testing.assert_allclose(filters.causal_highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
 
@@ -73,9 +73,9 @@ def test_butterworth_sections_equal_scipy(dt, share):
 def test_chunked_padding_equals_whole():
     """Padding within the record, padding longer than it, and none."""
     row = np.arange(1.0, 6.0)
-    np.testing.assert_array_equal(extended(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
-    np.testing.assert_array_equal(extended(row, 7, 1)[:8], [4, 5, -5, -4, -3, -2, -1, 1])
-    np.testing.assert_array_equal(extended(row, 0, 0), row)
+    np.testing.assert_array_equal(mirror_extension(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
+    np.testing.assert_array_equal(mirror_extension(row, 7, 1)[:8], [4, 5, -5, -4, -3, -2, -1, 1])
+    np.testing.assert_array_equal(mirror_extension(row, 0, 0), row)
 
 
 def test_chunked_peak_between_samples_equals_whole(small_pieces, monkeypatch):

@@ -43,23 +43,23 @@ def _walk(shape, definitions, path):
         yield path, kind
 
 
-def stored(command):
+def stored_lines(command):
     """Return the lines written down; none when the command is new."""
     path = STORED / f"{command}.txt"
     return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
 
 
-def gone(command):
+def missing_lines(command):
     """Return the lines written down that hold no longer, unless the version was stepped."""
-    before, now = stored(command), lines(command)
+    before, now = stored_lines(command), lines(command)
     return [] if not before or before[0] != now[0] else [line for line in before if line not in now]
 
 
 def refresh():
     """Write the keys of every command down; refuse where one went or changed without a step of the version."""
     for command in document_commands():
-        if gone(command):
-            sys.exit(f"{command}: step its version in versions.py first; these went or changed: {'; '.join(gone(command))}")
+        if missing_lines(command):
+            sys.exit(f"{command}: step its version in versions.py first; these went or changed: {'; '.join(missing_lines(command))}")
         text = "\n".join(lines(command)) + "\n"
         STORED.mkdir(exist_ok=True)
         (STORED / f"{command}.txt").write_text(text, encoding="utf-8")

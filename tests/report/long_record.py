@@ -132,7 +132,7 @@ AOYAMA = read_cemetery("aoyama.csv")
 BOTH = ("NS", "EW")
 
 
-def prepared():
+def prepared_record():
     """Return the record, worked on, so that the title has something to say of it."""
     return Preparation(highpass_hz=0.1, scale=1.2).apply(record())
 
@@ -148,7 +148,7 @@ def spectra():
 
 
 @functools.cache
-def around():
+def azimuth_spectra():
     found = rocking_spectrum_all_azimuths(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
     return [(replace(motion("NS"), name="all-azimuths"), found)]
 
@@ -175,7 +175,7 @@ def rates(*, after=False):
 
 
 @functools.cache
-def estimated():
+def shaking_estimates():
     survey, assumptions = counted_survey(AOYAMA, 35, 100), make_assumptions(None)
     return "aoyama", survey, assumptions, [estimate_shaking(survey, f, assumptions) for f in (0.5, 1.0, 2.0, 3.0)]
 
@@ -245,7 +245,7 @@ def fitted_block():
     return fit_block(shaken(12, 0), runs=1)
 
 
-def of_models():
+def model_figures():
     """Yield the figure of each model, of one direction and of two."""
     for model in solver_names():
         function = import_module(f"{figures.__name__}.{model}").figure
@@ -256,12 +256,12 @@ def of_models():
 
 PLANE = {"mu": tuple(np.linspace(0.1, 0.6, 9)), "slope_deg": tuple(np.linspace(0.0, 16.0, 9)), "kappa": (0.75, 1.0)}
 
-OF_THE_RECORD = dict(of_models()) | {
+OF_THE_RECORD = dict(model_figures()) | {
     "measure": (measure_figure, lambda gal: measure_figure(record(), measure(record()), gal=gal)),
     "criteria": (criteria.figure, lambda gal: criteria.figure(cards(), gal=gal)),
     "rocking": (spectrum.figure, lambda _: spectrum.figure(spectra(), "rocking", 9.81)),
     "overturning": (spectrum.figure, lambda _: spectrum.figure(spectra()[:1], "overturning", 9.81)),
-    "overturning, all azimuths": (spectrum.figure, lambda _: spectrum.figure(around(), "overturning", 9.81)),
+    "overturning, all azimuths": (spectrum.figure, lambda _: spectrum.figure(azimuth_spectra(), "overturning", 9.81)),
     "sliding": (sliding_spectrum.figure, lambda _: sliding_spectrum.figure(slides())),
     "study": (
         slide_study.figure,
@@ -290,7 +290,7 @@ OF_THE_RECORD = dict(of_models()) | {
 
 OF_NO_RECORD = {
     "a scan": (body.figure, lambda _: body.figure(scan_body("boulder.ply", inset=0.1))),
-    "estimate": (infer.estimate_figure, lambda gal: infer.estimate_figure(*estimated(), gal=gal)),
+    "estimate": (infer.estimate_figure, lambda gal: infer.estimate_figure(*shaking_estimates(), gal=gal)),
     "rate, curves": (
         cemetery.overturn_rate_figure,
         lambda gal: cemetery.overturn_rate_figure(AOYAMA, [], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal),

@@ -25,7 +25,7 @@ def response():
     return solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
 
 
-def pictures(count):
+def make_pictures(count):
     """Yield small pictures that differ."""
     for i in range(count):
         picture = Image.new("RGB", (31, 21), "white")
@@ -35,7 +35,7 @@ def pictures(count):
 
 def test_gif_has_every_frame_at_true_speed(tmp_path):
     """Twenty pictures a second are 50 ms each."""
-    write_frames(pictures(12), tmp_path / "a.gif")
+    write_frames(make_pictures(12), tmp_path / "a.gif")
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 12
         assert image.info["duration"] == 50
@@ -65,7 +65,7 @@ def test_gif_stores_only_changes_between_frames(tmp_path):
 @pytest.mark.skipif(find_ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
 def test_mp4_has_even_size_and_all_frames(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""
-    write_frames(pictures(9), tmp_path / "a.mp4")
+    write_frames(make_pictures(9), tmp_path / "a.mp4")
     assert b"ftyp" in (tmp_path / "a.mp4").read_bytes()[:16]
     assert subprocess.run([find_ffmpeg(), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
 
@@ -90,7 +90,7 @@ def test_mp4_without_ffmpeg_raises_with_remedy(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setattr(atomic, "find_spec", lambda name: None)
     with pytest.raises(OutputError, match="ffmpeg not found"):
-        write_frames(pictures(3), tmp_path / "a.mp4")
+        write_frames(make_pictures(3), tmp_path / "a.mp4")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -98,7 +98,7 @@ def test_mp4_without_ffmpeg_raises_with_remedy(tmp_path, monkeypatch):
 def test_animate_rejects_unknown_suffix_and_missing_directory(tmp_path, name):
     """Other suffixes and missing directories are errors of the user."""
     with pytest.raises(OutputError):
-        write_frames(pictures(3), tmp_path / name)
+        write_frames(make_pictures(3), tmp_path / name)
 
 
 def test_interrupted_animation_keeps_existing_file(tmp_path):
@@ -106,7 +106,7 @@ def test_interrupted_animation_keeps_existing_file(tmp_path):
     (tmp_path / "a.gif").write_bytes(b"old")
 
     def broken():
-        yield from pictures(2)
+        yield from make_pictures(2)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

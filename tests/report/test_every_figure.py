@@ -48,7 +48,7 @@ def test_every_figure_function_is_listed():
 
 
 @functools.cache
-def drawn(name, lang):
+def figure_of(name, lang):
     """Return a figure, drawn once in a language: every test looks at the same one."""
     with use_locale(lang):
         figure = EVERY[name][1](True)
@@ -57,15 +57,15 @@ def drawn(name, lang):
 
 
 @functools.cache
-def read(name, lang):
+def texts_of(name, lang):
     """Return what a figure says, read once: looking for its texts takes as long as drawing it."""
-    return tuple(visible_texts(drawn(name, lang)))
+    return tuple(visible_texts(figure_of(name, lang)))
 
 
-def letters(name, *, gal):
+def texts_in_unit(name, *, gal):
     """Return what a figure says in a unit; its words are settled before it is drawn."""
     if gal:
-        return [text.get_text() for text in read(name, "en")]
+        return [text.get_text() for text in texts_of(name, "en")]
     with use_locale("en"):
         return [text.get_text() for text in EVERY[name][1](False).findobj(Text)]
 
@@ -74,8 +74,8 @@ def letters(name, *, gal):
 @pytest.mark.parametrize("name", EVERY)
 def test_figure_texts_do_not_overlap_or_leave_canvas(name, lang):
     """F3: every text that is drawn stands by itself, within the figure; and no zero has a sign."""
-    assert crowded(drawn(name, lang), read(name, lang)) == []
-    assert not [text.get_text() for text in read(name, lang) if MINUS_NOTHING.search(text.get_text())]
+    assert overlapping_texts(figure_of(name, lang), texts_of(name, lang)) == []
+    assert not [text.get_text() for text in texts_of(name, lang) if MINUS_NOTHING.search(text.get_text())]
 
 
 @pytest.mark.slow
@@ -87,7 +87,7 @@ def test_figures_fit_journal_column_widths(name):
         figure = fit_figure_size(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
-    assert crowded(figure, texts) == []
+    assert overlapping_texts(figure, texts) == []
     assert min(text.get_fontsize() for text in texts) >= 6.5 * MIN_FONT_SCALE
 
 
@@ -117,7 +117,7 @@ def test_small_size_fits_or_is_rejected_with_sufficient_size(name, monkeypatch):
             assert tuple(figure.get_size_inches()) == pytest.approx((COLUMN / 0.0254, 0.06 / 0.0254))
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
-    assert crowded(figure, texts) == []
+    assert overlapping_texts(figure, texts) == []
     assert min(text.get_fontsize() for text in texts) >= 6.5 * MIN_FONT_SCALE
 
 
@@ -130,7 +130,7 @@ def test_panels_stack_vertically_at_column_width(name, lang):
         high = 0.4 if name == "uplift, two" else 0.235  # that one has twelve panels
         figure = fit_figure_size(EVERY[name][1](True), size=(COLUMN, high), title="as asked")
         figure.draw_without_rendering()
-    assert crowded(figure, tuple(visible_texts(figure))) == []
+    assert overlapping_texts(figure, tuple(visible_texts(figure))) == []
     assert figure.get_size_inches() == pytest.approx((COLUMN / 0.0254, high / 0.0254))
     assert figure.heading.get_text() == "as asked"
 
@@ -151,13 +151,13 @@ def test_legend_of_small_figure_moves_above_axes(number, lang):
 @pytest.mark.parametrize("name", ["fragility", "fragility of nine"])
 def test_fragility_legend_covers_no_curve(name):
     """Curves rise to the right: the key stands in the corner that they leave."""
-    figure = drawn(name, "en")
+    figure = figure_of(name, "en")
     assert [axis for axis in figure.axes if axis.get_legend() and figure.legend_covers_curve(axis.get_legend())] == []
 
 
 def test_nine_risk_curves_are_distinct_and_labelled():
     """Each has a line of its own, and its name stands within the figure."""
-    figure = drawn("risk of nine", "ja")
+    figure = figure_of("risk of nine", "ja")
     curves = figure.axes[1].lines
     assert len({(str(curve.get_color()), str(curve._unscaled_dash_pattern)) for curve in curves}) == len(curves) == 9
     assert {text.get_text() for text in figure.legends[0].get_texts()} == {curve.get_label() for curve in curves}
@@ -180,7 +180,7 @@ def test_legend_does_not_cover_title_in_report(lang):
 @pytest.mark.parametrize("name", OF_THE_RECORD)
 def test_figure_title_names_record_and_time(name):
     """F3, P4: station and local time stand above every figure of a record; a name is text, not mathematics (R15)."""
-    figure = drawn(name, "en")
+    figure = figure_of(name, "en")
     assert figure.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST")
     assert not figure.heading.get_parse_math()
 
@@ -188,17 +188,17 @@ def test_figure_title_names_record_and_time(name):
 @pytest.mark.parametrize("name", EVERY)
 def test_figure_uses_one_acceleration_unit(name):
     """F3: gal or m/s², as asked, never both; and what is drawn in m/s² is a hundredth of what is drawn in gal."""
-    assert not having(UNITS[1], letters(name, gal=True))
-    if having(UNITS[0], letters(name, gal=True)) and name not in ALWAYS_GAL:
-        texts = letters(name, gal=False)
-        assert not having(UNITS[0], texts)
-        assert having(UNITS[1], texts)
+    assert not texts_with_unit(UNITS[1], texts_in_unit(name, gal=True))
+    if texts_with_unit(UNITS[0], texts_in_unit(name, gal=True)) and name not in ALWAYS_GAL:
+        texts = texts_in_unit(name, gal=False)
+        assert not texts_with_unit(UNITS[0], texts)
+        assert texts_with_unit(UNITS[1], texts)
 
 
 @pytest.mark.parametrize("name", EVERY)
 def test_figures_have_no_empty_panel_or_legend(name):
     """F3: what did not happen has neither."""
-    for axis in drawn(name, "en").axes:
+    for axis in figure_of(name, "en").axes:
         assert axis.has_data() or axis.get_label() == "<colorbar>"
         if axis.get_legend():
             assert all(text.get_text() for text in axis.get_legend().get_texts())
@@ -207,16 +207,16 @@ def test_figures_have_no_empty_panel_or_legend(name):
 @pytest.mark.parametrize("name", EVERY)
 def test_legend_entries_differ_in_greyscale(name):
     """F3: no two entries of a legend differ in hue alone: in dash, marker or lightness they do, for every eye and every printer."""
-    figure = drawn(name, "en")
+    figure = figure_of(name, "en")
     keys = [axis.get_legend_handles_labels() for axis in figure.axes if axis.get_legend()]
     keys += [(key.legend_handles, [text.get_text() for text in key.get_texts()]) for key in figure.legends]
     for handles, names in keys:
-        looks = [(name, look(handle)) for name, handle in zip(names, handles, strict=True)]
+        looks = [(name, style_of(handle)) for name, handle in zip(names, handles, strict=True)]
         for (one, (kind, style, light)), (other, (kind_2, style_2, light_2)) in itertools.combinations(looks, 2):
             assert (kind, style) != (kind_2, style_2) or abs(light - light_2) >= APART, (one, other)
 
 
-def look(handle):
+def style_of(handle):
     """Return of an entry of a legend what does not depend on its hue: what it is, its dashes and marker, its lightness."""
     if isinstance(handle, Patch):
         return "patch", None, lightness(handle.get_facecolor())
@@ -243,16 +243,16 @@ def test_layout_checks_detect_known_faults():
     figure.text(0.5, 0.505, "another here")
     figure.text(0.95, 0.7, "beyond the edge of it")
     figure.draw_without_rendering()
-    assert len(crowded(figure, tuple(visible_texts(figure)))) == 2
+    assert len(overlapping_texts(figure, tuple(visible_texts(figure)))) == 2
     assert abs(lightness("#c0392b") - lightness("#1f5a8c")) < APART < lightness("#f4d9c6") - lightness("#c0392b")
 
 
-def having(unit, texts):
+def texts_with_unit(unit, texts):
     """Return the texts that speak in a unit."""
     return [text for text in texts if unit in text.split() or f"({unit})" in text]
 
 
-def crowded(figure: Figure, texts: tuple[Text, ...]) -> list[object]:
+def overlapping_texts(figure: Figure, texts: tuple[Text, ...]) -> list[object]:
     """Return the texts that leave the canvas and the pairs that lie on one another."""
     renderer = figure.canvas.get_renderer()
     boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in texts]
@@ -260,14 +260,14 @@ def crowded(figure: Figure, texts: tuple[Text, ...]) -> list[object]:
     edge = 0.01 * figure.dpi
     away = [told for told, box in boxes if min(box.x0, box.y0) < -edge or box.x1 > width + edge or box.y1 > height + edge]
     pairs = itertools.combinations(boxes, 2)
-    return [*away, *((a, b) for (a, one), (b, other) in pairs if shared(one, other) > TOUCH)]
+    return [*away, *((a, b) for (a, one), (b, other) in pairs if overlap_share(one, other) > TOUCH)]
 
 
 def visible_texts(figure: Figure):
     """Yield the texts that a reader sees, each once."""
     seen = set()
     for axis in figure.axes:
-        beyond = {*outside(axis.get_xticklabels(), axis.get_xlim(), 0), *outside(axis.get_yticklabels(), axis.get_ylim(), 1)}
+        beyond = {*labels_outside(axis.get_xticklabels(), axis.get_xlim(), 0), *labels_outside(axis.get_yticklabels(), axis.get_ylim(), 1)}
         for text in axis.findobj(Text):
             if text not in beyond and text not in seen and text.get_visible() and text.get_text().strip():
                 seen.add(text)
@@ -276,12 +276,12 @@ def visible_texts(figure: Figure):
     yield from (text for text in others if text.get_text().strip())
 
 
-def outside(labels, limits, which):
+def labels_outside(labels, limits, which):
     """Return the numbers along an axis that stand beyond its ends, where matplotlib draws none."""
     return [text for text in labels if not min(limits) <= text.get_position()[which] <= max(limits)]
 
 
-def shared(one, other):
+def overlap_share(one, other):
     """Return how much of the smaller box lies in the other."""
     wide, high = min(one.x1, other.x1) - max(one.x0, other.x0), min(one.y1, other.y1) - max(one.y0, other.y0)
     return max(wide, 0.0) * max(high, 0.0) / min(one.width * one.height, other.width * other.height)

@@ -21,7 +21,7 @@ VERTICES = 5
 """Of a bar, whose last is its first."""
 
 
-def until_it_falls(found, name):
+def tilt_until_fall(found, name):
     """Return the tilt of a stone, and nothing from its fall on."""
     (fell,) = (stone.fell_at_s for stone in found.outcome.stones if stone.name == name)
     return np.where(found.time <= fell, found[f"{name}_tilt"], np.nan)
@@ -33,12 +33,12 @@ DRAWN = {
     "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "v (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
     "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
-    "stack": lambda r: {"tilt θ (deg)": np.degrees(until_it_falls(r, "sao")), "slip s (cm)": 100.0 * r["base_slip"]},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(tilt_until_fall(r, "sao")), "slip s (cm)": 100.0 * r["base_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
 
 
-def deviation(axis, line, time, values):
+def line_deviation(axis, line, time, values):
     """Return how far a line is from what it shows, of the panel's height: where it has each point, or bin by bin."""
     first, last = axis.get_xlim()
     x, y = (np.asarray(data, dtype=float) for data in line.get_data())
@@ -73,7 +73,7 @@ def test_history_draws_every_point_in_view(model):
         (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == text]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
         told = np.isfinite(values)
-        assert min(deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
+        assert min(line_deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
 
 
 def test_svg_path_equals_response_within_half_pixel(tmp_path):

@@ -27,7 +27,6 @@ from tests.report.long_record import (
     PLANE,
     cards,
     criterion,
-    estimated,
     every_azimuth,
     factors,
     fitted_block,
@@ -37,6 +36,7 @@ from tests.report.long_record import (
     record,
     regions,
     risks,
+    shaking_estimates,
     slides,
     spectra,
     study,
@@ -48,15 +48,15 @@ def axes_of(kind):
     return EVERY[kind][1](True).axes
 
 
-def drawn(axis):
+def curves_of(axis):
     """Return the curves of a panel, those of its own data."""
     return [np.column_stack(line.get_data()) for line in axis.get_lines() if line.get_transform() == axis.transData]
 
 
-def holds(axis, x, y):
+def contains_curve(axis, x, y):
     """Return whether one of the curves of a panel runs through all of some points."""
     points = np.column_stack([x, y]).astype(float)
-    return any(curve.shape == points.shape and np.allclose(curve, points, equal_nan=True) for curve in drawn(axis))
+    return any(curve.shape == points.shape and np.allclose(curve, points, equal_nan=True) for curve in curves_of(axis))
 
 
 @pytest.mark.slow
@@ -70,7 +70,7 @@ def test_sliding_spectrum_curves_equal_results():
     """Friction and cm; what holds has no point."""
     (axis,) = axes_of("sliding")
     for _, points in slides():
-        assert holds(axis, [p.mu for p in points], [100.0 * p.max_slip_m or np.nan for p in points])
+        assert contains_curve(axis, [p.mu for p in points], [100.0 * p.max_slip_m or np.nan for p in points])
 
 
 def test_slide_study_curves_equal_results():
@@ -79,23 +79,23 @@ def test_slide_study_curves_equal_results():
     (points,) = study(mu=(0.1, 0.2, 0.3), kappa=(0.5, 1.0))
     for kappa in (0.5, 1.0):
         mine = [p for p in points if p.kappa == pytest.approx(kappa)]
-        assert holds(axis, [p.mu for p in mine], [100.0 * p.max_slip_m for p in mine])
+        assert contains_curve(axis, [p.mu for p in mine], [100.0 * p.max_slip_m for p in mine])
 
 
 def test_scale_factor_figure_shows_curve_and_solutions():
     """Displacement against the factor, and a point at each factor that gives what was observed."""
     for axis, (_, found) in zip(axes_of("factors"), factors(), strict=True):
         scales, values = found.curve
-        assert holds(axis, scales, 100.0 * np.array(values))
+        assert contains_curve(axis, scales, 100.0 * np.array(values))
         solutions = [each.scale for each in found.scale_factors if not each.leaps]
-        assert not solutions or holds(axis, solutions, [100.0 * found.observed_m] * len(solutions))
+        assert not solutions or contains_curve(axis, solutions, [100.0 * found.observed_m] * len(solutions))
 
 
 def test_record_figure_contains_every_peak():
     """Every peak of each component stands in its panel, gal."""
     for axis, part in zip(axes_of("a record"), record().components, strict=True):
         values = 100.0 * part.acceleration
-        (curve,) = drawn(axis)
+        (curve,) = curves_of(axis)
         assert (curve[:, 1].min(), curve[:, 1].max()) == pytest.approx((values.min(), values.max()))
 
 
@@ -103,7 +103,7 @@ def test_fragility_curves_equal_lognormals():
     """Each curve of the answer, at its kine."""
     axis = axes_of("fragility")[0]
     for curve in fragilities().curves:
-        shown = [each for each in drawn(axis) if np.allclose(each[:, 1], curve.curve.probability(each[:, 0] / 100.0))]
+        shown = [each for each in curves_of(axis) if np.allclose(each[:, 1], curve.curve.probability(each[:, 0] / 100.0))]
         assert len(shown) == 1 and len(shown[0]) > 50
 
 
@@ -111,9 +111,9 @@ def test_risk_figure_shows_hazard_and_fragilities():
     """The mean hazard above, each fragility in the middle, at the same kine."""
     above, middle, _ = axes_of("risk")
     found, hazard = risks()
-    assert any(len(each) > 50 and np.allclose(each[:, 1], hazard.rate(each[:, 0] / 100.0)) for each in drawn(above))
+    assert any(len(each) > 50 and np.allclose(each[:, 1], hazard.rate(each[:, 0] / 100.0)) for each in curves_of(above))
     for given, _ in found:
-        assert sum(np.allclose(each[:, 1], given.curve.probability(each[:, 0] / 100.0)) for each in drawn(middle)) == 1
+        assert sum(np.allclose(each[:, 1], given.curve.probability(each[:, 0] / 100.0)) for each in curves_of(middle)) == 1
 
 
 @pytest.mark.slow
@@ -158,7 +158,7 @@ def test_harmonic_region_curves_equal_results():
     """A over g against the frequency, and a point at each of their troughs."""
     axis = axes_of("harmonic")[0]
     for region in regions(damping=(0.02, 0.05)):
-        assert holds(axis, region.frequency_ratio, np.minimum(region.acceleration_ratio, 1e3))
+        assert contains_curve(axis, region.frequency_ratio, np.minimum(region.acceleration_ratio, 1e3))
 
 
 @pytest.mark.slow
@@ -171,11 +171,11 @@ def test_mode_map_cells_equal_results():
 def test_shaking_estimate_points_equal_results():
     """A point and the two ends of its interval at each frequency asked for, gal; the likelihoods are one at their largest."""
     left, right = axes_of("estimate")
-    *_, estimates = estimated()
+    *_, estimates = shaking_estimates()
     for each in estimates:
-        assert holds(left, [each.frequency_hz], [100.0 * each.pga_m_s2])
-        assert holds(left, [each.frequency_hz] * 2, [100.0 * end for end in each.pga_interval_m_s2])
-    curves = drawn(right)
+        assert contains_curve(left, [each.frequency_hz], [100.0 * each.pga_m_s2])
+        assert contains_curve(left, [each.frequency_hz] * 2, [100.0 * end for end in each.pga_interval_m_s2])
+    curves = curves_of(right)
     assert len(curves) == len(estimates)
     for curve, each in zip(curves, estimates, strict=True):
         assert curve[:, 1].max() == 1.0
@@ -189,7 +189,7 @@ def test_fit_figure_shows_draws_and_outcomes():
     *known, calibration, outcomes = EVERY["fit"][1](True).axes
     assert len(known) == len(found.axes)
     for panel, axis in zip(known, found.axes, strict=True):
-        assert holds(panel, [found[axis.name].median] * 2, [0.0, 1.0]) or any(
+        assert contains_curve(panel, [found[axis.name].median] * 2, [0.0, 1.0]) or any(
             list(line.get_xdata()) == [found[axis.name].median] * 2 for line in panel.get_lines()
         )
         bars = [patch for patch in panel.patches if patch.get_width() > 0.0 and patch.get_facecolor()[3] == 1.0]
@@ -201,7 +201,7 @@ def test_fit_figure_shows_draws_and_outcomes():
     wanted = np.column_stack([found.pgv_m_s[strong] / found.pga_m_s2[strong], 100.0 * found.pga_m_s2[strong]])
     assert np.allclose(np.sort(points, axis=0), np.sort(wanted, axis=0)) and len(points) == len(wanted)
     for step in found.held_out.calibration if found.held_out else ():
-        assert holds(calibration, [step.mean_probability], [step.share])
+        assert contains_curve(calibration, [step.mean_probability], [step.share])
 
 
 def test_scan_figure_shows_plan_and_azimuths():
@@ -248,18 +248,18 @@ def test_criterion_figure_shows_thresholds_and_levels():
     found, rigid, scaled = criterion()
     for f in found.levels:
         part = [t for t in found.thresholds if t.frequency_hz == f]
-        assert not part or holds(left, [100.0 * t.pga_m_s2 for t in part], [t.ratio for t in part])
+        assert not part or contains_curve(left, [100.0 * t.pga_m_s2 for t in part], [t.ratio for t in part])
     (own,) = scaled.values()
-    assert holds(left, [100.0 * t.pga_m_s2 for t in own], [t.ratio for t in own])
+    assert contains_curve(left, [100.0 * t.pga_m_s2 for t in own], [t.ratio for t in own])
     for levels in (found.levels, rigid):
-        assert holds(right, list(levels), [100.0 * level for level in levels.values()])
+        assert contains_curve(right, list(levels), [100.0 * level for level in levels.values()])
 
 
 def test_field_comparison_bars_equal_rates():
     """A bar per survey, and a marker per model and survey, at the rate that the model gives."""
     (axis,) = axes_of("field test")
     assert [bar.get_height() for bar in axis.patches] == list(SURVEYED_RATES)
-    shown = [curve[:, 1] for curve in drawn(axis)]
+    shown = [curve[:, 1] for curve in curves_of(axis)]
     for model in MODELS:
         assert sum(np.allclose(values, field_rates(model.key)) for values in shown) == 1
 
@@ -267,7 +267,7 @@ def test_field_comparison_bars_equal_rates():
 def test_cemetery_rates_equal_formula():
     """Curves of fig. 16 and points of fig. 20 against single rates; the share above each H/B of fig. 14 against a count."""
     (distribution,), (curves,), (points,) = (axes_of(f"as fig. {number}") for number in (14, 16, 20))
-    (above,) = [curve for curve in drawn(distribution) if len(curve) > 50]
+    (above,) = [curve for curve in curves_of(distribution) if len(curve) > 50]
     for ratio in (1.5, 2.5, 3.5):
         seen = above[above[:, 0] >= ratio][0, 1]
         assert seen == pytest.approx(np.mean(AOYAMA.ratios >= ratio), abs=1e-12)
@@ -290,7 +290,7 @@ def test_rate_legend_matches_component_colours():
     assert len(red) == len(shown) == 2
     for each in shown:
         own = [point for point in each.curve if point.frequency_hz == each.equivalent_frequency_hz]
-        assert holds(axis, [100.0 * point.pga_m_s2 for point in own], [point.rate for point in own])
+        assert contains_curve(axis, [100.0 * point.pga_m_s2 for point in own], [point.rate for point in own])
 
 
 def test_criteria_title_names_block_and_size():
@@ -315,7 +315,7 @@ def test_phase_plane_is_smooth_between_impacts():
     slow, close = (solve_rock(Block(0.3, 0.9), each) for each in (coarse, finer_motion(coarse)))
     axes = rock_figure([slow]).axes
     (plane,) = [axis for axis in axes if "p α" in axis.get_ylabel()]
-    (shown,) = [curve for curve in drawn(plane) if len(curve) >= slow.time.size]
+    (shown,) = [curve for curve in curves_of(plane) if len(curve) >= slow.time.size]
     outcome = slow.outcome
     scale = np.array([plane.get_xlim()[1], plane.get_ylim()[1]])
     exact = np.column_stack([close["rotation"], close["angular_velocity"] / outcome.frequency_parameter_rad_s]) / outcome.slenderness_rad

@@ -22,7 +22,7 @@ def motion_towards(azimuth):
     return Motion(STILL, 0.01, name="" if azimuth is None else f"{azimuth:g}")
 
 
-def fell(pile, *falls, azimuth=0.0):
+def make_response(pile, *falls, azimuth=0.0):
     """Return the answer that stones of a bundled pile fell: each by name, time, s, and azimuth of the fall."""
     body, motion = load_pile(pile), motion_towards(azimuth)
     told = {name: (at, (azimuth or 0.0) - to) for name, at, to in falls}
@@ -43,7 +43,7 @@ LANTERN = ("hoju", "kasa", "hibukuro", "chudai", "sao", "kiso")
 
 def lantern(*names, each=0.05, azimuth=0.0):
     """Return that stones of the lantern fell one after the other, to the south-west and a little less so each."""
-    return fell("lantern", *((name, 3.2 + each * rank, 214.0 - 4.0 * rank) for rank, name in enumerate(names)), azimuth=azimuth)
+    return make_response("lantern", *((name, 3.2 + each * rank, 214.0 - 4.0 * rank) for rank, name in enumerate(names)), azimuth=azimuth)
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def lantern(*names, each=0.05, azimuth=0.0):
             "hoju fell first, at 3.20 s to azimuth 214 (SW); then kasa, hibukuro, chudai, sao, the last at 3.72 s.",
         ),
         (
-            fell("lantern", ("hoju", 3.2, 10.0), ("kasa", 3.3, 190.0)),
+            make_response("lantern", ("hoju", 3.2, 10.0), ("kasa", 3.3, 190.0)),
             "hoju fell first, at 3.20 s to azimuth 10 (N); then kasa, at 3.30 s to azimuth 190 (S).",
         ),
         (lantern("hoju", "kasa", azimuth=None), "All stones above hibukuro fell together at 3.20 s, approximately to -x+y."),
@@ -77,7 +77,7 @@ def test_falls_of_many_stones_are_counted(tmp_path):
     file = tmp_path / "tower.toml"
     stone = '[[stone]]\nname = "s{}"\nwidth = 0.5\ndepth = 0.5\nheight = 0.1\n'
     file.write_text('kind = "pile"\n' + "".join(stone.format(rank) for rank in range(20)))
-    answer = fell(file, *((f"s{rank}", 4.0 - 0.1 * rank, 90.0) for rank in range(20)))
+    answer = make_response(file, *((f"s{rank}", 4.0 - 0.1 * rank, 90.0) for rank in range(20)))
     assert describe_falls(answer) == "s19 fell first, at 2.10 s to azimuth 90 (E); then 19 stones, the last at 4.00 s."
 
 
@@ -105,7 +105,7 @@ def test_fall_table_has_side_within_80_columns(pile, lang, monkeypatch):
         with use_locale(lang):
             screen = console()
             with screen.capture() as shown:
-                screen.print(*tables([fell(pile, *falls, azimuth=azimuth)], [{"agreement": None}]))
+                screen.print(*tables([make_response(pile, *falls, azimuth=azimuth)], [{"agreement": None}]))
         rows = [row for row in shown.get().splitlines() if "100" in row and " 57.30" in row]
         assert len(rows) == len(names)
         assert rows[-1].split()[3] == side

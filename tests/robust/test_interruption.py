@@ -83,23 +83,23 @@ except KeyboardInterrupt:
 """
 
 
-def spent(pid):
+def processor_time(pid):
     """Return the processor time of a process, s."""
     user, system = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def interrupted(script, words, cwd):
+def interrupt_script(script, words, cwd):
     """Start a script, interrupt it when it is well under way; return exit code, stderr and the processor time that it took to end."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-c", SETTING_OUT + script, *words]
     with subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n", process.stderr.read()
-        began = spent(process.pid)
-        while spent(process.pid) < began + WELL_UNDER_WAY:
+        began = processor_time(process.pid)
+        while processor_time(process.pid) < began + WELL_UNDER_WAY:
             assert process.poll() is None, process.stderr.read()
             time.sleep(0.02)
-        at = spent(process.pid)
+        at = processor_time(process.pid)
         process.send_signal(signal.SIGINT)
         try:
             out, said = process.communicate(timeout=600)
@@ -112,7 +112,7 @@ def best_of_four(script, words, cwd, told):
     """Interrupt a script, and again where a busy machine may have slowed its end; return the shortest processor time, s."""
     least = float("inf")
     for _ in range(4):
-        code, said, took = interrupted(script, words, cwd)
+        code, said, took = interrupt_script(script, words, cwd)
         assert (code, said) == (130, told)
         least = min(least, took)
         if least < AT_ONCE:
@@ -132,7 +132,7 @@ def test_sigint_ends_command_at_once(named, tmp_path):
 def test_sigint_during_compilation_is_not_lost(tmp_path, monkeypatch):
     """Finalizers of the compiler swallow exceptions; Ctrl-C ends the run at the next kernel all the same."""
     monkeypatch.setenv("SEISBLOCK_CACHE_DIR", str(tmp_path / "kernels"))
-    assert interrupted(COMPILING, [], tmp_path)[0] == 130
+    assert interrupt_script(COMPILING, [], tmp_path)[0] == 130
 
 
 @pytest.mark.slow
@@ -194,8 +194,8 @@ def test_interrupted_program_skips_teardown(tmp_path):
     command = [sys.executable, "-c", FIGURE, "stack", "--contact", "grid=25", "--law", "springs", "--quiet"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n"
-        began = spent(process.pid)
-        while spent(process.pid) < began + WELL_UNDER_WAY:
+        began = processor_time(process.pid)
+        while processor_time(process.pid) < began + WELL_UNDER_WAY:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         try:
@@ -218,13 +218,13 @@ def make_a_class():
     type("Made", (), {"attribute": Wrapping()})
 
 
-def swallow():
+def suppress_interrupt():
     """Go on without something that was imported on trial."""
     with contextlib.suppress(BaseException):
         signal.raise_signal(signal.SIGINT)
 
 
-@pytest.mark.parametrize("become", [make_a_class, swallow])
+@pytest.mark.parametrize("become", [make_a_class, suppress_interrupt])
 def test_wrapped_interrupt_leaves_block_as_keyboard_interrupt(become):
     """Wrapped by an import or swallowed by a library, Ctrl-C leaves the block as itself, and the next block knows nothing of it."""
     with pytest.raises(KeyboardInterrupt), defer_interrupt(), defer_interrupt():

@@ -176,7 +176,7 @@ def burst_of(samples):
     return 6.0 * np.exp(-(((place - 2000.0) / 200.0) ** 2)) * np.sin(0.06 * place)
 
 
-def turned(samples):
+def rotated_record(samples):
     """Return a record of two components, and its motion towards a direction between them."""
     record = Record((Component("NS", burst_of(samples)), Component("EW", 0.8 * burst_of(samples))), 0.005)
     return record, motion_of(record, "37")
@@ -208,7 +208,7 @@ def test_memory_per_sample_of_outcome(named, monkeypatch):
     assert (peak_bytes(SOLVES[named], LONGER) - peak_bytes(SOLVES[named], SHORTER)) / (LONGER - SHORTER) < LEAST
 
 
-def beside_a_pile(record, motion):
+def check_models_with_pile(record, motion):
     """Look at each sample of the three rows, as a pile does, and ask the other models."""
     assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.segments((True, True, True)))
     answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options={"gravity_m_s2": 9.81})
@@ -217,7 +217,7 @@ def beside_a_pile(record, motion):
 
 STUDIES = {
     "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, options=RockOptions(gravity=9.81)).agreement,
-    "stack": beside_a_pile,
+    "stack": check_models_with_pile,
 }
 
 ONE_ROW = 10.0
@@ -239,5 +239,5 @@ def test_memory_per_sample_of_model_comparison(named, monkeypatch):
     fallen = SimpleNamespace(overturned=True)  # dozens of factors are tried, and what a verdict holds is looked at above
     monkeypatch.setattr("seisblock.studies.model_comparison.rock_verdict", lambda *args, **options: fallen)
     study = STUDIES[named]
-    study(*turned(2**16 + 2))  # compiles
-    assert (bytes_held(study, *turned(LONGER)) - bytes_held(study, *turned(SHORTER))) / (LONGER - SHORTER) < ONE_ROW
+    study(*rotated_record(2**16 + 2))  # compiles
+    assert (bytes_held(study, *rotated_record(LONGER)) - bytes_held(study, *rotated_record(SHORTER))) / (LONGER - SHORTER) < ONE_ROW

@@ -16,7 +16,7 @@ from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody
 from seisblock.studies.map.stations import survey_stations
 from seisblock.studies.respond import azimuths, mode_map, probability
-from tests.models.respond.cases import leaning
+from tests.models.respond.cases import at_lean
 
 BLOCK = Block(0.24, 0.8, name="shelf")
 PULSE = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
@@ -85,7 +85,7 @@ def test_mode_map_marks_a_cell_without_an_answer(drop_rows):
 def test_respond_many_answers_the_other_rows():
     """A row that hops without end is marked; the others are those of runs of their own."""
     settings = [seisblock.respond_params(BLOCK, options=RespondOptions(mu=0.5, restitution=e)) for e in (0.0, 0.9999999, 0.3)]
-    start = leaning(BLOCK, 1e-8)
+    start = at_lean(BLOCK, 1e-8)
     still = Motion.from_arrays(np.zeros(101), 0.01)
     fates = respond_many(settings, still, initial=start)
     assert fates.gave_up.tolist() == [False, True, False]

@@ -52,12 +52,12 @@ def records():
     return synthetic_suite(20, seed=3, seconds=20.0)
 
 
-def drawn(count, *, median=0.7, beta=0.45, seed=0):
+def sample(count, *, median=0.7, beta=0.45, seed=0):
     """Return intensities at which it happens, drawn from a lognormal."""
     return median * np.exp(beta * np.random.default_rng(seed).normal(size=count))
 
 
-def with_ones(values):
+def add_constant(values):
     """Return a column of ones beside another."""
     return np.column_stack([np.ones(len(values)), values])
 
@@ -75,8 +75,8 @@ class TestFits:
     def test_stripes_fit_equals_statsmodels_probit(self, seed):
         """Median and beta are those of statsmodels' binomial GLM, at forty levels and at five."""
         levels = np.geomspace(0.1, 4.0, 40 if seed % 2 else 5)
-        happened = (drawn(44, seed=seed)[:, None] <= levels).sum(axis=0)
-        a, b = by_statsmodels(with_ones(np.log(levels)), happened, 44)
+        happened = (sample(44, seed=seed)[:, None] <= levels).sum(axis=0)
+        a, b = by_statsmodels(add_constant(np.log(levels)), happened, 44)
         found = fit_fragility(levels, happened, 44)
         assert found.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert found.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
@@ -84,7 +84,7 @@ class TestFits:
     def test_joint_fit_of_limits_equals_statsmodels(self):
         """One beta for three limits is the slope of statsmodels' regression with three constants; the medians rise."""
         levels = np.geomspace(0.1, 8.0, 30)
-        happened = np.array([(factor * drawn(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
+        happened = np.array([(factor * sample(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
         design = np.column_stack([np.tile(np.log(levels), 3), np.repeat(np.eye(3), 30, axis=0)])
         b, *constants = by_statsmodels(design, happened.ravel(), 40)
         medians, beta = fit_lognormals_shared_beta(levels, happened[None].astype(float), np.full((1, 30), 40.0))
@@ -95,7 +95,7 @@ class TestFits:
     def test_bootstrap_fits_equal_separate_fits(self):
         """A bootstrap's samples, fitted together, are to 1e-8 what each is fitted by itself; the one without a curve is not a number."""
         levels = np.geomspace(0.1, 4.0, 25)
-        counts = np.array([(drawn(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
+        counts = np.array([(sample(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
         medians, betas = fit_lognormals(levels, counts, np.full((1, 25), 30.0))
         alone = [fit_fragility(levels, row, 30) for row in counts[:-1]]
         assert medians[:-1] == pytest.approx([each.median for each in alone], rel=1e-8)
@@ -104,14 +104,14 @@ class TestFits:
 
     def test_ida_fit_equals_log_moments(self):
         """Where all happened: mean and standard deviation of the logarithms."""
-        logs = np.log(drawn(30))
+        logs = np.log(sample(30))
         medians, betas = moments(logs, np.ones((1, 30)), 10.0)
         assert medians[0] == pytest.approx(np.exp(logs.mean()), rel=ROUND_OFF)
         assert betas[0] == pytest.approx(logs.std(ddof=1), rel=ROUND_OFF)
 
     def test_ida_fit_is_right_censored(self):
         """Censored at the top: scipy's fit of a normal sample censored on the right."""
-        logs, top = np.log(drawn(40)), np.log(0.9)
+        logs, top = np.log(sample(40)), np.log(0.9)
         seen = logs[logs <= top]
         mean, deviation = norm.fit(CensoredData.right_censored(np.minimum(logs, top), logs > top))
         medians, betas = moments(np.where(logs <= top, logs, np.inf), np.ones((1, 40)), top)
@@ -121,7 +121,7 @@ class TestFits:
 
     def test_fit_weight_equals_repeated_motion(self):
         """Samples of the bootstrap count motions; counting one twice is having it twice."""
-        logs = np.log(drawn(12))
+        logs = np.log(sample(12))
         twice = moments(np.append(logs, logs[3]), np.ones((1, 13)), 10.0)
         weighted = moments(logs, np.where(np.arange(12) == 3, 2.0, 1.0)[None], 10.0)
         assert np.ravel(weighted) == pytest.approx(np.ravel(twice), rel=ROUND_OFF)
@@ -312,7 +312,7 @@ class TestRuns:
         (curve,) = run_fragility(uneven, SHELF, "rock", im="pgd", method="cloud", bootstrap=50).curves
         motions = [motion_of(record, "EW") for record in uneven]
         fell = np.array([float(solve_rock(SHELF, motion).outcome.overturned) for motion in motions])
-        a, b = by_statsmodels(with_ones(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
+        a, b = by_statsmodels(add_constant(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
         assert curve.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert curve.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
         assert sum(level.exceeding for level in curve.levels) == fell.sum()
@@ -458,7 +458,7 @@ class TestScatter:
     def test_goodness_of_fit_rejects_bimodal_data(self):
         """Forty draws of a lognormal pass, two humps far apart do not: in stripes, first exceedances and clouds."""
         levels = np.geomspace(0.02, 20.0, 60)
-        one, two = np.log(drawn(40)), np.log(np.concatenate([drawn(30, median=0.1, beta=0.1), drawn(10, median=3.0, beta=0.1)]))
+        one, two = np.log(sample(40)), np.log(np.concatenate([sample(30, median=0.1, beta=0.1), sample(10, median=3.0, beta=0.1)]))
         for logs, fits in ((one, True), (two, False)):
             counts = (np.exp(logs)[:, None] <= levels).sum(axis=0).astype(float)
             dice = np.random.default_rng(0)

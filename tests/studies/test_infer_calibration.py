@@ -124,21 +124,21 @@ def test_infer_known_edges_narrow_the_interval():
     assert width[0] < width[1]
 
 
-def marked(falls):
+def mark_stones(falls):
     """Return Aoyama's stones, marked."""
     return replace(AOYAMA, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(AOYAMA.stones, falls, strict=True)))
 
 
 def test_infer_warns_of_impossible_survey():
     """N10: squat stones fell and slender ones stand; a survey that follows the criterion, with its scatter, is not named."""
-    upside_down = marked_survey(marked(AOYAMA.ratios < np.median(AOYAMA.ratios)))
+    upside_down = marked_survey(mark_stones(AOYAMA.ratios < np.median(AOYAMA.ratios)))
     assert check_consistency(upside_down).is_inconsistent
     assert "survey inconsistent with the criterion" in consistency_warning("Aoyama", upside_down)
     rng = np.random.default_rng(2)
     limits = np.log(fitted_limits(AOYAMA, 1.5))
     for _ in range(20):
         falls = np.median(limits) + rng.normal(0.0, 0.2, limits.size) > limits
-        assert consistency_warning("Aoyama", marked_survey(marked(falls))) is None
+        assert consistency_warning("Aoyama", marked_survey(mark_stones(falls))) is None
 
 
 def test_infer_from_count_is_never_impossible():

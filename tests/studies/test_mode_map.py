@@ -11,8 +11,8 @@ from seisblock.core.errors import ParameterError
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, VISIBLE_SLIP_M, mode_map
+from tests.models.respond.cases import constant_push as pulse
 from tests.models.respond.cases import shaking
-from tests.models.respond.cases import steady as pulse
 
 MU = np.array([0.05, 0.11, 0.17, 0.23, 0.29, 0.35, 0.41, 0.47, 0.55, 0.65, 0.8, 1.1])
 RATIO = np.array([0.08, 0.14, 0.2, 0.26, 0.32, 0.38, 0.44, 0.52, 0.6, 0.7, 0.9, 1.2])

@@ -24,7 +24,7 @@ NOTHING_VARIES = PileVariation(size=0.0, inset=0.0, mu=0.0, amplitude=0.0, azimu
 
 
 @pytest.fixture(scope="module")
-def found():
+def probability():
     """The answer of sixteen versions, of which some fall and some do not."""
     return stack_probability(PILE, PULSE, runs=16, seed=3, workers=1)
 
@@ -46,21 +46,21 @@ def test_pile_probability_without_variation_equals_outcome(factor):
             assert chance.fell_alike_ratio == pytest.approx(1.0)
 
 
-def test_pile_probability_is_independent_of_thread_count(found):
+def test_pile_probability_is_independent_of_thread_count(probability):
     """Versions are drawn before they are handed out; another seed draws others."""
-    assert stack_probability(PILE, PULSE, runs=16, seed=3, workers=3) == found
-    assert replace(stack_probability(PILE, PULSE, runs=16, seed=4), seed=3) != found
+    assert stack_probability(PILE, PULSE, runs=16, seed=3, workers=3) == probability
+    assert replace(stack_probability(PILE, PULSE, runs=16, seed=4), seed=3) != probability
 
 
-def test_pile_shares_are_counts_with_clopper_pearson_interval(found):
+def test_pile_shares_are_counts_with_clopper_pearson_interval(probability):
     """The share of any stone is at least that of each, and its interval Clopper and Pearson's."""
-    count = round(found.overturned * found.runs)
-    assert 0 < count < found.runs
-    assert found.interval == clopper_pearson(count, found.runs)
-    assert found.overturned >= max(stone.overturned for stone in found.stones)
-    assert found.moved >= max(stone.moved for stone in found.stones)
-    upper = found.stones[-1]
-    assert upper.interval == clopper_pearson(round(upper.overturned * found.runs), found.runs)
+    count = round(probability.overturned * probability.runs)
+    assert 0 < count < probability.runs
+    assert probability.interval == clopper_pearson(count, probability.runs)
+    assert probability.overturned >= max(stone.overturned for stone in probability.stones)
+    assert probability.moved >= max(stone.moved for stone in probability.stones)
+    upper = probability.stones[-1]
+    assert upper.interval == clopper_pearson(round(upper.overturned * probability.runs), probability.runs)
     assert upper.overturned > 0.0 and 0.0 < upper.fell_alike_ratio <= 1.0
 
 

@@ -35,7 +35,7 @@ PLAIN = Assumptions(bias=0.0, frequency_error=0.0)
 """The criterion as printed, at a frequency that is known."""
 
 
-def marked(cemetery: Cemetery, falls) -> Cemetery:
+def mark_stones(cemetery: Cemetery, falls) -> Cemetery:
     """Return a cemetery whose stones are marked."""
     return replace(cemetery, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(cemetery.stones, falls, strict=True)))
 
@@ -64,7 +64,7 @@ def coverage_of_200(form: str, seed: int) -> float:
             place = Cemetery(tuple(AOYAMA.stones[i] for i in rng.integers(0, 100, 60)))
             survey = counted_survey(AOYAMA, int(simulate_falls(rng, place, truth, frequency).sum()), 60)
         else:
-            survey = marked_survey(marked(AOYAMA, simulate_falls(rng, AOYAMA, truth, frequency)))
+            survey = marked_survey(mark_stones(AOYAMA, simulate_falls(rng, AOYAMA, truth, frequency)))
         held += contains(estimate_shaking(survey, told), truth)
     return held / 200
 
@@ -78,7 +78,7 @@ def test_shaking_interval_has_nominal_coverage(form):
 def test_exact_survey_recovers_threshold():
     """Stones that fall above one H/B and stand below give the PGA of that H/B, and its PGV, when stones have little error of their own."""
     falls = AOYAMA.ratios > 2.84
-    found = estimate_shaking(marked_survey(marked(AOYAMA, falls)), 2.75, SHARP)
+    found = estimate_shaking(marked_survey(mark_stones(AOYAMA, falls)), 2.75, SHARP)
     assert found.threshold_ratio == pytest.approx(2.84, rel=0.02)
     assert found.pga_m_s2 == pytest.approx(float(overturning_level(2.75)) / 2.84, rel=0.02)
     assert found.pgv_m_s == pytest.approx(found.pga_m_s2 / (2 * np.pi * 2.75))
@@ -113,7 +113,7 @@ def test_estimate_without_frequency_averages_band():
 
 def test_none_or_all_fallen_gives_bound():
     """When no stone fell there is an upper bound, at which that had the probability of one tail; when all did, a lower one."""
-    survey = marked_survey(marked(AOYAMA, np.zeros(100)))
+    survey = marked_survey(mark_stones(AOYAMA, np.zeros(100)))
     none = estimate_shaking(survey, 2.0, PLAIN_FREQUENCY)
     assert none.bound == "upper"
     assert none.pga_m_s2 is None
@@ -121,7 +121,7 @@ def test_none_or_all_fallen_gives_bound():
     rng, bound = np.random.default_rng(1), none.pga_interval_m_s2[1]
     seen = np.mean([not simulate_falls(rng, AOYAMA, bound, 2.0).any() for _ in range(4000)])
     assert seen == pytest.approx(0.05, abs=0.015)
-    every = estimate_shaking(marked_survey(marked(AOYAMA, np.ones(100))), 2.0)
+    every = estimate_shaking(marked_survey(mark_stones(AOYAMA, np.ones(100))), 2.0)
     assert every.bound == "lower"
     assert every.pga_interval_m_s2[1] is None
     assert every.pga_interval_m_s2[0] > bound
@@ -132,7 +132,7 @@ def test_reinforced_stones_are_estimated_separately():
     """Stones of each kind are judged by their own criterion, apart and together."""
     f, pga = 1.5, 4.5
     mixed = Cemetery(tuple(replace(s, reinforced=i % 2 == 0) for i, s in enumerate(AOYAMA.stones)))
-    survey = marked_survey(marked(mixed, pga > fitted_limits(mixed, f)))
+    survey = marked_survey(mark_stones(mixed, pga > fitted_limits(mixed, f)))
     found = {name: estimate_shaking(part, f, SHARP, stones=name) for name, part in stone_groups(survey)}
     assert list(found) == [PLAIN_STONES, DOWELLED_STONES, ALL_STONES]
     assert [found[name].fallen + found[name].standing for name in found] == [50, 50, 100]
@@ -155,7 +155,7 @@ def test_likelihood_equals_quadrature_over_common_error(limits):
     """The convolution agrees with adaptive quadrature, at whatever frequency it was asked for before."""
     from scipy.integrate import quad
 
-    survey = marked_survey(marked(AOYAMA, AOYAMA.ratios > 2.84))
+    survey = marked_survey(mark_stones(AOYAMA, AOYAMA.ratios > 2.84))
     likelihood(survey, 0.6, bias=0.0, limits=limits)
     found = likelihood(survey, 2.0, bias=0.0, limits=limits)
     around = np.log([4.2, 4.8] if limits is fitted_limits else [6.3, 7.2])

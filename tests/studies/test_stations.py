@@ -43,22 +43,22 @@ def event(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(event):
+def station_results(event):
     """Return those stations with a block at each."""
     return survey_stations(event, BODY)
 
 
-def prepared(event, station):
+def prepared_record(event, station):
     """Return the record of one station of a bundle, as it is judged."""
     recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(station))
     return Preparation().apply(recording.read(ReadOptions()))
 
 
-def test_damaged_station_fails_alone(found):
+def test_damaged_station_fails_alone(station_results):
     """Seven stations are answered and one is named with its reason, last."""
-    assert [answer.failure is None for answer in found.answers] == [True] * 7 + [False]
-    assert "SYA003" in found.answers[-1].record and "file truncated" in found.answers[-1].failure
-    assert len(found.mapped) == 7
+    assert [answer.failure is None for answer in station_results.answers] == [True] * 7 + [False]
+    assert "SYA003" in station_results.answers[-1].record and "file truncated" in station_results.answers[-1].failure
+    assert len(station_results.mapped) == 7
 
 
 def test_two_earthquakes_are_detected_behind_incomplete_header():
@@ -71,17 +71,17 @@ def test_two_earthquakes_are_detected_behind_incomplete_header():
     assert survey_stations(records[:2]).earthquake.latitude_deg == 35.0
 
 
-def test_stations_sort_worst_first(found):
+def test_stations_sort_worst_first(station_results):
     """By the share that falls, then the verdict, then the way, then the shaking."""
-    shown = [(answer.effect.severity, answer.pga_m_s2) for answer in found.answers[:-1]]
+    shown = [(answer.effect.severity, answer.pga_m_s2) for answer in station_results.answers[:-1]]
     assert shown == sorted(shown, reverse=True)
-    assert found.answers[0].effect.probability > 0.5 and found.answers[-2].effect.probability == 0.0
+    assert station_results.answers[0].effect.probability > 0.5 and station_results.answers[-2].effect.probability == 0.0
 
 
-def test_station_equals_measure_and_respond(event, found):
+def test_station_equals_measure_and_respond(event, station_results):
     """Peaks and intensity are those of `measure`, the fate that of `respond` in the worst direction."""
-    answer = found.answers[0]
-    record = prepared(event, answer.station)
+    answer = station_results.answers[0]
+    record = prepared_record(event, answer.station)
     told = measure(record)
     horizontal = [m for m in told.components if m.component != "UD"]
     assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
@@ -140,17 +140,17 @@ def test_cemetery_rate_is_worst_over_azimuths(event):
     """The rate is at least that of either component, and that of `overturn-rate` towards its azimuth."""
     cemetery = read_cemetery("aoyama.csv")
     answer = survey_stations(event, StationCemetery(cemetery)).answers[0]
-    record = prepared(event, answer.station)
+    record = prepared_record(event, answer.station)
     rates = [assess_cemetery(cemetery, shaking, AssessmentMethod()).rate for shaking in component_shakings(record, ("NS", "EW"))]
     assert answer.effect.rate >= max(rates) > 0.0
     (towards,) = component_shakings(record, (f"{answer.effect.azimuth_deg:g}",))
     assert assess_cemetery(cemetery, towards, AssessmentMethod()).rate == answer.effect.rate
 
 
-def test_survey_stations_is_independent_of_thread_count(event, found):
+def test_survey_stations_is_independent_of_thread_count(event, station_results):
     """One worker gives the same stations in the same order."""
     again = survey_stations(event, BODY, workers=1)
-    assert again == found
+    assert again == station_results
 
 
 @pytest.mark.parametrize("asked", ["SYA005", " sya005 "])
@@ -189,14 +189,14 @@ def read_files(folder, files):
     return record
 
 
-def test_station_without_coordinates_is_listed_only(found):
+def test_station_without_coordinates_is_listed_only(station_results):
     """JMA's zeros and a table's nothing are no coordinates; with one horizontal of unknown azimuth there is no worst direction."""
     listed = survey_stations([read("synthetic_jma"), read("elcentro_1940_ns")], BODY)
     assert listed.mapped == ()
     jma, table = listed.answers
     assert (jma.latitude, jma.failure) == (None, None) and jma.pga_m_s2 > 9.0
     assert table.pga_m_s2 == pytest.approx(3.12656, abs=1e-4) and table.failure is not None and table.effect.azimuth_deg is None
-    assert found.earthquake.magnitude == 6.8 and found.origin_told == "2004-10-23 17:56:00 JST"
+    assert station_results.earthquake.magnitude == 6.8 and station_results.origin_told == "2004-10-23 17:56:00 JST"
 
 
 def test_survey_stations_rejects_empty_input():

@@ -24,18 +24,18 @@ def shaking(seed, peak, *, seconds=12.0, dt=0.01, vertical=0.6):
     return Motion.from_arrays(peak * along, dt, vertical=vertical * peak * up)
 
 
-def steady(push, *, weight=G, seconds=0.05, dt=0.01):
+def constant_push(push, *, weight=G, seconds=0.05, dt=0.01):
     """Return constant ground acceleration from the first sample, such that g + a_y is `weight`."""
     n = round(seconds / dt) + 1
     return Motion.from_arrays(np.full(n, push), dt, vertical=np.full(n, weight - G))
 
 
-def still(seconds=1.0, dt=0.01):
+def still_ground(seconds=1.0, dt=0.01):
     """Return ground that does not move."""
     return Motion.from_arrays(np.zeros(round(seconds / dt) + 1), dt)
 
 
-def leaning(block, theta, omega=0.0, *, slip=0.0):
+def at_lean(block, theta, omega=0.0, *, slip=0.0):
     """Return the six initial numbers of a block that leans about the corner it stands on, whose foot slips."""
     right, left = block.arms
     xi = right if theta > 0.0 or (theta == 0.0 and omega > 0.0) else -left
@@ -49,7 +49,7 @@ def sequence(outcome):
     return [" ".join(filter(None, (event["mode"], event["corner"], event["slip"]))) for event in outcome.events]
 
 
-def followed(block, motion, *, initial=None, settle_s=60.0, **options):
+def solve_case(block, motion, *, initial=None, settle_s=60.0, **options):
     """Return the setting and the run behind a response."""
     setting = respond_params(block, RespondOptions(**options))
     return setting, run(setting, motion, (1.0, 0.0, 1.0), initial, settle_s)

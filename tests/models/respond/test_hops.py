@@ -15,12 +15,12 @@ from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.solve import respond_params
 from seisblock.records import Motion
 from seisblock.report.text.respond import describe
-from tests.models.respond.cases import SLENDER, followed, leaning, sequence, still
+from tests.models.respond.cases import SLENDER, at_lean, sequence, solve_case, still_ground
 
 
 def test_free_rocking_on_still_ground_decays_geometrically_to_rest():
     """Housner's block on still ground: swings shorten by the restitution down to v_z, then it rests, on time to 1e-9 s."""
-    response = solve_respond(SLENDER, still(), mu=2.0, initial=leaning(SLENDER, 0.02))
+    response = solve_respond(SLENDER, still_ground(), mu=2.0, initial=at_lean(SLENDER, 0.02))
     outcome = response.outcome
     times = np.array([event["time_s"] for event in outcome.events])
     hops = np.diff(times[1:])
@@ -39,7 +39,7 @@ def test_free_rocking_on_still_ground_decays_geometrically_to_rest():
 def test_flat_drop_with_restitution_rests_at_sum_of_geometric_series():
     """Flat drops with restitution e come to rest after t (1 + e)/(1 - e); the smallest hop followed is below 1e-22 m."""
     e, fall = 0.5, 0.1
-    setting, run = followed(Block(0.5, 0.5), still(), mu=0.5, restitution=e, initial=(0.0, 0.25 + fall, 0.0, 0.0, 0.0, 0.0))
+    setting, run = solve_case(Block(0.5, 0.5), still_ground(), mu=0.5, restitution=e, initial=(0.0, 0.25 + fall, 0.0, 0.0, 0.0, 0.0))
     first = math.sqrt(2.0 * fall / G)
     assert run.ends_at_rest
     rest = [change.time for change in run.events if change.target in (constants.REST, constants.SETTLED)]
@@ -53,7 +53,7 @@ def test_flat_drop_with_restitution_rests_at_sum_of_geometric_series():
 def test_leaning_block_hops_on_one_corner_then_rocks():
     """A leaning block that hops on its foot stops hopping and rocks on; the hops shrink by e to below 1e-20 m."""
     block = Block(0.5, 1.0)
-    _, run = followed(block, still(3.0), mu=2.0, restitution=0.3, initial=_above(block, 0.2, 1e-3))
+    _, run = solve_case(block, still_ground(3.0), mu=2.0, restitution=0.3, initial=_above(block, 0.2, 1e-3))
     bounces = [change for change in run.events if change.source == constants.FLIGHT][:30]
     gaps = [change.after[constants.RATE_RIGHT] ** 2 / (2.0 * G) for change in bounces if change.target == constants.FLIGHT]
     assert min(gap for gap in gaps if gap > 0.0) < 1e-20
@@ -63,7 +63,7 @@ def test_leaning_block_hops_on_one_corner_then_rocks():
 
 def _above(block, theta, gap):
     """Return a leaning start with the right foot a little above the ground."""
-    x, y, *rest = leaning(block, theta)
+    x, y, *rest = at_lean(block, theta)
     return (x, y + gap, *rest)
 
 
@@ -73,7 +73,9 @@ NEARLY_LOSSLESS = {"mu": 0.5, "restitution": 0.99999}
 
 def test_restitution_near_one_ends_with_unresolved_status():
     """A restitution near 1: a status and a sentence, within seconds; what is said first is that there is no answer."""
-    response = solve_respond(SLENDER, still(1.0), **NEARLY_LOSSLESS, initial=leaning(SLENDER, 1e-8), settle_s=10.0, sensitivity=False)
+    response = solve_respond(
+        SLENDER, still_ground(1.0), **NEARLY_LOSSLESS, initial=at_lean(SLENDER, 1e-8), settle_s=10.0, sensitivity=False
+    )
     assert response.status is Status.TOO_MANY_EVENTS
     assert response.outcome.outcome == "hops without end"
     assert not response.outcome.settled
@@ -84,7 +86,7 @@ def test_restitution_near_one_ends_with_unresolved_status():
 def test_respond_many_excludes_unresolved_runs():
     """Among many, a run that was given up is none that stands: a study asks for answers alone."""
     settings = [respond_params(SLENDER, RespondOptions(**NEARLY_LOSSLESS)), respond_params(SLENDER, options=RespondOptions(mu=0.5))]
-    fates = respond_many(settings, still(1.0), initial=leaning(SLENDER, 1e-8), settle_s=10.0)
+    fates = respond_many(settings, still_ground(1.0), initial=at_lean(SLENDER, 1e-8), settle_s=10.0)
     assert fates.gave_up.tolist() == [True, False]
     with pytest.raises(SolverError, match=r"1 of 2 runs have no result: .* smaller restitution"):
         fates.require_complete()
@@ -105,12 +107,12 @@ def test_strong_noise_with_many_impacts_is_solved_to_the_end():
 def test_slide_longer_than_settle_s_ends_with_time_limit_status():
     """A slide that lasts longer than `settle_s` ends with a status and a sentence; a longer time ends it."""
     start = (0.0, 0.25, 0.0, 1.0, 0.0, 0.0)
-    short = solve_respond(Block(0.5, 0.5), still(), mu=0.01, initial=start, settle_s=2.0)
+    short = solve_respond(Block(0.5, 0.5), still_ground(), mu=0.01, initial=start, settle_s=2.0)
     assert short.status is Status.RECORD_ENDED
     assert short.outcome.outcome == "moves on"
     assert short.outcome.end_s == pytest.approx(3.0, abs=1e-9)
     assert any("still in motion" in text for text in short.warnings)
-    rests = solve_respond(Block(0.5, 0.5), still(), mu=0.01, initial=start)
+    rests = solve_respond(Block(0.5, 0.5), still_ground(), mu=0.01, initial=start)
     assert rests.outcome.end_s == pytest.approx(1.0 / (0.01 * G), abs=1e-9)
     assert rests.outcome.final_displacement_m == pytest.approx(1.0 / (0.02 * G), abs=1e-9)
     assert not rests.warnings
@@ -119,5 +121,5 @@ def test_slide_longer_than_settle_s_ends_with_time_limit_status():
 def test_block_at_unstable_balance_runs_to_time_limit():
     """Unstable balance is no rest."""
     block = Block(0.3, 0.4)
-    outcome = solve_respond(block, still(0.1), mu=1.0, initial=leaning(block, block.slenderness), settle_s=0.5).outcome
+    outcome = solve_respond(block, still_ground(0.1), mu=1.0, initial=at_lean(block, block.slenderness), settle_s=0.5).outcome
     assert not outcome.settled

@@ -13,7 +13,7 @@ from seisblock.models.respond import respond_params, solve_respond
 from seisblock.models.respond.impact_laws import CLOSED_BOTH, CLOSED_LEFT, CLOSED_NONE, CLOSED_RIGHT, both_corners_impact, routh
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
-from tests.models.respond.cases import SLENDER, SQUAT, leaning, sequence, still
+from tests.models.respond.cases import SLENDER, SQUAT, at_lean, sequence, still_ground
 
 UNEQUAL = Block(0.4, 1.0, centroid_offset=0.05, centroid_height=0.6, centroid_inertia=40.0, mass=300.0)
 
@@ -28,7 +28,7 @@ def impact_of(response):
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_plastic_impact_without_slip_has_housner_ratio(block, side):
     """Plastic and without slip: (k2 + h^2 - b1 b2)/(k2 + h^2 + b_B^2) of the corner B that is struck (Housner)."""
-    response = solve_respond(block, still(), mu=5.0, initial=leaning(block, 0.05 * side))
+    response = solve_respond(block, still_ground(), mu=5.0, initial=at_lean(block, 0.05 * side))
     before, after = impact_of(response)
     onto = block.restitutions[1 if side > 0.0 else 0]
     assert after / before == pytest.approx(onto, rel=1e-12)
@@ -40,8 +40,8 @@ def test_struck_corner_slips_below_required_friction():
     b, h, k2 = 0.25, 0.45, block.gyration_squared
     needed = b * h / (k2 + h * h)
     for mu, slides in ((needed * (1 - 1e-9), True), (needed * (1 + 1e-9), False)):
-        start = leaning(block, 1e-3)
-        outcome = solve_respond(block, still(), mu=mu, initial=start).outcome
+        start = at_lean(block, 1e-3)
+        outcome = solve_respond(block, still_ground(), mu=mu, initial=start).outcome
         assert sequence(outcome)[0] == "rock right"
         assert ("left +" in sequence(outcome)[1]) == slides or ("left -" in sequence(outcome)[1]) == slides
 
@@ -49,14 +49,14 @@ def test_struck_corner_slips_below_required_friction():
 def test_plastic_impact_of_broad_block_ends_in_rest():
     """Where b1 b2 > k2 + h^2 both corners stay: a plastic impact ends the motion at once."""
     block = Block(1.2, 0.5)
-    outcome = solve_respond(block, still(), mu=3.0, initial=leaning(block, 0.05)).outcome
+    outcome = solve_respond(block, still_ground(), mu=3.0, initial=at_lean(block, 0.05)).outcome
     assert sequence(outcome) == ["rock right", "rest"]
     assert outcome.impacts == 1
 
 
 def test_impact_with_restitution_ends_in_flight():
     """With e > 0 the struck corner rebounds and the other lifts: flight after the first impact."""
-    outcome = solve_respond(SLENDER, still(), mu=1.0, restitution=0.3, initial=leaning(SLENDER, 0.05)).outcome
+    outcome = solve_respond(SLENDER, still_ground(), mu=1.0, restitution=0.3, initial=at_lean(SLENDER, 0.05)).outcome
     assert sequence(outcome)[:2] == ["rock right", "flight"]
     assert outcome.settled
 
@@ -64,7 +64,7 @@ def test_impact_with_restitution_ends_in_flight():
 def test_flat_landing_with_horizontal_velocity_rebounds_without_spin():
     """Dropped flat with a horizontal velocity: heights e^2, horizontal impulse mu (1 + e) w against the slip."""
     start = (0.0, 0.35, 0.0, 3.0, 0.0, 0.0)
-    response = solve_respond(Block(0.8, 0.5), still(), mu=0.2, restitution=0.5, initial=start)
+    response = solve_respond(Block(0.8, 0.5), still_ground(), mu=0.2, restitution=0.5, initial=start)
     landing = next(event for event in response.events if event.name == "landing")
     w = math.sqrt(0.2 * G)
     assert landing.after[5] == pytest.approx(0.5 * w, rel=1e-12)
@@ -74,7 +74,7 @@ def test_flat_landing_with_horizontal_velocity_rebounds_without_spin():
 def test_sliding_landing_of_slender_block_tips_forward():
     """The resultant of friction would leave the base: it lands on the leading corner and turns forward."""
     block = Block(0.3, 1.5)
-    response = solve_respond(block, still(), mu=0.8, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
+    response = solve_respond(block, still_ground(), mu=0.8, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
     assert sequence(response.outcome)[1].startswith(("rock right", "slide-rock right"))
     before, after = impact_of(response)
     assert before == 0.0 and after > 0.0
@@ -82,7 +82,7 @@ def test_sliding_landing_of_slender_block_tips_forward():
 
 def test_sliding_landing_with_low_friction_stays_flat():
     """The same with little friction stays flat and slides."""
-    response = solve_respond(Block(0.3, 1.5), still(), mu=0.1, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
+    response = solve_respond(Block(0.3, 1.5), still_ground(), mu=0.1, initial=(0.0, 0.95, 0.0, 3.0, 0.0, 0.0))
     assert sequence(response.outcome) == ["flight", "slide +", "rest"]
 
 
@@ -148,7 +148,7 @@ def test_two_corner_impact_dissipates_without_penetration(omega, rise, speed, wi
 
 def test_given_restitution_scales_angular_velocity():
     """The rate of the lean is multiplied by r while friction lasts, as in a rocking model with a given restitution."""
-    response = solve_respond(SLENDER, still(), mu=5.0, rocking_restitution=0.8, initial=leaning(SLENDER, 0.05))
+    response = solve_respond(SLENDER, still_ground(), mu=5.0, rocking_restitution=0.8, initial=at_lean(SLENDER, 0.05))
     before, after = impact_of(response)
     assert after / before == pytest.approx(0.8, rel=1e-12)
     assert response.outcome.ratios_lowered == 0
@@ -156,7 +156,7 @@ def test_given_restitution_scales_angular_velocity():
 
 def test_given_restitution_is_lowered_when_it_would_create_energy():
     """An unequal body that falls from its far corner to its near one: r = 1 gains height rate, so it is lowered, and said."""
-    response = solve_respond(UNEQUAL, still(), mu=5.0, rocking_restitution=1.0, initial=leaning(UNEQUAL, 0.05))
+    response = solve_respond(UNEQUAL, still_ground(), mu=5.0, rocking_restitution=1.0, initial=at_lean(UNEQUAL, 0.05))
     assert response.outcome.ratios_lowered > 0
     assert any("energy" in text for text in response.warnings)
     assert response.outcome.energy_impacts_j >= -1e-9
@@ -164,7 +164,7 @@ def test_given_restitution_is_lowered_when_it_would_create_energy():
 
 def test_zero_restitution_stops_block_at_first_impact():
     """With r = 0 the first impact is the last."""
-    outcome = solve_respond(SLENDER, still(), mu=5.0, rocking_restitution=0.0, initial=leaning(SLENDER, 0.05)).outcome
+    outcome = solve_respond(SLENDER, still_ground(), mu=5.0, rocking_restitution=0.0, initial=at_lean(SLENDER, 0.05)).outcome
     assert sequence(outcome) == ["rock right", "rest"]
 
 
@@ -173,13 +173,13 @@ def test_zero_restitution_stops_block_at_first_impact():
 def test_zero_restitution_above_painleve_limit_decays_to_rest(width, height, mu, restitution):
     """Above Painleve's limit what slips on after r = 0 jams and is thrown up, ever less: below the smallest rate it rests."""
     block = Block(width, height, mass=1.0)
-    response = solve_respond(block, still(), mu=mu, restitution=restitution, rocking_restitution=0.0, initial=leaning(block, 0.03))
+    response = solve_respond(block, still_ground(), mu=mu, restitution=restitution, rocking_restitution=0.0, initial=at_lean(block, 0.03))
     outcome = response.outcome
     assert outcome.settled
     assert outcome.jams > 3
     assert sequence(outcome)[-1] == "rest"
     total = outcome.energy_friction_j + outcome.energy_impacts_j
-    lifted = G * (leaning(block, 0.03)[1] - block.centre)
+    lifted = G * (at_lean(block, 0.03)[1] - block.centre)
     assert total == pytest.approx(lifted, rel=1e-9)
 
 
@@ -187,8 +187,8 @@ def test_painleve_limit_of_rectangle_is_four_thirds():
     """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3, whatever the slenderness; it is said above it and not below."""
     for block in (SLENDER, Block(1.0, 0.4)):
         assert respond_params(block, options=RespondOptions(mu=0.5)).rigid_body.friction_limit == pytest.approx(4.0 / 3.0, rel=1e-14)
-        assert any("Painleve" in text for text in solve_respond(block, still(0.1), mu=1.4).warnings)
-        assert not solve_respond(block, still(0.1), mu=1.3).warnings
+        assert any("Painleve" in text for text in solve_respond(block, still_ground(0.1), mu=1.4).warnings)
+        assert not solve_respond(block, still_ground(0.1), mu=1.3).warnings
 
 
 def test_contact_denominator_changes_sign_at_painleve_limit():
@@ -206,25 +206,25 @@ def test_flat_slip_above_painleve_limit_jams_with_energy_loss():
     """With mu b h > k2 + b^2 and a sliding start: no sliding force is consistent; the slip ends at once, with a loss, and is counted."""
     block = Block(0.5, 1.0)
     assert block.gyration_squared + 0.25**2 < 3.0 * 0.25 * 0.5
-    response = solve_respond(block, still(), mu=3.0, initial=(0.0, 0.5, 0.0, 0.5, 0.0, 0.0))
+    response = solve_respond(block, still_ground(), mu=3.0, initial=(0.0, 0.5, 0.0, 0.5, 0.0, 0.0))
     assert response.outcome.jams == 1
     assert sequence(response.outcome)[0] == "rock right"
     assert response.outcome.energy_impacts_j > 0.0
     assert any("jams: 1" in text for text in response.warnings)
-    mirrored = solve_respond(block, still(), mu=3.0, initial=(0.0, 0.5, 0.0, -0.5, 0.0, 0.0))
+    mirrored = solve_respond(block, still_ground(), mu=3.0, initial=(0.0, 0.5, 0.0, -0.5, 0.0, 0.0))
     assert sequence(mirrored.outcome)[0] == "rock left"
 
 
 def test_jam_with_restitution_ends_in_flight():
     """The same with e > 0 ends in flight."""
-    outcome = solve_respond(Block(0.5, 1.0), still(), mu=3.0, restitution=0.4, initial=(0.0, 0.5, 0.0, 0.5, 0.0, 0.0)).outcome
+    outcome = solve_respond(Block(0.5, 1.0), still_ground(), mu=3.0, restitution=0.4, initial=(0.0, 0.5, 0.0, 0.5, 0.0, 0.0)).outcome
     assert outcome.jams >= 1
     assert sequence(outcome)[0] == "flight"
 
 
 def test_squat_asymmetric_block_with_restitution_comes_to_rest():
     """Rattling on two unequal corners with restitution ends in rest."""
-    outcome = solve_respond(SQUAT, still(), mu=0.4, restitution=0.5, initial=(0.0, 0.5, 0.3, 0.5, 0.0, -2.0)).outcome
+    outcome = solve_respond(SQUAT, still_ground(), mu=0.4, restitution=0.5, initial=(0.0, 0.5, 0.3, 0.5, 0.0, -2.0)).outcome
     assert outcome.settled
     assert outcome.impacts > 10
 

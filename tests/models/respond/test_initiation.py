@@ -11,12 +11,12 @@ from seisblock.bodies.block import Block
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from tests.models.respond.cases import sequence, steady
+from tests.models.respond.cases import constant_push, sequence
 
 
 def start(block, push, *, weight=G, **friction):
     """Return the mode in which a block starts under a constant acceleration of the ground."""
-    return sequence(solve_respond(block, steady(push, weight=weight), settle_s=0.0, sensitivity=False, **friction).outcome)[0]
+    return sequence(solve_respond(block, constant_push(push, weight=weight), settle_s=0.0, sensitivity=False, **friction).outcome)[0]
 
 
 def expected(block, push, weight, mu, kinetic):

@@ -12,7 +12,7 @@ from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.records.record import Component, Record
-from tests.models.respond.cases import SLENDER, leaning, sequence, shaking, still
+from tests.models.respond.cases import SLENDER, at_lean, sequence, shaking, still_ground
 
 BLOCK = Block(0.4, 1.0)
 
@@ -42,7 +42,7 @@ BLOCK = Block(0.4, 1.0)
 def test_solve_respond_rejects_invalid_numbers(options, said):
     """Each names the quantity, what is expected, and what was found."""
     with pytest.raises(ParameterError, match=said) as error:
-        solve_respond(BLOCK, still(), **options)
+        solve_respond(BLOCK, still_ground(), **options)
     assert "\n" not in str(error.value)
 
 
@@ -59,15 +59,15 @@ def test_solve_respond_rejects_centre_outside_base():
             return -0.01, 0.2
 
     with pytest.raises(BodyError, match="above the base"):
-        solve_respond(Worn(0.4, 1.0), still(), mu=0.5)
+        solve_respond(Worn(0.4, 1.0), still_ground(), mu=0.5)
 
 
 def test_solve_respond_rejects_wrong_types():
     """With the sentence that helps."""
     with pytest.raises(KindError, match="found str"):
-        solve_respond("a stone", still(), mu=0.5)
+        solve_respond("a stone", still_ground(), mu=0.5)
     with pytest.raises(KindError, match="expected the body first"):
-        solve_respond(still(), BLOCK, mu=0.5)
+        solve_respond(still_ground(), BLOCK, mu=0.5)
 
 
 def test_vertical_true_requires_a_vertical_component():
@@ -99,19 +99,19 @@ def test_two_layer_block_equals_rigid_composite():
 
 def test_overturning_ends_at_quarter_turn_or_protruding_point():
     """The block falls from beyond its balance; a point of it that sticks out meets the ground earlier."""
-    start = leaning(SLENDER, 0.3)
-    response = solve_respond(SLENDER, still(), mu=2.0, initial=start)
+    start = at_lean(SLENDER, 0.3)
+    response = solve_respond(SLENDER, still_ground(), mu=2.0, initial=start)
     outcome = response.outcome
     assert (outcome.outcome, outcome.overturned, outcome.overturned_towards) == ("overturns", True, "+x")
     assert outcome.max_rotation_rad == pytest.approx(math.pi / 2, abs=1e-12)
     assert outcome.events[-1] == {"time_s": outcome.overturning_time_s, "mode": "overturned", "corner": None, "slip": None}
     assert outcome.max_rotation_ratio == pytest.approx(math.pi / 2 / SLENDER.slenderness, rel=1e-12)
-    earlier = solve_respond(SLENDER, still(), mu=2.0, initial=start, further_points=[(-0.1, 0.2), (0.4, 0.3)]).outcome
+    earlier = solve_respond(SLENDER, still_ground(), mu=2.0, initial=start, further_points=[(-0.1, 0.2), (0.4, 0.3)]).outcome
     lean = earlier.max_rotation_rad
     assert earlier.overturned and earlier.overturning_time_s < outcome.overturning_time_s
     # the point (0.4, 0.3) from the centre meets the ground about the right corner, 0.25 m to its side and 0.9 m below
     assert 0.9 * math.cos(lean) - 0.25 * math.sin(lean) == pytest.approx(0.0, abs=1e-10)
-    mirrored = solve_respond(SLENDER, still(), mu=2.0, initial=leaning(SLENDER, -0.3)).outcome
+    mirrored = solve_respond(SLENDER, still_ground(), mu=2.0, initial=at_lean(SLENDER, -0.3)).outcome
     assert mirrored.overturned_towards == "-x"
 
 
@@ -120,7 +120,7 @@ def test_push_back_beyond_alpha_prevents_overturning():
     block = SLENDER
     lean = block.slenderness + 0.02
     a = np.full(60, 4.0)
-    outcome = solve_respond(block, Motion.from_arrays(a, 0.01), mu=2.0, initial=leaning(block, lean)).outcome
+    outcome = solve_respond(block, Motion.from_arrays(a, 0.01), mu=2.0, initial=at_lean(block, lean)).outcome
     assert outcome.max_rotation_ratio > 1.0
     assert outcome.impacts > 0
 
@@ -160,8 +160,8 @@ def test_tenon_disengages_when_lower_corner_rises_by_its_depth():
     """A throw of 5 cm: tenons of 3 cm are left on the way up, at the exact time, and the body slides after it lands; of 6 cm hold."""
     up = math.sqrt(2.0 * G * 0.05)
     start = (0.0, 0.5, 0.0, 1.0, up, 0.0)
-    left = solve_respond(BLOCK, still(), mu=0.05, tenon=0.03, initial=start).outcome
-    kept = solve_respond(BLOCK, still(), mu=0.05, tenon=0.06, initial=start).outcome
+    left = solve_respond(BLOCK, still_ground(), mu=0.05, tenon=0.03, initial=start).outcome
+    kept = solve_respond(BLOCK, still_ground(), mu=0.05, tenon=0.06, initial=start).outcome
     assert left.tenon_left_s == pytest.approx((up - math.sqrt(up * up - 2.0 * G * 0.03)) / G, abs=1e-12)
     assert left.time_in_mode_s["slide"] > 0.0
     assert kept.tenon_left_s is None
@@ -172,7 +172,7 @@ def test_tenon_disengages_when_lower_corner_rises_by_its_depth():
 def test_tenon_of_tilted_block_disengages_at_lower_corner():
     """The lower corner decides, whichever it is when it has risen."""
     start = (0.0, 0.57, 0.3, 0.0, 1.5, -2.0)
-    outcome = solve_respond(BLOCK, still(), mu=0.3, tenon=0.05, initial=start).outcome
+    outcome = solve_respond(BLOCK, still_ground(), mu=0.3, tenon=0.05, initial=start).outcome
     t = outcome.tenon_left_s
     theta = 0.3 - 2.0 * t
     height = 0.57 + 1.5 * t - 0.5 * G * t * t

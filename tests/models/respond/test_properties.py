@@ -12,7 +12,7 @@ from seisblock.models.respond import constants, solve_respond
 from seisblock.models.respond.curves import energy
 from seisblock.models.respond.outcome import motion_modes
 from seisblock.records import Motion
-from tests.models.respond.cases import followed, shaking
+from tests.models.respond.cases import shaking, solve_case
 
 BLOCKS = st.builds(
     lambda width, height, offset, centre: Block(width, height, centroid_offset=offset * width, centroid_height=centre * height),
@@ -29,7 +29,7 @@ RATIO = st.sampled_from([None, None, 0.6, 0.95])
 @given(block=BLOCKS, friction=FRICTION, kappa=st.floats(0.6, 1.0), ratio=RATIO, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0))
 def test_energy_balance_holds_at_every_sample_and_event(block, friction, kappa, ratio, seed, peak):
     """Work of the ground less friction less impacts is the change of kinetic and potential energy, to 1e-9, at every sample and event."""
-    setting, run = followed(
+    setting, run = solve_case(
         block, shaking(seed, peak, seconds=6.0), mu_kinetic=kappa * friction["mu"], rocking_restitution=ratio, **friction
     )
     _, states, modes = run.table()
@@ -93,8 +93,8 @@ def test_scaled_lengths_and_times_give_similar_response(block, friction, seed, p
     motion = shaking(seed, peak, seconds=3.0)
     slow = Motion(motion.acceleration, 2.0 * motion.dt)
     large = Block(4 * block.width, 4 * block.height, centroid_offset=4 * block.centroid_offset, centroid_height=4 * block.centre)
-    _, small_run = followed(block, motion, **friction)
-    _, large_run = followed(large, slow, **friction, settle_s=120.0)
+    _, small_run = solve_case(block, motion, **friction)
+    _, large_run = solve_case(large, slow, **friction, settle_s=120.0)
     few = min(len(small_run.record_part.events), len(large_run.record_part.events), 12)
     for mine, theirs in zip(small_run.record_part.events[:few], large_run.record_part.events[:few], strict=True):
         assert (mine.source, mine.target) == (theirs.source, theirs.target)

@@ -9,7 +9,7 @@ from seisblock.bodies.sliding_base import sliding_base
 from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from tests.models.respond.cases import SLENDER, sequence, shaking, still
+from tests.models.respond.cases import SLENDER, sequence, shaking, still_ground
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -67,7 +67,7 @@ def test_flight_over_still_ground_is_a_parabola():
     """In flight over still ground the centre follows a parabola and the spin is constant."""
     block = Block(0.4, 0.9)
     start = (0.1, 3.0, 0.2, 1.5, 2.0, -0.4)
-    response = solve_respond(block, still(0.6), mu=0.5, initial=start)
+    response = solve_respond(block, still_ground(0.6), mu=0.5, initial=start)
     t = np.arange(61) * 0.01
     at = np.searchsorted(response.time, t)
     np.testing.assert_allclose(response["displacement"][at], 0.1 + 1.5 * t, rtol=0.0, atol=1e-13)
@@ -89,7 +89,7 @@ def test_flight_over_moving_ground_subtracts_ground_displacement():
 def test_flat_drop_lands_at_free_fall_time():
     """A flat fall from 10 cm takes sqrt(2 s/g), and ends there without restitution."""
     block = Block(0.5, 0.5)
-    outcome = solve_respond(block, still(1.0), mu=0.5, initial=(0.0, 0.35, 0.0, 0.0, 0.0, 0.0)).outcome
+    outcome = solve_respond(block, still_ground(1.0), mu=0.5, initial=(0.0, 0.35, 0.0, 0.0, 0.0, 0.0)).outcome
     assert sequence(outcome) == ["flight", "rest"]
     assert outcome.events[1]["time_s"] == pytest.approx((0.2 / G) ** 0.5, abs=1e-13)
     assert outcome.energy_impacts_j == pytest.approx(block.total_mass * G * 0.1, rel=1e-12)

@@ -22,7 +22,7 @@ PEAK = [0.0, 1.4557032986287874, 1.4915089727103732, 1.475750313468548, 0.0]
 TIED, MU = Block(0.3420401615159788, 2.2489091324977353), 0.63
 
 
-def shifted(value: float, digits: int) -> float:
+def shift_floats(value: float, digits: int) -> float:
     """Return a number that many representable numbers further."""
     for _ in range(abs(digits)):
         value = math.nextafter(value, math.copysign(math.inf, digits))
@@ -55,11 +55,11 @@ def test_peaks_at_or_near_thresholds_are_solved_to_the_end(
     rng = np.random.default_rng(seed)
     block = Block(width, width * slenderness)
     ratio = block.width / block.height
-    mu = {"mu": 0.4, "b/h": ratio, "below b/h": shifted(ratio, -1), "above b/h": shifted(ratio, 1)}[friction]
+    mu = {"mu": 0.4, "b/h": ratio, "below b/h": shift_floats(ratio, -1), "above b/h": shift_floats(ratio, 1)}[friction]
     shape = rng.standard_normal(30).cumsum()
     up = 0.3 * G * rng.standard_normal(30) if vertical else np.zeros(30)
     peak = int(np.argmax(np.abs(shape)))
-    limit = shifted((ratio if threshold == "rock" else mu) * (G + up[peak]), digits)
+    limit = shift_floats((ratio if threshold == "rock" else mu) * (G + up[peak]), digits)
     push = shape * abs(limit / shape[peak])
     push[peak] = math.copysign(limit, shape[peak])
     if plateau and peak + 1 < push.size:
@@ -78,7 +78,7 @@ def test_energy_balance_holds_with_friction_equal_to_slenderness(digits):
     for _ in range(20):
         push = rng.standard_normal(40).cumsum()
         push *= 1.3 * G * 0.4 / np.abs(push).max()
-        outcome = solve_respond(block, Motion.from_arrays(push, 0.01), mu=shifted(0.4, digits), sensitivity=False).outcome
+        outcome = solve_respond(block, Motion.from_arrays(push, 0.01), mu=shift_floats(0.4, digits), sensitivity=False).outcome
         assert outcome.settled
         lost = outcome.energy_friction_j + outcome.energy_impacts_j
         assert lost == pytest.approx(outcome.energy_ground_j, rel=1e-9, abs=1e-12)
