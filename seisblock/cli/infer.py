@@ -15,7 +15,7 @@ from seisblock.cli.bodies.options import landing_option, side_option, two_layer_
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, displaced_record_options, gravity_option, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
@@ -41,17 +41,17 @@ JUMPED_OPTIONS = (
         "seisblock infer --slid 5cm --mu 0.3 record.csv",
     ),
 )
-@record_options
+@displaced_record_options
 @option(
     "--cemetery",
     multiple=True,
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones; column fallen: 1, yes, 転倒 (fell) or 0, no, 残存 (stands). Several surveys of one earthquake: repeat the "
-    "option.",
+    help="CSV of gravestones; column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one earthquake: "
+    "repeat the option.",
 )
-@option("--rate", metavar="K/N", section="Body", help="Count: K of N stones fell; proportions of the stones as in --cemetery.")
+@option("--rate", metavar="K/N", section="Body", help="Count: K of N stones overturned; proportions of the stones as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
 @two_layer_option(f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
@@ -98,9 +98,7 @@ JUMPED_OPTIONS = (
     type=float,
     help="Stones: bias of the criterion, ln PGA of records over ln PGA of the criterion. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
 )
-@option(
-    "--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency, 1."
-)
+@option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency.")
 @option("--largest", is_flag=True, help="slid: the maximum displacement was observed, not the residual.")
 @option("--vertical", is_flag=True, help="slid: apply the vertical component.")
 @option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, without the slide-rocking after it.")

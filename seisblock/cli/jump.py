@@ -67,7 +67,7 @@ DEFAULT_BLOCK = "chozusha"
     type=LENGTH,
     callback=check_callback(checks.positive),
     section="Output",
-    help="Depth of the tenon hole, m or with a unit: reports whether the foot left the hole.",
+    help="Length of the tenons, m or with a unit: reports whether they leave the mortises.",
 )
 @gravity_option
 @output_options()

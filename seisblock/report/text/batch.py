@@ -16,12 +16,12 @@ MAX_REASONS = 5
 """Most reasons listed for rows without a result."""
 
 _EVENT_COUNT_TEXTS = {
-    "respond": N_("overturned in {happened} of {answers} runs"),
-    "rock": N_("overturned in {happened} of {answers} runs"),
-    "slide": N_("slid in {happened} of {answers} runs"),
-    "jump": N_("jumped in {happened} of {answers} runs"),
-    "uplift": N_("uplift in {happened} of {answers} runs"),
-    "stack": N_("at least one stone fell in {happened} of {answers} runs"),
+    "respond": N_("overturned in {happened} of {answers} cases"),
+    "rock": N_("overturned in {happened} of {answers} cases"),
+    "slide": N_("slid in {happened} of {answers} cases"),
+    "jump": N_("jumped in {happened} of {answers} cases"),
+    "uplift": N_("uplift in {happened} of {answers} cases"),
+    "stack": N_("at least one stone fell in {happened} of {answers} cases"),
 }
 _EVENT_HEADINGS = {
     "respond": N_("overturned"),

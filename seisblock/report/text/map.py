@@ -23,11 +23,11 @@ COLUMNS = {
 """Table columns by solver."""
 
 EVENT_WORDS = {
-    "respond": N_("falls"),
-    "rock": N_("falls"),
+    "respond": N_("overturns"),
+    "rock": N_("overturns"),
     "slide": N_("slides"),
     "jump": N_("jumps"),
-    "uplift": N_("lifts"),
+    "uplift": N_("uplift"),
 }
 """Column heading of the event of each solver."""
 
@@ -36,7 +36,7 @@ _VERDICTS = {
     "rock": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
     "slide": N_("{subject}: slides at {some} of {stations}, largest response at {station}"),
     "jump": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
-    "uplift": N_("{subject}: lifts at {some} of {stations}, largest response at {station}"),
+    "uplift": N_("{subject}: uplift at {some} of {stations}, largest response at {station}"),
 }
 
 MAX_ROWS = 40
@@ -82,7 +82,7 @@ def column_note(answers: Sequence[StationReport], model: StationModel | None) ->
     if not isinstance(model, StationBody) or all(answer.effect.probability is None for answer in answers):
         return ""
     return gettext(
-        "falls: nominal body in its worst direction; share: overturning share of {runs} samples in that direction", runs=model.runs
+        "overturns: nominal body in its worst azimuth; share: share of {runs} samples that overturn in that azimuth", runs=model.runs
     )
 
 
@@ -94,7 +94,7 @@ def survey_tables(surveys: Sequence[SurveyComparison]) -> Iterator[Any]:
     surveys : sequence of SurveyComparison
     """
     header, rows = survey_rows(surveys)
-    caption = gettext("stations: the nearest three, weighted by inverse distance; residual: by stones minus by stations")
+    caption = gettext("stations: the nearest three, weighted by inverse distance; residual: from stones minus from stations")
     yield table(gettext("Surveyed cemeteries"), header, rows, caption=caption)
     for pair in contradictions(surveys):
         yield styled_line(gettext(pair), "yellow")
@@ -110,8 +110,8 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
     header = [
         gettext("surveyed place"),
         gettext("fell"),
-        gettext("JMA by stones"),
-        gettext("by stations"),
+        gettext("JMA from stones"),
+        gettext("from stations"),
         gettext("residual"),
         gettext("nearest"),
     ]
@@ -201,15 +201,15 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
     if model is None:
         return []
     if not isinstance(model, StationBody):
-        return [gettext("rate"), gettext("worst to")]
+        return [gettext("rate"), gettext("worst azimuth")]
     header = {
         "happened": gettext(EVENT_WORDS[model.solver]),
-        "overturned": gettext("falls"),
+        "overturned": gettext("overturns"),
         "probability": gettext("share"),
-        "max_slip_m": gettext("moves ({unit})", unit=way.name),
-        "max_uplift_m": gettext("rises ({unit})", unit=way.name),
+        "max_slip_m": gettext("displacement ({unit})", unit=way.name),
+        "max_uplift_m": gettext("uplift ({unit})", unit=way.name),
     }
-    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst to")]
+    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst azimuth")]
 
 
 def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:

@@ -17,7 +17,9 @@ from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.survey.assessment import CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
 
-CAPTION = N_("Min. H/B predicted to fall. %: sampling interval (Clopper-Pearson) only")
+CAPTION = N_(
+    "Min. H/B: smallest height over width predicted to overturn. {level:g} %: sampling interval of the rate (Clopper-Pearson) only"
+)
 
 MAX_VERDICTS = 4
 """Most shakings with a sentence each."""
@@ -106,7 +108,7 @@ def median_pga_text(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) ->
 
 def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
     unit = acceleration_unit(gal=gal).name
-    header = ("", f"PGA ({unit})", "f (Hz)", gettext("min. H/B"), gettext("fallen"), gettext("rate"), format_percent(confidence, "g"))
+    header = ("", f"PGA ({unit})", "f (Hz)", gettext("min. H/B"), gettext("overturned"), gettext("rate"), format_percent(confidence, "g"))
     rows = [
         (
             _row_label(result),
@@ -119,7 +121,7 @@ def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confi
         )
         for result in results
     ]
-    return table(title, header, rows, caption=gettext(CAPTION))
+    return table(title, header, rows, caption=gettext(CAPTION, level=100.0 * confidence))
 
 
 def _row_label(result: CemeteryRate) -> str:

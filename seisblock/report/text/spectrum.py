@@ -20,7 +20,7 @@ Spectra = Sequence[tuple[Motion, RockingSpectrum]]
 
 
 MAX_ROWS, MAX_COLUMNS = 12, 9
-FALLS = N_("falls")
+FALLS = N_("overturns")
 
 
 def tables(spectra: Spectra, kind: str, wear_text: str = "") -> Iterator[Any]:
@@ -35,7 +35,7 @@ def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
     falls, block_count = int(spectrum.overturned.sum()), spectrum.overturned.size
     if spectrum.azimuths_deg is not None and spectrum.overturning_rate is not None:
         always_count = int((spectrum.overturning_rate == 1.0).sum())
-        text = N_("{falls} of {all} blocks overturn in at least one of {count} directions, {always} in all of them.")
+        text = N_("{falls} of {all} blocks overturn in at least one of {count} azimuths, {always} in all of them.")
         return gettext(text, falls=falls, all=block_count, count=spectrum.azimuths_deg.size, always=always_count)
     return gettext("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=block_count)
 
@@ -45,7 +45,7 @@ def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_t
     quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha")
     if spectrum.overturning_rate is not None:
         quantity = (
-            gettext("share of directions with overturning") if kind == "overturning" else gettext("peak tilt over alpha, worst direction")
+            gettext("share of azimuths with overturning") if kind == "overturning" else gettext("peak tilt over alpha, worst azimuth")
         )
     header = [f"{1 / math.tan(spectrum.slenderness_rad[j]):.2f}" for j in columns]
     cells = [[f"{spectrum.size_m[i]:.3g}", *(_cell(spectrum, i, j, kind) for j in columns)] for i in rows]

@@ -97,13 +97,13 @@ def verdict(response: Response[StackOutcome]) -> str:
     if outcome.overturned_any:
         return describe_falls(response)
     if moved_stones := [gettext(stone.name) for stone in outcome.stones if stone.state != "standing"]:
-        return gettext("No stone fell; displaced: {stones}.", stones=moved_stones)
-    return gettext("No stone moved.")
+        return gettext("No stone falls; displaced: {stones}.", stones=moved_stones)
+    return gettext("No stone moves.")
 
 
 def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> Iterator[Any]:
     """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
-    columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
+    columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("overturns to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
     yield styled_line()
     yield table(
@@ -155,8 +155,8 @@ def variation_text(probability: PileProbability, pile: Pile) -> str:
     versions = probability.versions
     size = lazy_gettext("size ±{share}", share=format_share(versions.size))
     return gettext(
-        "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude "
-        "±{amplitude}, direction ±{azimuth:g} degrees",
+        "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude ±{amplitude}, "
+        "azimuth ±{azimuth:g} degrees.",
         shape=lazy_gettext("{parts}", parts=[size, _wear_text(pile, versions.inset)] if versions.inset else [size]),
         mu=format_share(versions.mu),
         amplitude=format_share(versions.amplitude),
@@ -184,7 +184,7 @@ def base_text(response: Response[StackOutcome]) -> str:
             **values,
         )
     if points == EDGE_POINTS and base.restitution <= 0.0:
-        return gettext("{law} at the edges; {stone} is too squat to continue rocking after an impact on rigid ground.", law=law, **values)
+        return gettext("{law} at the edges; {stone} is too stocky to continue rocking after an impact on rigid ground.", law=law, **values)
     if points == EDGE_POINTS:
         return gettext(
             "{law} at the edges; on rigid ground an impact retains {kept:.2f} of the angular velocity of {stone}.", law=law, **values
