@@ -46,12 +46,12 @@ def test_outputs_are_never_harmed(folder):
     [
         ("--bodies none.csv", "none.csv"),
         ("--bodies wrong.csv", "unknown column 'colour'"),
-        ("--solver slide --runs 5", "has no samples"),
+        ("--solver slide --runs 5", "does not support samples"),
         ("--cluster tcp://127.0.0.1:9", "no Dask scheduler responds"),
         ("--cluster local:none", "from 1 to 512"),
         ("--window 0:5 --window 6:7", "one --window"),
-        ("--mu 0.3", "rock has no option --mu; remove it"),
-        ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical; remove it"),
+        ("--mu 0.3", "rock has no option --mu: omit it"),
+        ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical: omit it"),
     ],
 )
 def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):

@@ -153,7 +153,7 @@ def test_models_of_the_stones_are_told(document, run):
     """The rate by each model stands in one sentence, and what its interval is of in the caption (N12, N15)."""
     words = ("--cemetery", "aoyama.csv", "elcentro_1940_ns")
     shown = " ".join(run(*words).stdout.split())
-    assert "NS: Overturning rate of the stones: 32 % by the gravestone criterion, 3 % by the half-sine pulse of" in shown
+    assert "NS, overturning rate by model: 32 % (gravestone criterion), 3 % (half-sine pulse of" in shown
     assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges, 9 %", shown)
     assert "9 % by the rigid block with worn edges, 8 % by the rigid block with sharp edges" in shown
     assert "sharp edges (largest over smallest 10.7)" in shown

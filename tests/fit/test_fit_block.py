@@ -81,7 +81,7 @@ def test_a_weight_is_so_many_outcomes(experiment):
 
 def test_all_fell_or_none():
     """One side is bounded, and what was thought before decides the other: it is said."""
-    for happened, strength, said in ((False, 1.0, "no fall among"), (True, 40.0, "only falls among")):
+    for happened, strength, said in ((False, 1.0, "no overturning among"), (True, 40.0, "only overturning among")):
         seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
         found = fit_block(seen, free=["alpha"], **KNOWN)
         assert any(said in text for text in found.warnings)

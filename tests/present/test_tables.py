@@ -58,7 +58,7 @@ def test_a_jump_of_a_thousandth_of_a_millimetre_is_not_none():
     found = response("jump")
     near = replace(found, outcome=replace(found.outcome, final_displacement_m=-4e-6))
     with use_locale("en"):
-        assert "less than 0.01 mm to -NS" in jump_verdict(near)
+        assert "less than 0.1 cm to -NS" in jump_verdict(near)
 
 
 def test_many_fragilities_begin_with_a_verdict():

@@ -221,6 +221,7 @@ def _jump(effect: ModelResponse, outcome: Any) -> Iterator[str]:
     """Yield sentences on each rocking-jump sequence."""
     if not outcome.chains:
         yield gettext("The ground acceleration does not exceed the rocking threshold.")
+    unit = length_unit((length for chain in outcome.chains for length in (chain.total_displacement_m, chain.max_rise_m)), gal=True)
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
             displacement = chain.total_displacement_m or 0.0
@@ -230,8 +231,8 @@ def _jump(effect: ModelResponse, outcome: Any) -> Iterator[str]:
                 number=number,
                 rock=chain.rocking_duration_s,
                 fly=chain.jump_duration_s,
-                moved=format_displacement(displacement, effect.response.motion.name),
-                rise=format_length(chain.max_rise_m or 0.0),
+                moved=format_displacement(displacement, effect.response.motion.name, unit),
+                rise=format_length(chain.max_rise_m or 0.0, unit),
             )
         else:
             yield gettext("Chain {number}, {outcome}.", number=number, outcome=gettext(chain.outcome))

@@ -49,7 +49,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     )
     bodies = tally.sorted_counts()
     if bodies and tally.answers:
-        header = [gettext("body"), gettext("runs"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no result")]
+        header = [gettext("body"), gettext("total"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no result")]
         rows = [
             [gettext(c.body), c.answers, c.events, format_share(c.events / c.answers) if c.answers else None, c.failures]
             for c in bodies[:MAX_BODIES]

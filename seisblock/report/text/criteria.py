@@ -87,8 +87,8 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
     for row in frequency_free:
         size, unit = shaking if row.unit == ACCELERATION else speed
         threshold_text = f"{format_number(row.threshold / size)} {unit}"
-        cells.append([gettext(row.criterion), _formula(row), threshold_text, format_ratio(row), _verdict(row, card)])
-    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio"), gettext("overturning")], cells)
+        cells.append([gettext(row.criterion), _formula(row), threshold_text, _ratio_cell(row, card)])
+    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio")], cells)
 
     frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
     columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]
@@ -99,11 +99,14 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
         row_cells = [gettext(name), formula]
         for key in frequencies:
             match = rows_by_key.get((name, key))
-            row_cells.append("-" if match is None else f"{format_ratio(match)} {_verdict(match, card)}")
+            row_cells.append("-" if match is None else _ratio_cell(match, card))
         body.append(row_cells)
     if body:
-        caption = gettext("ratio: demand over threshold; !: differs from the simulation. Thresholds of the lower table: --csv, --json")
-        yield table("", [gettext("ratio, overturning at f ="), gettext("formula"), *columns], body, caption=caption)
+        caption = gettext(
+            "ratio: demand over threshold; yes: overturning predicted; !: differs from the simulation. Thresholds of the lower table: "
+            "--csv, --json"
+        )
+        yield table("", [gettext("ratio at f ="), gettext("formula"), *columns], body, caption=caption)
 
 
 def format_ratio(row: CriterionResult) -> str:
@@ -125,10 +128,10 @@ def _formula(row: CriterionResult) -> str:
     return row.where.replace("[", "").replace("]_", "")
 
 
-def _verdict(row: CriterionResult, card: CriteriaComparison) -> str:
-    """Return the prediction of a criterion, marked "!" where it differs from the simulation."""
+def _ratio_cell(row: CriterionResult, card: CriteriaComparison) -> str:
+    """Return ratio and prediction of a criterion, marked "!" where it differs from the simulation."""
     mark = " " if row.overturns == card.outcome.overturned else "!"
-    return (gettext("yes") if row.overturns else gettext("no")) + mark
+    return f"{format_ratio(row)} {gettext('yes') if row.overturns else gettext('no')}{mark}"
 
 
 def write_csv(path: Path, cards: Sequence[CriteriaComparison]) -> None:

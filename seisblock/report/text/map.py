@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.report.text.record_info import describe_earthquake
-from seisblock.report.text.tables import format_fixed, format_number, styled_line, table
+from seisblock.report.text.tables import format_fixed, format_number, format_range, styled_line, table
 from seisblock.report.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.stations import StationReport, Stations
@@ -62,7 +62,8 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
         header, rows = station_rows(listed_answers, model, gal=gal)
         omitted = _omitted_text(len(answers) - MAX_ROWS)
         caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
-        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # station names need the width
+        # station names need the width
+        yield table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
     missing = [answer for answer in stations.answers if answer.failure]
     if missing:
         yield styled_line(gettext("no result: {count}", count=len(missing)), "yellow")
@@ -109,7 +110,7 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
     """
     header = [
         gettext("surveyed place"),
-        gettext("fell"),
+        gettext("overturned"),
         gettext("JMA from stones"),
         gettext("from stations"),
         gettext("residual"),
@@ -125,7 +126,7 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
         rows.append([
             answer.surveyed.place,
             f"{answer.surveyed.fallen}/{answer.surveyed.stones}",
-            f"{intensities[0]} ({intensities[1]} – {intensities[2]})",
+            f"{intensities[0]} ({format_range(intensities[1], intensities[2])})",
             format_number(None) if answer.expected_intensity is None else format_fixed(answer.expected_intensity, 1),
             format_number(None) if answer.residual is None else f"{round(answer.residual, 1) + 0.0:+.1f}",  # no -0.0
             "" if nearest is None else gettext("{station}, {distance:.1f} km", station=nearest.station, distance=nearest.distance_km),
@@ -206,7 +207,7 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
         "happened": gettext(EVENT_WORDS[model.solver]),
         "overturned": gettext("overturns"),
         "probability": gettext("share"),
-        "max_slip_m": gettext("displacement ({unit})", unit=way.name),
+        "max_slip_m": gettext("displ. ({unit})", unit=way.name),
         "max_uplift_m": gettext("uplift ({unit})", unit=way.name),
     }
     return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst azimuth")]

@@ -59,7 +59,7 @@ def verdict(motion: Motion, mode_map: ModeMap) -> str:
     """Return the shares of the modes."""
     shares = [(mode, mode_map.share(mode)) for mode in MODES_BY_SEVERITY]
     parts = [gettext(SHARES[mode], share=format_share(share)) for mode, share in shares if share > 0.0]
-    return gettext("{name}: {all} bodies: {parts}.", name=motion.name or "x", all=mode_map.governing.size, parts=join_list(parts))
+    return gettext("{name}: of {all} bodies {parts}.", name=motion.name or "x", all=mode_map.governing.size, parts=join_list(parts))
 
 
 def limits_text(mode_map: ModeMap) -> str:

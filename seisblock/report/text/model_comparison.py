@@ -97,15 +97,14 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     """
     if len(rates) < 2:
         return ""
+    head = gettext("{name}, overturning rate by model", name=name) if name else gettext("Overturning rate by model")
     texts = [gettext("{rate:.0%} ({model})", rate=opinion.rate, model=model_label(opinion)) for opinion in rates]
     low, high = min(opinion.rate for opinion in rates), max(opinion.rate for opinion in rates)
-    values = {"rates": texts, "made": gettext(GRAVESTONES)}
+    values = {"head": head, "rates": texts, "made": gettext(GRAVESTONES)}
     if low > 0.0:
-        text = N_("Overturning rate of the stones: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
-        sentence = gettext(text, **values, spread=high / low)
-    else:
-        sentence = gettext("Overturning rate of the stones: {rates}. Derived for gravestones: {made}.", **values)
-    return gettext("{name}: {text}", name=name, text=sentence) if name else sentence
+        text = N_("{head}: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
+        return gettext(text, **values, spread=high / low)
+    return gettext("{head}: {rates}. Derived for gravestones: {made}.", **values)
 
 
 def format_chance(share: float) -> str:
@@ -152,7 +151,7 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
     s = perturbation.spread
     sizes = lazy_gettext("size ±{size}, slenderness ±{slenderness}", size=format_share(s.size), slenderness=format_share(s.slenderness))
     variation = gettext(
-        "varied: {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
+        "samples with {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
         sizes=sizes,
         edges=sampled_edges(block, perturbation.ranges, s.inset),
         restitution=format_share(s.restitution),

@@ -12,7 +12,16 @@ from seisblock.records import Record
 from seisblock.report.io.history_csv import concat_tables
 from seisblock.report.text.measure import filter_range_text
 from seisblock.report.text.model_comparison import rates_line
-from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    acceleration_cell,
+    format_acceleration,
+    format_number,
+    format_range,
+    group_answers,
+    styled_line,
+    table,
+)
 from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.survey.assessment import CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
@@ -117,7 +126,7 @@ def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confi
             _format_ratio(result),
             gettext("{fallen} of {stones}", fallen=result.fallen, stones=result.stones),
             f"{result.rate:.2f}",
-            "{:.2f}-{:.2f}".format(*result.rate_interval),
+            format_range(*(f"{end:.2f}" for end in result.rate_interval)),
         )
         for result in results
     ]

@@ -134,7 +134,7 @@ def _motion_parts(response: Response[RespondOutcome], *, gal: bool) -> Iterator[
 def rocking_text(ratio: float) -> str:
     """Return the extent of rocking without overturning; `ratio` is the peak tilt over the overturning angle."""
     if ratio < 0.01:
-        return gettext("rocks slightly (peak tilt below 1 % of the overturning angle)")
+        return gettext("rocks slightly (peak tilt less than 1 % of the overturning angle)")
     return gettext("rocks (peak tilt {share} of the overturning angle)", share=format_share(ratio))
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list
 from seisblock.report.text.fragility import limit_label
-from seisblock.report.text.tables import DASH, format_number, styled_line, table
+from seisblock.report.text.tables import DASH, format_number, format_range, styled_line, table
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
@@ -98,7 +98,7 @@ def interval_text(share: RiskShare, size: float) -> str:
     low, high = (None if end is None else format_number(end / size, 3) for end in (share.im_from, share.im_to))
     if low is None:
         return gettext("below {level}", level=high)
-    return gettext("from {level}", level=low) if high is None else f"{low} - {high}"
+    return gettext("{level} and above", level=low) if high is None else format_range(low, high)
 
 
 def _branch_table(name: str, risk: Risk) -> Any:

@@ -19,7 +19,16 @@ from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
 from seisblock.report.text.model_comparison import agreement_line
 from seisblock.report.text.stone_falls import describe_falls
-from seisblock.report.text.tables import DASH, format_fixed, format_seconds, format_share_interval, group_answers, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    format_fixed,
+    format_range,
+    format_seconds,
+    format_share_interval,
+    group_answers,
+    styled_line,
+    table,
+)
 from seisblock.report.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.respond.pile_probability import PileProbability, StoneProbability
@@ -103,7 +112,7 @@ def verdict(response: Response[StackOutcome]) -> str:
 
 def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> Iterator[Any]:
     """Yield the share of samples in which each stone falls and moves, and the varied parameters."""
-    columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("overturns to (deg)"), gettext("moves (%)")]
+    columns = [gettext("stone"), gettext("falls (%)"), gettext("95 % interval"), gettext("falls to (deg)"), gettext("moves (%)")]
     length = format_length(probability.moved_m, gal=gal)
     yield styled_line()
     yield table(
@@ -123,7 +132,7 @@ def _chance_row(chance: StoneProbability) -> list[str]:
     return [
         gettext(chance.name),
         share,
-        f"{low}–{high}",
+        format_range(low, high),
         format_fixed(mean % 360.0, 0) if has_direction and mean is not None else DASH,
         moved_share,
     ]
