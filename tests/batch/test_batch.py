@@ -170,7 +170,7 @@ def test_given_wrongly(folder):
     block = seisblock.Block(0.2, 1.0)
     with pytest.raises(ParameterError, match="unknown batch solver 'fly'"):
         seisblock.run_batch("records", [block], "fly")
-    with pytest.raises(KindError, match="slide takes SlidingBase"):
+    with pytest.raises(KindError, match="slide requires SlidingBase"):
         seisblock.run_batch("records", [block], "slide")
     with pytest.raises(ParameterError, match="the name 'a'"):
         seisblock.run_batch("records", [seisblock.Block(0.2, 1.0, name="a"), seisblock.Block(0.3, 1.0, name="a")], "rock")

@@ -93,7 +93,7 @@ def test_what_it_comes_to(folder):
     assert (found["records_count"], found["unread_count"]) == (5, 1)
     assert [each["answers_count"] for each in found["results"]] == [8, 8, 8]
     first = run("batch records --bodies bodies.csv --solver slide --out u.csv --quiet").stdout.splitlines()[0]
-    assert first.startswith("slid in ") and "24 runs" in first
+    assert first.startswith("slid in ") and "24 cases" in first
 
 
 def test_parquet_is_the_same_table(folder):

@@ -154,10 +154,10 @@ def test_models_of_the_stones_are_told(document, run):
     words = ("--cemetery", "aoyama.csv", "elcentro_1940_ns")
     shown = " ".join(run(*words).stdout.split())
     assert "NS, overturning rate by model: 32 % (gravestone criterion), 3 % (half-sine pulse of" in shown
-    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges, 9 %", shown)
-    assert "9 % by the rigid block with worn edges, 8 % by the rigid block with sharp edges" in shown
-    assert "sharp edges (largest over smallest 10.7)" in shown
-    assert "sampling interval (Clopper-Pearson) only" in shown
+    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges\), 9 %", shown)
+    assert "9 % (rigid block with worn edges), 8 % (rigid block with sharp edges)" in shown
+    assert "sharp edges) (largest over smallest 10.7)" in shown
+    assert "sampling interval of the rate (Clopper-Pearson) only" in shown
     (found,) = document(*words)["results"]
     assert [model["rate"] for model in found["models"]] == [0.32, 0.03, 0.09, 0.08]
 

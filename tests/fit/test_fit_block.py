@@ -105,7 +105,7 @@ def test_what_moved_tells_how_slender_it_is():
     found = fit_block(seen, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
     assert found["alpha"].median == pytest.approx(0.25, rel=0.05)
     assert found["p"].narrowed > 0.8 and not found["p"].identified
-    assert any("hardly constrained" in text and "p" in text for text in found.warnings)
+    assert any("poorly constrained" in text and "p" in text for text in found.warnings)
     assert any("determine the slenderness only" in text for text in found.warnings)
 
 

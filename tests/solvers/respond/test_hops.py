@@ -77,7 +77,7 @@ def test_hops_without_end_are_given_up():
     assert response.outcome.outcome == "hops without end"
     assert not response.outcome.settled
     assert any("still bouncing" in text for text in response.warnings)
-    assert "no result: run stopped at" in verdict(response, gal=True)
+    assert "no result: analysis stopped at" in verdict(response, gal=True)
 
 
 def test_runs_that_were_given_up_are_no_answers():
