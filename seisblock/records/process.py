@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core.errors import ComponentError, ParameterError, RecordError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import GAL
 from seisblock.records.crop_history import CROP_HISTORY
@@ -151,8 +151,9 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     """
     checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
+    candidates: Message | None = lazy_gettext("largest horizontal")
     if component is None:
-        selected, candidates = largest_horizontal(record), lazy_gettext("largest horizontal")
+        selected = largest_horizontal(record)
     else:
         names = (component,) if isinstance(component, str) else tuple(component)
         selected = max((select_component(record, name) for name in names), key=_peak)
