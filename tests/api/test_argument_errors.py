@@ -108,7 +108,7 @@ def test_functions_require_a_body(name):
         (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers with 0 <= fallen <= stones and at least one stone, found 3.5/10"),
         (lambda: sb.solve_slide(0.2, MOTION, vertical="yes"), "the vertical gain must be a number, found 'yes'"),
         (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
-        (lambda: sb.respond_directions(BLOCK, RECORD, mu=0.3, step_deg=0.0), "the step between directions must be positive"),
+        (lambda: sb.respond_directions(BLOCK, RECORD, mu=0.3, step_deg=0.0), "the azimuth step must be positive"),
         (lambda: sb.rotate(RECORD, "NS"), "azimuth must be a finite number of degrees, found NS"),
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; available: NS, EW, UD"),
         (lambda: sb.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
