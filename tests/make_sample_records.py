@@ -30,9 +30,9 @@ GAL_PER_COUNT = (3920, 6182761)
 OFFSET_COUNTS = {"NS": -21873, "EW": 14406, "UD": 35120}
 
 SYNTHETIC = (
-    "drawn from a seeded random process that is conditioned on the stretches of ground acceleration fitted to table 1 of Sugimoto et al. "
-    "(2017); in EW the stretch d takes over from b at 26.10 s, where the two overlap. NOT a recording: the true motion is neither held nor "
-    "approached outside those stretches, whose peaks (934 and 962 gal) exceed the 742 and 770 gal of the record the paper used"
+    "synthetic, from a seeded random process conditioned on the intervals of ground acceleration fitted to table 1 of Sugimoto et al. "
+    "(2017); in EW interval d replaces b from 26.10 s, where the two overlap. NOT a recording: outside these intervals the motion is "
+    "unrelated to the true one, and their peaks (934 and 962 gal) exceed the 742 and 770 gal of the record used in the paper"
 )
 
 

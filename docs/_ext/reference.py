@@ -1,7 +1,7 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per line) is replaced by the
-generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+A fence named `commands`, `documents`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per line)
+is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect

@@ -175,6 +175,7 @@ class Contact:
             "--mu",
             unit="1",
             kind="friction",
+            section="Body",
         )
     )
     mu_kinetic: float | None = field(
@@ -184,19 +185,26 @@ class Contact:
             "--mu-kinetic",
             unit="1",
             kind="friction",
+            section="Body",
             document=float,
         ),
     )
     restitution_x: float = field(
         default=0.95,
         metadata=option(
-            N_("Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]"), "--restitution-x", unit="1"
+            N_("Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]"),
+            "--restitution-x",
+            unit="1",
+            section="Body",
         ),
     )
     restitution_y: float = field(
         default=0.85,
         metadata=option(
-            N_("Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]"), "--restitution-y", unit="1"
+            N_("Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]"),
+            "--restitution-y",
+            unit="1",
+            section="Body",
         ),
     )
 

@@ -50,8 +50,8 @@ DEFAULT_BLOCK = "chozusha"
     "--tenon",
     type=LENGTH,
     callback=check_callback(checks.positive),
-    section="Output",
-    help="Depth of the tenon hole, m or with a unit: reports whether the foot left the hole.",
+    section="Body",
+    help="Length of the tenons, m or with a unit: reports whether they leave the mortises.",
 )
 @solver_options(JumpOptions, "gravity")
 @output_options()

@@ -113,7 +113,7 @@ class Solver:
         known = {option.name for option in fields(self.options)} | self.body_columns
         unknown = [f"`{name}`" for name in values if name not in known]
         if unknown:
-            raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
+            raise ParameterError("{solver} has no option {names}: omit it", solver=self.name, names=unknown)
 
     def make_options(self, values: ValueMap) -> Any:
         """Return the options of the solver.

@@ -112,7 +112,7 @@ def test_functions_require_a_body(name):
         (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
         (
             lambda: sb.respond_directions(BLOCK, RECORD, options=RespondOptions(mu=0.3), step_deg=0.0),
-            "the step between directions must be positive",
+            "the azimuth step must be positive",
         ),
         (lambda: sb.rotate(RECORD, "NS"), "azimuth must be a finite number of degrees, found NS"),
         (lambda: sb.motion_of(RECORD, None), "no component 'None'; available: NS, EW, UD"),

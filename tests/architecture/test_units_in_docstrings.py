@@ -19,7 +19,7 @@ DIMENSION = re.compile(
     rf"(?:(?:,|\)|\bin|\bor|\band)\s|\(){UNIT}(?![\w^/])"  # "Height H, m or with a unit", "(n,) array, m/s^2"
     r"|\b0\sto\s1\b|\bbetween\s0\sand\s1\b|\[0,\s1|\bunits\b|in\s`unit`"
     r"|\b[Ss]hares?\b|\b[Rr]atios?\b|\b[Ff]actors?\b|\b[Cc]oefficients?\b|\btimes\sslower\b|\bln\s(?:PGA|f)\b|[A-Za-z]/[A-Z]\b"
-    r"|\b[Dd]egrees\b|\b[Pp]er\scent\b",
+    r"|\b[Dd]egrees\b|\b[Pp]er\scent\b|\blogarithm\b|\bpoints\b",
 )
 """A unit where the house writes units, or the word for a number that has none."""
 

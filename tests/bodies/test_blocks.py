@@ -54,7 +54,7 @@ def test_block_array_rejects_invalid_row_like_block():
     """The first of them says what is wrong."""
     with pytest.raises(BodyError, match=r"width must be positive.*-1"):
         rectangular_blocks([0.3, -1.0], [0.9, 0.9])
-    with pytest.raises(ParameterError, match=r"leaves nothing of a base 0\.3 m wide"):
+    with pytest.raises(ParameterError, match=r"is too large for a base 0\.3 m wide"):
         rectangular_blocks([0.9, 0.3], [0.9, 0.9], EdgeWear(length_m=0.2))
     with pytest.raises(BodyError, match="must lie above the base"):
         block_variants(STATUE, size=[1.0, 1.0], slenderness=[1.0, 1.0], inset_share=[0.1, 0.45])

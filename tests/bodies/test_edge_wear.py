@@ -70,7 +70,7 @@ def test_inset_rejects_invalid_values(text):
 
 def test_inset_must_leave_a_base():
     """Half the width per side, and a centre of gravity beyond the worn edge, are refused."""
-    with pytest.raises(ParameterError, match=r"inset of 0\.12 m per side leaves nothing"):
+    with pytest.raises(ParameterError, match=r"inset of 0\.12 m per side is too large"):
         Block(0.24, 0.72).with_wear(0.5)
     with pytest.raises(BodyError, match="inset must lie between 0 and half the width"):
         Block(0.24, 0.72, inset=0.12)

@@ -106,7 +106,7 @@ def test_output_states_origin_of_samples():
     for words, expected in (
         (
             ("rock", *record, "refrigerator", "--perturb", "3"),
-            "varied: size ±5 %, slenderness ±5 %, edge wear 3 % to 9 % of the width,",
+            "samples with size ±5 %, slenderness ±5 %, edge wear 3 % to 9 % of the width,",
         ),
         (
             ("respond", *record, "refrigerator", "--runs", "3"),
@@ -152,7 +152,7 @@ def test_unknown_edges_increase_dispersion():
         ('width = ["60cm"]', "width must be a list of 2 values"),
         ("mu = 0.3", "mu must be a list of 2 numbers"),
         ("weight = [1, 2]", "unknown entries weight"),
-        ('inset = ["0cm", "40cm"]\nwidth = ["60cm", "70cm"]', "an inset of 0.4 m leaves nothing of a width of 0.6 m"),
+        ('inset = ["0cm", "40cm"]\nwidth = ["60cm", "70cm"]', "an inset of 0.4 m is too large for a width of 0.6 m"),
         ("mu = [0.0, 0.5]", "the range of mu must be positive"),
     ],
 )

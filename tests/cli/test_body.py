@@ -126,7 +126,7 @@ def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):
         assert result["overturned"] is directions[0]["overturned"]
         assert "maximum displacement (cm)" in figure.read_text() if words[0] == "respond" else figure.exists()
         table = run(*line).stdout
-        assert "All azimuths" in table and f"of {len(directions)} directions; results for the worst direction." in " ".join(table.split())
+        assert "All azimuths" in table and f"of {len(directions)} azimuths; results for the worst azimuth." in " ".join(table.split())
 
 
 def test_body_refuses_to_overwrite_scan(tmp_path):

@@ -71,7 +71,7 @@ def test_criteria_reports_bad_input_in_one_sentence(run, words):
 def test_criteria_states_full_response_of_body():
     """In one sentence and in the document: with the friction given, the body's own, or that of feet that hold."""
     shown = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
-    assert "Full response (respond) with friction 0.2: NS: slides" in " ".join(shown.stdout.split())
+    assert "NS, full response (respond, friction 0.2): slides" in " ".join(shown.stdout.split())
     for words, mu, known in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
         found = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
         assert found["mu"] == pytest.approx(mu) and found["friction_known"] is known

@@ -88,7 +88,7 @@ def test_fragility_writes_csv_figure_pelicun_and_openquake(folder, tmp_path):
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
         (("FOLDER", *SHELF, "--levels", "1,2"), "not exceeded at any level up to 2 kine; use higher levels"),
         (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine; use lower levels"),
-        (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "leave --levels out"),
+        (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "omit --levels"),
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "does not compute the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are the same file"),

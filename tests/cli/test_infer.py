@@ -110,7 +110,7 @@ def test_infer_none_or_all_fallen_gives_bound(run, document):
     assert none["pga_interval_m_s2"][0] is None
     assert none["jma_classes"][0] is None
     found = run("--rate", "50/50", "--cemetery", "aoyama.csv", "--frequency", 1)
-    assert "lower bound only (all fell)" in found.stderr
+    assert "lower bound only (all overturned)" in found.stderr
     assert "at least" in found.stdout
 
 
@@ -172,7 +172,7 @@ def test_infer_writes_csv_and_figure(run, survey):
         (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery, --slid"),
         (("--rate", "35/100"), 2, "exactly one of --cemetery"),
         (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate requires --cemetery"),
-        (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),
+        (("--cemetery", "aoyama.csv"), 3, "no stone is marked overturned or standing"),
         (("--cemetery", "aoyama.csv", "--rate", "0.35"), 3, "give both numbers, for example 35/100"),
         (("--cemetery", "aoyama.csv", "--rate", "5/4"), 3, "0 <= fallen <= stones"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "has no effect with stones"),

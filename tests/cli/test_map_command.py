@@ -94,8 +94,8 @@ def test_map_prints_outcome_earthquake_and_stations(tmp_path, monkeypatch):
         (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "friction required"),
         (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--solver", "rock"], 3, "body required (--width, --height missing)"),
-        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu; remove it"),
-        (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide has no samples"),
+        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu: omit it"),
+        (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide does not support samples"),
         (["shafter_1989", "--solver", "jump", "--block", "gravestone"], 3, "jump requires a two-layer body"),
         (["shafter_1989", "--solver", "uplift", "--width", "1", "--height", "3"], 3, "spring stiffness required"),
         (
@@ -128,10 +128,10 @@ def test_map_warns_of_records_far_apart_in_time():
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [
-        ("--solver rock --block gravestone --runs 3", "gravestone: overturns at 0 of 1 station", "falls share worst samples"),
-        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides moves"),
-        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps falls moves"),
-        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: lifts at 1 of 1 station", "lifts rises"),
+        ("--solver rock --block gravestone --runs 3", "gravestone: overturns at 0 of 1 station", "over- turns share worst samples"),
+        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides displ."),
+        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps over- turns displ."),
+        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: uplift at 1 of 1 station", "uplift"),
     ],
 )
 def test_map_states_outcome_of_every_solver(words, says, heads, monkeypatch):

@@ -153,11 +153,11 @@ def test_overturn_rate_states_rate_by_each_model(document, run):
     """The rate by each model stands in one sentence, and what its interval is of in the caption (N12, N15)."""
     words = ("--cemetery", "aoyama.csv", "elcentro_1940_ns")
     shown = " ".join(run(*words).stdout.split())
-    assert "NS: Overturning rate of the stones: 32 % by the gravestone criterion, 3 % by the half-sine pulse of" in shown
-    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges, 9 %", shown)
-    assert "9 % by the rigid block with worn edges, 8 % by the rigid block with sharp edges" in shown
-    assert "sharp edges (largest over smallest 10.7)" in shown
-    assert "sampling interval (Clopper-Pearson) only" in shown
+    assert "NS, overturning rate by model: 32 % (gravestone criterion), 3 % (half-sine pulse of" in shown
+    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges\), 9 %", shown)
+    assert "9 % (rigid block with worn edges), 8 % (rigid block with sharp edges)" in shown
+    assert "sharp edges) (largest over smallest 10.7)" in shown
+    assert "sampling interval of the rate (Clopper-Pearson) only" in shown
     (found,) = document(*words)["results"]
     assert [model["rate"] for model in found["models"]] == [0.32, 0.03, 0.09, 0.08]
 

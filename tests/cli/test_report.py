@@ -187,7 +187,7 @@ def test_report_outcome_equals_solve_rock(pages):
     """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
-    assert f"Overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
+    assert f"overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
     assert re.search(r"Nearest change of the result at scale factor \d\.\d{3}", pages["en"])
     assert "未満では転倒しません" in pages["ja"]
 
@@ -195,7 +195,7 @@ def test_report_outcome_equals_solve_rock(pages):
 def test_report_card_states_best_estimate(pages):
     """Its verdict and its share are those of respond; the idealised models stand below, with the factor from which on each begins."""
     cards = re.findall(r'<div class="(?:bad|mild|)"><b>(.*?)</b><span>(.*?)</span></div>', pages["en"])
-    assert [head.split(":")[0] for head, _ in cards] == ["gravestone", "Chozu-sha, short side"]
+    assert [head.split(":")[0] for head, _ in cards] == ["gravestone, EW", "Chozu-sha, short side, EW"]
     motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
     outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
     assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][0] and outcome.overturned
@@ -214,7 +214,7 @@ def test_report_card_states_assumed_friction(tmp_path):
     page = tmp_path / "report.html"
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "-o", str(page), "--quiet"])
     assert answer.exit_code == 0, answer.stderr
-    assert "Friction not given; assumed coefficient 1.07" in page.read_text(encoding="utf-8")
+    assert "Friction coefficient assumed: 1.07 (none given" in page.read_text(encoding="utf-8")
 
 
 def test_report_rejects_bad_input_in_one_sentence(tmp_path):

@@ -232,7 +232,7 @@ def test_respond_with_tenons_rocks_at_any_friction():
     assert "sliding threshold" in levels[1] and "sliding threshold" not in "".join(levels[0])
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.2", "--tenon", "2cm", "--runs", "0", "--quiet", "--component", "NS")
     shown = " ".join(run(*words).stdout.split())
-    assert "tenons 2.0 cm; once free, mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
+    assert "tenons 2.0 cm; out of the mortises: mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
 
 
 @pytest.mark.parametrize(
@@ -251,7 +251,10 @@ def test_probability_sentence_begins_with_probability_interval_and_samples(falle
 
 @pytest.mark.parametrize(
     ("q05", "q95", "ends"),
-    [(-0.0004, 0.0002, "90 % of the survivors have no residual displacement."), (-0.02, 0.0002, "of 90 % of the survivors -2.0 cm to 0.")],
+    [
+        (-0.0004, 0.0002, "no residual displacement in 90 % of the samples without overturning."),
+        (-0.02, 0.0002, "of 90 % of the samples without overturning -2.0 cm to 0."),
+    ],
 )
 def test_respond_omits_quantiles_below_half_millimetre(q05, q95, ends):
     """Quantiles of less than half a millimetre are no interval to tell."""

@@ -41,7 +41,7 @@ def test_stack_without_record_uses_sample():
     result = run("--window", "24:30")
     assert result.exit_code == 0
     assert "synthetic_jma.csv" in result.stderr
-    assert re.search(r"sao fell at 2\d\.\d\d s to azimuth \d+ \([NESW]+\), onto", " ".join(result.stdout.split()))
+    assert re.search(r"sao falls to azimuth \d+ \([NESW]+\) at 2\d\.\d\d s, onto", " ".join(result.stdout.split()))
     assert "gedai" in result.stdout
 
 
@@ -155,7 +155,7 @@ def test_stack_reads_pile_file(pulse, tmp_path):
     assert found["overturned"] == []
     assert set(found["max_tilt_rad"]) == {"lower", "upper"}
     told = " ".join(run(pulse, "--stones", stones).stdout.split())
-    assert "upper is too squat to continue rocking after an impact" in told  # Housner's ratio would be negative
+    assert "upper is too stocky to continue rocking after an impact" in told  # Housner's ratio would be negative
 
 
 def test_stack_study_scales_records(pulse, tmp_path):

@@ -118,7 +118,7 @@ def test_uplift_beyond_model_has_null_and_flag(run):
     shown = " ".join(run(*words).stdout.split())
     assert "first uplift at corner 1, at 20.963 s; amount of uplift not available" in shown
     assert "mm." not in shown.partition("NS: corner")[2].partition("+x =")[0]
-    assert "highest position" not in shown
+    assert "maximum uplift" not in shown
     (found,) = json.loads(run(*words, "--json").stdout)["results"]
     assert found["within_model"] is False
     assert found["lean_ratio"] > 1.0

@@ -65,10 +65,10 @@ def test_validate_lists_differing_and_counts_holding():
     assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
     japanese = run("--paper", "Sugimoto2017", "--lang", "ja").stdout
     assert "。--all で" in japanese  # no blank between two Japanese sentences
-    assert "Cases that hold" not in short and "--all lists the cases that hold" in " ".join(short.split())
+    assert "Cases that agree" not in short and "--all also lists the cases that agree" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
     assert len(short.splitlines()) < 0.4 * len(whole.splitlines())
-    assert "Cases that hold" in whole and "jump plus" in whole and "[print check]" in whole.replace("\n", " ")
+    assert "Cases that agree" in whole and "jump plus" in whole and "[print check]" in whole.replace("\n", " ")
     for text in (short, whole):
         cells = [
             line.split()[-4:] for line in text.partition("Evidence by kind")[2].splitlines() if line.strip().endswith(tuple("0123456789"))
@@ -160,7 +160,7 @@ def test_gallery_has_anchors_and_captions(some_papers, tmp_path):
     text = page.read_text(encoding="utf-8")
     differ = sum(case.status == "differs" for case in some_papers)
     papers = dict.fromkeys(case.paper for case in some_papers)
-    lead = f"{len(some_papers)} cases from {len(papers)} papers: {len(some_papers) - differ} hold, {differ} differ as explained, 0 fail."
+    lead = f"{len(some_papers)} cases from {len(papers)} papers: {len(some_papers) - differ} agree, {differ} differ as explained, 0 fail."
     assert f'<p class="lead">{lead}' in text
     places = re.findall(r' id="([^"]+)"', text)
     assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)

@@ -206,7 +206,7 @@ def test_halving_the_step_changes_rocking_by_less_than_1_percent():
     ("step", "said"),
     [
         (0.01, "exceeds the stability limit of the pile"),
-        (1e-12, "is needlessly fine"),
+        (1e-12, "is unnecessarily small"),
         (-1.0, "must be positive"),
         (math.nan, "positive"),
     ],

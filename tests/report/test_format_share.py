@@ -31,7 +31,7 @@ def test_best_estimate_uses_same_share_text():
     time = {**found.outcome.time_in_mode_s, "rock": 1.0}
     changed = replace(found.outcome, outcome="moves", overturned=False, time_in_mode_s=time, max_rotation_ratio=0.004)
     with use_locale("en"):
-        assert "rocks slightly (peak tilt below 1 % of the overturning angle)" in verdict_text(replace(found, outcome=changed))
+        assert "rocks slightly (peak tilt less than 1 % of the overturning angle)" in verdict_text(replace(found, outcome=changed))
 
 
 @pytest.mark.parametrize(("lang", "said"), [("en", "NS: slides less than 0.01 mm in total."), ("ja", "NS：滑動 合計 0.01 mm 未満")])

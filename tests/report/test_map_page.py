@@ -72,6 +72,6 @@ def test_map_page_in_japanese_without_places_is_a_table():
     found, subject = stations(StationCemetery(AOYAMA))
     with use_locale("ja"):
         page = map_page(found, subject)
-    assert "観測点一覧（影響の大きい順）" in page and "Stations in order of severity" not in page and 'lang="ja"' in page
+    assert "観測点一覧（影響の大きい順）" in page and "Stations, largest response first" not in page and 'lang="ja"' in page
     nowhere = map_page(replace(found, answers=found.answers[-2:]), subject)
     assert 'id="map"' not in nowhere and "<table>" in nowhere

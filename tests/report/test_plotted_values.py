@@ -148,7 +148,7 @@ def test_azimuth_rose_labels_fall_side():
             drawn_rose = azimuths_figure([worst], [found])
         (rose,) = drawn_rose.axes
         assert drawn_rose.get_suptitle() == "all azimuths", "not that of the worst alone"
-        assert rose.get_title("left").endswith(f"governing: azimuth {azimuth}")
+        assert rose.get_title("left").endswith(f"worst: azimuth {azimuth}")
         fell = [np.degrees(bar.get_x() + bar.get_width() / 2.0) for bar in rose.patches if bar.get_height() == 1.0]
         assert fell == pytest.approx([azimuth])
 

@@ -50,21 +50,21 @@ def lantern(*names, each=0.05, azimuth=0.0):
     ("answer", "sentence"),
     [
         (lantern(), ""),
-        (lantern("hoju"), "hoju fell at 3.20 s to azimuth 214 (SW), onto the ground."),
-        (lantern(*LANTERN), "All 6 stones fell together at 3.20 s, approximately to azimuth 204 (SSW)."),
-        (lantern(*LANTERN[:5]), "All stones above kiso fell together at 3.20 s, approximately to azimuth 206 (SSW)."),
-        (lantern("kasa", "hoju"), "All stones above hibukuro fell together at 3.20 s, approximately to azimuth 212 (SSW)."),
-        (lantern("hoju", "hibukuro"), "hoju, hibukuro fell together at 3.20 s, approximately to azimuth 212 (SSW)."),
-        (lantern("hoju", "kasa", each=0.6), "hoju fell first, at 3.20 s to azimuth 214 (SW); then kasa, at 3.80 s to azimuth 210 (SSW)."),
+        (lantern("hoju"), "hoju falls to azimuth 214 (SW) at 3.20 s, onto the ground."),
+        (lantern(*LANTERN), "All 6 stones fall together at 3.20 s, approximately to azimuth 204 (SSW)."),
+        (lantern(*LANTERN[:5]), "All stones above kiso fall together at 3.20 s, approximately to azimuth 206 (SSW)."),
+        (lantern("kasa", "hoju"), "All stones above hibukuro fall together at 3.20 s, approximately to azimuth 212 (SSW)."),
+        (lantern("hoju", "hibukuro"), "hoju, hibukuro fall together at 3.20 s, approximately to azimuth 212 (SSW)."),
+        (lantern("hoju", "kasa", each=0.6), "hoju falls first, to azimuth 214 (SW) at 3.20 s; then kasa, to azimuth 210 (SSW) at 3.80 s."),
         (
             lantern(*LANTERN[:5], each=0.13),
-            "hoju fell first, at 3.20 s to azimuth 214 (SW); then kasa, hibukuro, chudai, sao, the last at 3.72 s.",
+            "hoju falls first, to azimuth 214 (SW) at 3.20 s; then kasa, hibukuro, chudai, sao, the last at 3.72 s.",
         ),
         (
             make_response("lantern", ("hoju", 3.2, 10.0), ("kasa", 3.3, 190.0)),
-            "hoju fell first, at 3.20 s to azimuth 10 (N); then kasa, at 3.30 s to azimuth 190 (S).",
+            "hoju falls first, to azimuth 10 (N) at 3.20 s; then kasa, to azimuth 190 (S) at 3.30 s.",
         ),
-        (lantern("hoju", "kasa", azimuth=None), "All stones above hibukuro fell together at 3.20 s, approximately to -x+y."),
+        (lantern("hoju", "kasa", azimuth=None), "All stones above hibukuro fall together at 3.20 s, approximately to -x+y."),
     ],
 )
 def test_falls_are_described_in_one_sentence(answer, sentence):
@@ -78,7 +78,7 @@ def test_falls_of_many_stones_are_counted(tmp_path):
     stone = '[[stone]]\nname = "s{}"\nwidth = 0.5\ndepth = 0.5\nheight = 0.1\n'
     file.write_text('kind = "pile"\n' + "".join(stone.format(rank) for rank in range(20)))
     answer = make_response(file, *((f"s{rank}", 4.0 - 0.1 * rank, 90.0) for rank in range(20)))
-    assert describe_falls(answer) == "s19 fell first, at 2.10 s to azimuth 90 (E); then 19 stones, the last at 4.00 s."
+    assert describe_falls(answer) == "s19 falls first, to azimuth 90 (E) at 2.10 s; then 19 stones, the last at 4.00 s."
 
 
 @pytest.mark.parametrize(

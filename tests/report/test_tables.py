@@ -58,7 +58,7 @@ def test_tiny_jump_is_not_written_as_zero():
     found = response("jump")
     near = replace(found, outcome=replace(found.outcome, final_displacement_m=-4e-6))
     with use_locale("en"):
-        assert "less than 0.01 mm to -NS" in jump_verdict(near)
+        assert "less than 0.1 cm to -NS" in jump_verdict(near)
 
 
 def test_fragility_table_starts_with_first_and_last_body():

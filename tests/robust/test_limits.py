@@ -80,7 +80,7 @@ ASKED = {
     "steps of a pile": (
         ["stack", "--step", "1e-12"],
         3,
-        "with rigid contact (swing time of the smallest stone 0.17 s): leave it out, or give",
+        "with rigid contact (rocking time scale of the smallest stone 0.17 s): omit it, or give",
     ),
     "settling time": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
     "padding of a filter": (["measure", "--highpass", "1e-6"], 3, "samples of padding"),

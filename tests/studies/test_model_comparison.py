@@ -129,4 +129,4 @@ def test_closed_form_states_frequency_and_edges():
         assert f"half-sine pulse of {frequency:.3g} Hz with {edges} edges (" in told
         assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in told
     rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)
-    assert "by the half-sine pulse of 1.2 Hz with worn edges" in rates_line("NS", rates)
+    assert "(half-sine pulse of 1.2 Hz with worn edges)" in rates_line("NS", rates)

@@ -69,7 +69,7 @@ def test_simulated_rate_rejects_unsupported_stones():
     """A dowel, an inset that leaves no base and a sine without a frequency are one sentence."""
     with pytest.raises(ParameterError, match="does not model dowels"):
         simulated_overturns(AOYAMA.with_dowels(), sine_motion(1.0, 1.0))
-    with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side leaves nothing"):
+    with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side is too large"):
         sao(2.0, inset=EdgeWear(share=0.5))
     with pytest.raises(ParameterError, match="the frequency of the sine must be positive"):
         sine_motion(1.0, 0.0)

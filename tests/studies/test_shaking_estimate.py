@@ -183,7 +183,7 @@ def test_jma_intensity_follows_pgv():
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: marked_survey(AOYAMA), BodyError, "no stone is marked fallen or standing"),
+        (lambda: marked_survey(AOYAMA), BodyError, "no stone is marked overturned or standing"),
         (lambda: counted_survey(AOYAMA, 5, 4), ParameterError, "0 <= fallen <= stones"),
         (lambda: counted_survey(AOYAMA, 0, 0), ParameterError, "at least one stone"),
         (lambda: parse_rate("35%"), ParameterError, "give both numbers"),

@@ -132,7 +132,7 @@ def test_survey_stations_rejects_unsupported_options():
     """A solver that follows no body, and versions where there are none, in one sentence."""
     with pytest.raises(ParameterError, match="'stack' is not available for stations"):
         StationBody(Block(0.24, 0.8), StackOptions(), solver="stack")
-    with pytest.raises(ParameterError, match="slide has no samples"):
+    with pytest.raises(ParameterError, match="slide does not support samples"):
         StationBody(0.2, SlideOptions(), runs=5, solver="slide")
 
 

@@ -24,7 +24,11 @@ class JumpOptions(SolverOptions):
     drop: float = field(
         default=0.0,
         metadata=option(
-            N_("Height of the floor above the landing ground, m or with a unit. [default: 0]"), "--drop", unit="m", interval="[0, inf)"
+            N_("Height of the floor above the landing ground, m or with a unit. [default: 0]"),
+            "--drop",
+            unit="m",
+            interval="[0, inf)",
+            section="Body",
         ),
     )
     spin: str = field(

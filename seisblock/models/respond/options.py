@@ -80,7 +80,7 @@ class RespondOptions(SolverOptions):
     tenon: float = field(
         default=0.0,
         metadata=option(
-            N_("Depth of tenons, which hold the feet until they leave the holes in flight, m or with a unit (2cm). [default: none]"),
+            N_("Length of the tenons, which hold the feet until they leave the mortises, m or with a unit (2cm). [default: none]"),
             "--tenon",
             unit="m",
             interval="[0, inf)",

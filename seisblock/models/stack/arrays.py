@@ -176,12 +176,12 @@ def _check_bases(body: Pile, contact: PileContact | None, points: int) -> None:
     for stone in body.stones:
         if stone.is_round and (contact is not None or points != CORNER_POINTS):
             raise ParameterError(
-                "the stone {name} is a cylinder, which requires rigid contact at the edges: leave out `contact` and `points`",
+                "the stone {name} is a cylinder, which requires rigid contact at the edges: omit `contact` and `points`",
                 name=stone.name,
             )
         if points != CORNER_POINTS and stone.inset != SHARP_EDGES:
             raise ParameterError(
-                "edge wear requires contact at the edges: leave out `points` ({points} along each side of a joint)",
+                "edge wear requires contact at the edges: omit `points` ({points} along each side of a joint)",
                 points=points,
             )
 

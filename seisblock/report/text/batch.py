@@ -16,11 +16,11 @@ MAX_REASONS = 5
 """Most reasons listed for rows without a result."""
 
 _EVENT_COUNT_TEXTS: dict[str, str] = {
-    "overturned": N_("overturned in {happened} of {answers} runs"),
-    "slips": N_("slid in {happened} of {answers} runs"),
-    "outcome": N_("jumped in {happened} of {answers} runs"),
-    "uplifts": N_("uplift in {happened} of {answers} runs"),
-    "overturned_any": N_("at least one stone fell in {happened} of {answers} runs"),
+    "overturned": N_("overturned in {happened} of {answers} cases"),
+    "slips": N_("slid in {happened} of {answers} cases"),
+    "outcome": N_("jumped in {happened} of {answers} cases"),
+    "uplifts": N_("uplift in {happened} of {answers} cases"),
+    "overturned_any": N_("at least one stone fell in {happened} of {answers} cases"),
 }
 _EVENT_HEADINGS: dict[str, str] = {
     "overturned": N_("overturned"),
@@ -51,7 +51,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     if bodies and tally.answers:
         header = [
             gettext("body"),
-            gettext("runs"),
+            gettext("total"),
             gettext(_EVENT_HEADINGS.get(event, N_("event"))),
             gettext("share"),
             gettext("no result"),

@@ -115,9 +115,9 @@ def make_plan(
     model = get_solver(solver)
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
-        raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
+        raise ParameterError("the number of samples must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and capabilities(solver).probability is None:
-        raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=solver)
+        raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
@@ -196,7 +196,7 @@ def named_bodies(bodies: Bodies, model: Solver) -> list[BodySpec | SolverBody]:
             result.append(SolverBody(name, body, None))
         else:
             raise KindError(
-                "{solver} takes {kinds}; found {found}",
+                "{solver} requires {kinds}; found {found}",
                 solver=model.name,
                 kinds=[kind.__name__ for kind in model.bodies],
                 found=checks.type_name(body),

@@ -28,11 +28,11 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
     if not is_all_azimuths(components):
         return
     if len(components) > 1:
-        raise ParameterError("{name} covers all directions; give no other component", name=ALL_AZIMUTHS)
+        raise ParameterError("{name} covers all azimuths: give no other component", name=ALL_AZIMUTHS)
     ability = capabilities(solver)
     if ability.worst_azimuth is None:
         raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=directional_solvers())
     defaults = {field.name: field.default for field in fields(get_solver(solver).options)}
     unknown = [f"`{name}`" for name in ability.single_direction_options if options.get(name, defaults[name]) != defaults[name]]
     if unknown:
-        raise ParameterError("{solver} in all azimuths has no option {names}; remove it", solver=solver, names=unknown)
+        raise ParameterError("{solver} in all azimuths has no option {names}: omit it", solver=solver, names=unknown)

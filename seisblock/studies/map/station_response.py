@@ -143,7 +143,7 @@ class StationBody:
                 "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=station_solvers()
             )
         if self.runs and capabilities(self.solver).probability is None:
-            raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=self.solver)
+            raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=self.solver)
 
     @property
     def name(self) -> str:

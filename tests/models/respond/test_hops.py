@@ -80,7 +80,7 @@ def test_restitution_near_one_ends_with_unresolved_status():
     assert response.outcome.outcome == "hops without end"
     assert not response.outcome.settled
     assert any("still bouncing" in text for text in response.warnings)
-    assert "no result: run stopped at" in describe(response, gal=True)
+    assert "no result: analysis stopped at" in describe(response, gal=True)
 
 
 def test_respond_many_excludes_unresolved_runs():

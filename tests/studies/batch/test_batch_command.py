@@ -46,12 +46,12 @@ def test_batch_refuses_to_overwrite_files(folder):
     [
         ("--bodies none.csv", "none.csv"),
         ("--bodies wrong.csv", "unknown column 'colour'"),
-        ("--solver slide --runs 5", "has no samples"),
+        ("--solver slide --runs 5", "does not support samples"),
         ("--cluster tcp://127.0.0.1:9", "no Dask scheduler responds"),
         ("--cluster local:none", "from 1 to 512"),
         ("--window 0:5 --window 6:7", "one --window"),
-        ("--mu 0.3", "rock has no option --mu; remove it"),
-        ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical; remove it"),
+        ("--mu 0.3", "rock has no option --mu: omit it"),
+        ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical: omit it"),
     ],
 )
 def test_batch_reports_bad_input_in_one_sentence(folder, change, said, monkeypatch):
@@ -93,7 +93,7 @@ def test_batch_prints_counts_per_body(folder):
     assert (found["records_count"], found["unread_count"]) == (5, 1)
     assert [each["answers_count"] for each in found["results"]] == [8, 8, 8]
     first = run("batch records --bodies bodies.csv --solver slide --out u.csv --quiet").stdout.splitlines()[0]
-    assert first.startswith("slid in ") and "24 runs" in first
+    assert first.startswith("slid in ") and "24 cases" in first
 
 
 def test_batch_parquet_equals_csv(folder):

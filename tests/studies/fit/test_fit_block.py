@@ -82,7 +82,7 @@ def test_fit_weight_equals_repeated_outcomes(experiment):
 
 def test_fit_with_all_or_no_falls_warns_of_prior():
     """One side is bounded, and what was thought before decides the other: it is said."""
-    for happened, strength, said in ((False, 1.0, "no fall among"), (True, 40.0, "only falls among")):
+    for happened, strength, said in ((False, 1.0, "no overturning among"), (True, 40.0, "only overturning among")):
         seen = [Observation(pulse(strength, f), happened) for f in (0.5, 0.8, 1.2)]
         found = fit_block(seen, free=["alpha"], **KNOWN)
         assert any(said in text for text in found.warnings)
@@ -106,7 +106,7 @@ def test_fit_to_movement_determines_slenderness_only():
     found = fit_block(seen, kind="moved", free=["alpha", "p"], scatter=0.02, lapse=0.02, runs=4)
     assert found["alpha"].median == pytest.approx(0.25, rel=0.05)
     assert found["p"].narrowed > 0.8 and not found["p"].identified
-    assert any("hardly constrained" in text and "p" in text for text in found.warnings)
+    assert any("poorly constrained" in text and "p" in text for text in found.warnings)
     assert any("determine the slenderness only" in text for text in found.warnings)
 
 
