@@ -84,7 +84,7 @@ class RespondOptions(SolverOptions):
             "--tenon",
             unit="m",
             interval="[0, inf)",
-            label=N_("`tenon` (depth)"),
+            label=N_("`tenon` (length)"),
             section="Body",
         ),
     )

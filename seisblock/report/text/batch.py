@@ -42,7 +42,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     """
     event = tally.solver.event
     total = gettext(
-        _EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} runs")), happened=tally.event_count, answers=tally.answers
+        _EVENT_COUNT_TEXTS.get(event, N_("event in {happened} of {answers} cases")), happened=tally.event_count, answers=tally.answers
     )
     yield styled_line(
         gettext("{whole} (bodies: {bodies}, records: {records})", whole=total, bodies=len(tally.bodies), records=tally.records), "bold"
