@@ -27,7 +27,7 @@ _log_once = functools.cache(logger.log)
 KEEP_S = 30 * 86400.0
 """Time since the last use, s, after which the cache folder of another version is removed, unless it is the newest one."""
 
-_CONSTANT_IMPORT = re.compile(r"^from (seisblock[\w.]*) import (?:\([^)]*|.*)\b[A-Z][A-Z\d_]*\b", re.MULTILINE)
+_CONSTANT = re.compile(r"\b[A-Z][A-Z\d_]*\b")
 _config_lock = threading.RLock()
 _read_only = False
 
@@ -36,14 +36,18 @@ def kernel_sources() -> dict[Path, str]:
     """Return the files that define kernels, and those from which these import constants, with their texts."""
     package = Path(__file__).parents[1]
     paths = [path for folder in ("_jit", "dynamics", "measures", "models", "records") for path in (package / folder).rglob("*.py")]
-    pending = [path for path in paths if path.parent.name == "_jit" or "from seisblock._jit import" in path.read_text("utf-8")]
-    sources: dict[Path, str] = {}
+    texts = {path: path.read_text("utf-8") for path in paths}
+    sources = {path: text for path, text in texts.items() if path.parent.name == "_jit" or "\nfrom seisblock._jit import" in text}
+    pending = list(sources.values())
     while pending:
-        path = pending.pop()
-        if path not in sources and path.is_file():
-            sources[path] = path.read_text("utf-8")
-            bases = [package.parent.joinpath(*name.split(".")) for name in _CONSTANT_IMPORT.findall(sources[path])]
-            pending += [file for base in bases for file in (base.with_suffix(".py"), base / "__init__.py")]
+        for statement in pending.pop().split("\nfrom seisblock.")[1:]:
+            module, _, names = statement.partition(" import ")
+            if _CONSTANT.search(names.split(")" if names.startswith("(") else "\n", 1)[0]):
+                base = package.joinpath(*module.split("."))
+                path = base / "__init__.py" if base.is_dir() else base.with_suffix(".py")
+                if path not in sources:
+                    sources[path] = texts.get(path) or path.read_text("utf-8")
+                    pending.append(sources[path])
     return sources
 
 
