@@ -48,8 +48,15 @@ def deflated(size, level=9):
 
 @pytest.fixture
 def small(monkeypatch):
-    """Return a function that sets limits through the environment."""
-    return lambda **limits: [monkeypatch.setenv(f"SEISBLOCK_READ_{name.upper()}", str(value)) for name, value in limits.items()]
+    """Return a function that sets the memory limit in the environment, and limits of counts in the module of the readers."""
+
+    def limit(mib=None, **counts):
+        if mib is not None:
+            monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", str(mib))
+        for name, value in counts.items():
+            monkeypatch.setattr(f"seisblock.readers.limits.{name}", value)
+
+    return limit
 
 
 def refused(path, says):
@@ -73,7 +80,7 @@ def test_declared_sizes_come_first(tmp_path, small):
     small(mib=2)
     path = tmp_path / "large.zip"
     path.write_bytes(deflated(5 * 2**20))
-    refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_READ_MIB to read more")
+    refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_MEMORY_MIB to read more")
     (tmp_path / "plain.csv").write_bytes(b"1\n" * 2**21)
     refused(tmp_path / "plain.csv", "4 MiB, more than the limit of 2")
 
@@ -84,7 +91,7 @@ def test_a_size_that_is_a_lie_is_noticed(packer, tmp_path, small):
     small(mib=1)
     path = tmp_path / "bomb.csv.gz"
     path.write_bytes(packer.compress(b"0" * 3 * 2**20))
-    refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_READ_MIB")
+    refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_MEMORY_MIB")
 
 
 def test_one_budget_for_all_that_is_nested(tmp_path, small):
@@ -98,7 +105,7 @@ def test_one_budget_for_all_that_is_nested(tmp_path, small):
 
 def test_nesting_and_members_have_limits(tmp_path, small):
     """An archive in an archive in an archive, and more files than anyone packs."""
-    small(nesting=3, members=50)
+    small(MAX_NESTING=3, MAX_MEMBERS=50)
     data = tar({"a.NS": knet().encode()})
     for depth in range(5):
         path = tmp_path / f"{depth}.tar"
@@ -106,26 +113,26 @@ def test_nesting_and_members_have_limits(tmp_path, small):
         if depth < 3:
             assert read(path).samples == 200
         else:
-            refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_READ_NESTING")
+            refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_LIMIT_FACTOR")
         data = tar({"inner.tar": data})
     path = tmp_path / "crowd.tar"
     path.write_bytes(tar({f"{i}.txt": b"x" for i in range(60)}))
-    refused(path, "51 files, more than the limit of 50; set SEISBLOCK_READ_MEMBERS")
+    refused(path, "51 files, more than the limit of 50; set SEISBLOCK_LIMIT_FACTOR")
 
 
 def test_samples_have_a_limit(tmp_path, small):
     """More samples than are wanted are refused by their number."""
-    small(samples=5)
+    small(mib=1, _SAMPLE_BYTES=2**20 // 5)
     path = tmp_path / "a.csv"
     path.write_bytes((JMA_HEADER + JMA_BODY).encode("cp932"))
-    refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_READ_SAMPLES")
+    refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_MEMORY_MIB")
 
 
 @pytest.mark.parametrize("text", ["-1", "0", "lots", "1.5", "٣"])
 def test_a_limit_is_a_whole_number(monkeypatch, text):
     """Anything else is named."""
-    monkeypatch.setenv("SEISBLOCK_READ_MIB", text)
-    with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive integer, found"):
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", text)
+    with pytest.raises(ParameterError, match="SEISBLOCK_MEMORY_MIB must be a positive integer, found"):
         read("synthetic_jma.csv")
 
 
