@@ -7,12 +7,12 @@ are optimised in the kernel called from Python (``respond``: 11 s instead of 20 
 from __future__ import annotations
 
 import contextlib
-import threading
 from collections.abc import Iterator
 from typing import Any
 
 from numba import _dynfunc
 from numba.core import codegen, compiler, types
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
 
@@ -60,28 +60,22 @@ class CalleeCompiler(compiler.CompilerBase):  # type: ignore[misc]
         return [manager]
 
 
-_infer, _thread = types.Function.get_call_type, threading.local()
-
-
-def _infer_once(self: Any, context: Any, *arguments: Any, **options: Any) -> Any:
-    """Return the signature of a call; outside :func:`memoize_typing`, or given unknown arguments, infer it as numba does."""
-    memory = getattr(_thread, "signatures", None)
-    if memory is None or options or len(arguments) != 2:
-        return _infer(self, context, *arguments, **options)
-    key = id(self), tuple(arguments[0]), tuple(arguments[1].items())
-    if key not in memory:
-        memory[key] = _infer(self, context, *arguments), self  # the id stays unique only while the object is alive
-    return memory[key][0]
-
-
-types.Function.get_call_type = _infer_once  # type: ignore[method-assign]
-
-
 @contextlib.contextmanager
 def memoize_typing() -> Iterator[None]:
-    """Remember inferred signatures inside the block; a nested block has its own memory."""
-    previous, _thread.signatures = getattr(_thread, "signatures", None), {}
-    try:
-        yield
-    finally:
-        _thread.signatures = previous
+    """Infer the types of equal calls once inside the block; other threads do not compile meanwhile."""
+    infer, memory = types.Function.get_call_type, {}
+
+    def infer_once(self: Any, context: Any, *arguments: Any, **options: Any) -> Any:
+        if options or len(arguments) != 2:  # arguments of an unknown version
+            return infer(self, context, *arguments, **options)
+        key = id(self), tuple(arguments[0]), tuple(arguments[1].items())
+        if key not in memory:
+            memory[key] = infer(self, context, *arguments), self  # the id stays unique only while the object is alive
+        return memory[key][0]
+
+    with global_compiler_lock:
+        types.Function.get_call_type = infer_once  # type: ignore[method-assign]
+        try:
+            yield
+        finally:
+            types.Function.get_call_type = infer  # type: ignore[method-assign]
