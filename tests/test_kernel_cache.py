@@ -135,7 +135,9 @@ DAMAGE = {
     "half": lambda data: data[: len(data) // 2],
     "last byte": lambda data: data[:-1],
     "inside": lambda data: data[: len(data) // 2] + bytes(300) + data[len(data) // 2 + 300 :],
+    "one bit": lambda data: data[: len(data) // 2] + bytes([data[len(data) // 2] ^ 1]) + data[len(data) // 2 + 1 :],
 }
+"""Damage of files; one bit of the machine code is noticed by the digest only."""
 
 
 @pytest.mark.parametrize(
@@ -144,7 +146,8 @@ DAMAGE = {
         pytest.param("empty", ONE, marks=pytest.mark.slow),
         pytest.param("half", ONE, marks=pytest.mark.slow),
         pytest.param("last byte", ONE, marks=pytest.mark.slow),
-        ("inside", SCRIPT),
+        pytest.param("inside", SCRIPT, marks=pytest.mark.slow),
+        ("one bit", SCRIPT),
     ],
     ids=DAMAGE,
 )
