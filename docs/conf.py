@@ -1,4 +1,4 @@
-"""How the pages become a site: ``python -m sphinx -W docs site``; nothing in it asks for a network."""
+"""Configuration of the site: ``python -m sphinx -W docs site``; built and read without network access."""
 
 import sys
 from pathlib import Path
@@ -9,7 +9,7 @@ from sphinx.ext import autosummary  # noqa: E402
 
 import seisblock  # noqa: E402
 
-autosummary.WELL_KNOWN_ABBREVIATIONS += ("eq.", "eqs.", "fig.", "figs.", "sec.")  # a sentence goes on after them
+autosummary.WELL_KNOWN_ABBREVIATIONS += ("eq.", "eqs.", "fig.", "figs.", "sec.")  # no end of a sentence
 
 project = "seisblock"
 author = "seisblock developers"
@@ -23,7 +23,7 @@ myst_enable_extensions = ["dollarmath", "deflist", "attrs_inline"]
 myst_heading_anchors = 3
 smartquotes = False  # two hyphens are an option
 html_math_renderer = "mathml"
-suppress_warnings = ["ref.citation"]  # a paper that is in the literature and on no page
+suppress_warnings = ["ref.citation"]  # papers that no page cites
 
 autodoc_default_options = {"member-order": "bysource"}
 autodoc_typehints = "none"

@@ -19,7 +19,7 @@ from seisblock import _jit
 from seisblock._jit import cache
 from tests.kernels import KERNEL_PACKAGES, all_kernels
 from tests.lengths import all_but_slow
-from tests.trees import tree_of
+from tests.trees import syntax_tree
 
 PACKAGE = Path(seisblock.__file__).parent
 
@@ -286,7 +286,7 @@ def test_cache_key_covers_every_file_from_which_a_kernel_takes_a_name():
     for kernel in (kernel for name in KERNEL_PACKAGES for kernel in all_kernels(name)):
         path = Path(kernel._function.__code__.co_filename)
         if path not in origins:
-            nodes = [node for node in tree_of(path).body if isinstance(node, ast.ImportFrom) and node.module.startswith("seisblock")]
+            nodes = [node for node in syntax_tree(path).body if isinstance(node, ast.ImportFrom) and node.module.startswith("seisblock")]
             origins[path] = {alias.asname or alias.name: node.module for node in nodes for alias in node.names}
         assert path in sources
         for name in kernel._function.__code__.co_names:

@@ -28,26 +28,26 @@ KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])"
 
 
 def plain(text: str) -> str:
-    """Return a text of the command line as Markdown that shows it as it is written."""
+    """Return a text of the command line, escaped for Markdown."""
     return re.sub(r"([\\`*_<>|\[\]{}$~#])", r"\\\1", text)
 
 
 def command(name: str, context: click.Context) -> Iterator[str]:
-    """Yield the reference of a command, line by line: what it does, its options in their sections, examples, papers."""
-    found = main.get_command(context, name)
-    assert found is not None
-    inner = click.Context(found, info_name=f"seisblock {name}", parent=None)
+    """Yield the reference of a command, line by line: description, options by section, examples, papers."""
+    cmd = main.get_command(context, name)
+    assert cmd is not None
+    inner = click.Context(cmd, info_name=f"seisblock {name}", parent=None)
     yield f"## {name}\n"
-    yield f"`{' '.join(['seisblock', name, *found.collect_usage_pieces(inner)])}`\n"
-    yield from (f"{plain(part)}\n" for part in paragraphs(found.help or ""))
+    yield f"`{' '.join(['seisblock', name, *cmd.collect_usage_pieces(inner)])}`\n"
+    yield from (f"{plain(part)}\n" for part in paragraphs(cmd.help or ""))
     groups: dict[str, list[str]] = {section: [] for section in SECTIONS}
-    for parameter, (terms, text) in help_rows(found.get_params(inner), inner):
+    for parameter, (terms, text) in help_rows(cmd.get_params(inner), inner):
         groups[f"{getattr(parameter, 'section', 'Other')} options"] += [f"`{terms}`", f": {plain(text)}\n"]
     for section, rows in groups.items():
         if rows:
             yield f"**{section}**\n"
             yield from rows
-    examples = getattr(found, "examples", ())
+    examples = getattr(cmd, "examples", ())
     if examples:
         yield "\n".join(("```sh", *examples, "```\n"))
     if name in DOCUMENTS:
@@ -63,7 +63,7 @@ def commands(_: str) -> str:
 
 
 def kind_of(schema: dict[str, Any]) -> str:
-    """Return what a value may be, in words; types of their own are links."""
+    """Return the type of a value in words; named types are links."""
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1]
         return f"[{name}](#{name.lower()})"
@@ -80,7 +80,7 @@ def kind_of(schema: dict[str, Any]) -> str:
 
 
 def table(name: str, schema: dict[str, Any]) -> str:
-    """Return the keys of one type: what each holds, its unit, what it means."""
+    """Return the keys of one type: contents, unit, meaning."""
     told = plain(schema.get("description", "").strip().replace("\n", " "))
     rows = [
         f"| `{key}` | {kind_of(value)} | {plain(value.get('unit', ''))} | {plain(' '.join(value.get('description', '').split()))} |"
@@ -91,7 +91,7 @@ def table(name: str, schema: dict[str, Any]) -> str:
 
 
 def documents(_: str) -> str:
-    """Return the keys of every document of ``--json``; types that several share stand once, at the end."""
+    """Return the keys of every document of ``--json``; shared types come once, at the end."""
     types = {kind: json_schema(kind) for kind in DOCUMENTS}
     owners: dict[str, list[str]] = {}
     for kind, schema in types.items():
@@ -106,7 +106,7 @@ def documents(_: str) -> str:
 
 
 def gallery(_: str) -> str:
-    """Return every figure that a line of a page draws, with that line."""
+    """Return every figure of the pages, with the command that draws it."""
     parts = []
     for page in sorted(DOCS.rglob("*.md"), key=lambda path: ("ja" in path.parts, path)):
         text, where = page.read_text(encoding="utf-8"), page.relative_to(DOCS)
@@ -191,7 +191,7 @@ def cite(
 
 
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Enter the replacements and the role."""
+    """Register the replacements and the role."""
     app.add_role("cite", cite)
     app.connect("source-read", fill)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -9,7 +9,7 @@ INK, SOFT, ACCENT, PAPER = "#222", "#6b6b6b", "#c0392b", "#ffffff"
 LAYERS = (
     ("cli", "options, one library call, one presentation"),
     ("report", "JSON documents, text, figures, animation, HTML pages"),
-    ("validation", "evidence: one module per paper, exporting CASES"),
+    ("validation", "evidence: cases by paper, exporting CASES"),
     ("studies", "many runs: respond, rocking, survey, fragility, hazard, map, batch, fit"),
     ("models | criteria", "one folder per model | closed forms"),
     ("bodies | measures | readers", "body descriptions | one number per record | file formats"),
@@ -20,11 +20,11 @@ LAYERS = (
 )
 
 
-def text(x, y, words, *, size=15, weight="normal", fill=INK, anchor="start", style=""):
+def text(x, y, content, *, size=15, weight="normal", fill=INK, anchor="start", style=""):
     """Return one line of text."""
     return (
         f'<text x="{x:.6g}" y="{y:.6g}" font-size="{size}" font-weight="{weight}" fill="{fill}" text-anchor="{anchor}" {style}>'
-        + words.replace("&", "&amp;").replace("<", "&lt;")
+        + content.replace("&", "&amp;").replace("<", "&lt;")
         + "</text>"
     )
 
@@ -49,29 +49,29 @@ def page(width, height, parts, title):
 def architecture():
     """Return the layers, top first, and the path of the data."""
     parts = []
-    for k, (name, what) in enumerate(LAYERS):
+    for k, (name, contents) in enumerate(LAYERS):
         y = 20 + 58 * k
         shade = "#f3efe8" if k % 2 else "#faf7f2"
         parts.append(f'<rect x="20" y="{y}" width="640" height="50" rx="4" fill="{shade}" stroke="#bdb4a4"/>')
         parts.append(text(36, y + 21, name, weight="bold"))
-        parts.append(text(36, y + 40, what, size=12.5, fill=SOFT))
+        parts.append(text(36, y + 40, contents, size=12.5, fill=SOFT))
     bottom = 20 + 58 * len(LAYERS)
     parts.append(f'<line x1="690" y1="40" x2="690" y2="{bottom - 24}" stroke="{INK}" stroke-width="1.5" marker-end="url(#tip)"/>')
     parts.append(text(704, 290, "imports", size=13, style='transform="rotate(90 704 290)"', anchor="middle"))
     parts.append(text(20, bottom + 24, "data:", size=13, weight="bold"))
-    way = ("file", "readers", "Record", "Motion + body", "models", "Response", "studies", "report", "cli")
+    steps = ("file", "readers", "Record", "Motion + body", "models", "Response", "studies", "report", "cli")
     x = 66
-    for k, stop in enumerate(way):
-        wide = 7.4 * len(stop)
-        parts.append(text(x, bottom + 24, stop, size=13))
+    for k, step in enumerate(steps):
+        wide = 7.4 * len(step)
+        parts.append(text(x, bottom + 24, step, size=13))
         x += wide + 4
-        if k < len(way) - 1:
+        if k < len(steps) - 1:
             parts.append(f'<line x1="{x}" y1="{bottom + 20}" x2="{x + 17}" y2="{bottom + 20}" stroke="{ACCENT}" marker-end="url(#red)"/>')
             x += 23
     return page(730, bottom + 44, parts, "Layers of seisblock")
 
 
-def leaning(x, y, width, height, degrees):
+def tilted(x, y, width, height, degrees):
     """Return the corners of a rectangle turned clockwise about its lower right corner at (x, y)."""
     angle = math.radians(degrees)
     c, s = math.cos(angle), math.sin(angle)
@@ -89,11 +89,11 @@ def arrow(x1, y1, x2, y2, *, colour=INK, tip="tip", both=False):
 
 
 def conventions():
-    """Return a leaning block with axes, and the compass with its azimuth."""
+    """Return a tilted block with axes, and the compass with an azimuth."""
     ground, corner = 330, 250
-    body = leaning(corner, ground, 110, 220, 14)
+    body = tilted(corner, ground, 110, 220, 14)
     outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in body)
-    upright = leaning(corner, ground, 110, 220, 0)
+    upright = tilted(corner, ground, 110, 220, 0)
     ghost = " ".join(f"{x:.1f},{y:.1f}" for x, y in upright)
     centre = sum(x for x, _ in body) / 4, sum(y for _, y in body) / 4
     parts = [
@@ -111,8 +111,8 @@ def conventions():
         f'<path d="M{corner - 55} {ground - 236} A240 240 0 0 1 {corner + 48} {ground - 228}" fill="none" stroke="{INK}" '
         'stroke-width="1.5" marker-end="url(#tip)"/>',
         text(corner + 62, ground - 222, "rotation +"),
-        text(corner + 62, ground - 203, "leans to +x", size=13, fill=SOFT),
-        text(corner + 8, ground + 18, "right corner, its pivot", size=12.5, fill=SOFT),
+        text(corner + 62, ground - 203, "tilt to +x", size=13, fill=SOFT),
+        text(corner + 8, ground + 18, "pivot: right corner", size=12.5, fill=SOFT),
         arrow(140, ground + 14, 250, ground + 14, both=True),
         text(195, ground + 30, "width B", size=12.5, anchor="middle"),
         '<circle cx="640" cy="190" r="95" fill="none" stroke="#bbb"/>',

@@ -30,6 +30,7 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
     `inline` asks LLVM to inline the kernel into its callers: eight calls with named tuples of arrays cost 0.3 us. `allocates` permits
     ``np.zeros`` and the like; without it slices need no reference counting, which costs a short kernel 30 to 60 ns per call.
     """
+    # error_model numpy: division by zero gives inf or NaN, without a test at each division
     options = {"nogil": True, "error_model": "numpy", "forceinline": inline} | ({} if allocates else {"_nrt": False})
     return lambda function: LazyKernel(function, signature, options) if ENABLED else function  # type: ignore[return-value]
 

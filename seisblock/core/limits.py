@@ -66,9 +66,9 @@ def check_limit(items: str, count: int, limit: int, *, source: str = "", error: 
 
     Examples
     --------
-    >>> check_limit("versions", 10**9, MAX_RUNS)
+    >>> check_limit("samples", 10**9, MAX_RUNS)
     Traceback (most recent call last):
-    seisblock.core.errors.ParameterError: 1000000000 versions exceed the limit of 100000: reduce the number or raise SEISBLOCK_LIMIT_FACTOR
+    seisblock.core.errors.ParameterError: 1000000000 samples exceed the limit of 100000: reduce the number or raise SEISBLOCK_LIMIT_FACTOR
     """
     _check(items, count, count_limit(limit), FACTOR_VARIABLE, source, error)
 

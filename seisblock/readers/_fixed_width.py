@@ -94,6 +94,7 @@ def _parse_field(name: str, line: int, cell: str) -> float:
         value = float(cell)
     except ValueError:
         value = float("nan")
+    # float() accepts underscores between digits
     if not isfinite(value) or "_" in cell:
         raise_line_error(name, line, lazy_gettext("expected a number, found {cell!r}", cell=cell.strip()))
     return value
@@ -107,6 +108,7 @@ def parse_sample_count(name: str, line: int, text: str) -> int:
     RecordFormatError
         If the text is not a whole number, or below 2.
     """
+    # 20 digits suffice to exceed MAX_COUNT; int() of a longer text is slow, and refused beyond 4300 digits
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
         raise_line_error(name, line, lazy_gettext("expected the number of samples, found {text!r}", text=text.strip()[:40]))
     return int(text)

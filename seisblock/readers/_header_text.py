@@ -28,6 +28,7 @@ def parse_coordinates(text: str) -> tuple[float | None, float | None]:
     """
     degrees_by_letter: dict[str, float] = {}
     for degrees, minutes, seconds, letter in _SEXAGESIMAL.findall(text):
+        # 1e-5 degrees are about a metre
         degrees_by_letter.setdefault(letter.upper(), round(float(degrees) + float(minutes) / 60.0 + float(seconds) / 3600.0, 5))
     for degrees, letter in _DECIMAL.findall(_SEXAGESIMAL.sub("", text)):
         degrees_by_letter.setdefault(letter.upper(), float(degrees))

@@ -146,6 +146,7 @@ def _iter_compressed(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterat
 
 
 def _iter_tar(name: str, stream: Readable, budget: ReadBudget) -> Iterator[RawFile]:
+    # stream mode reads the members in order; seeking in compressed data would unpack it again
     with tarfile.open(fileobj=stream, mode="r|", tarinfo=_StrictTarInfo) as archive:  # type: ignore[call-overload]
         for entry in archive:
             budget.count_member(name)

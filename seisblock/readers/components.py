@@ -82,6 +82,7 @@ def _recording_key(blob: RawFile) -> tuple[object, ...]:
     text = head.decode("latin-1")
     if is_smc(head):
         lines = text.splitlines()
+        # title, event, station, and start among the integers
         return ("SMC", lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[11].split()[1:7])
     if is_esm(head):
         keys = ("STATION_CODE", "LOCATION", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "UNITS", "DATA_TYPE")
@@ -129,6 +130,7 @@ def _load_at2_set(blob: RawFile, path: Path, budget: ReadBudget) -> list[RawFile
 def _at2_key(blob: RawFile) -> tuple[bytes, bytes | None]:
     """Return the header entries common to an AT2 set: title without direction, and DT."""
     lines = blob.content[:2000].splitlines()
+    # .0200 and 0.02 are the same interval
     interval = re.search(rb"DT\s*=\s*0*([\d.]+)", blob.content[:2000])
     return (lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval[1].rstrip(b"0") if interval else None)
 

@@ -113,6 +113,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     if title is None:
         raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
     _check_quantity(name, title[1].decode("latin-1"))
+    # three digits at most: a damaged number must not become a huge one
     line_index = begin + int(title[2][:3])
     integers, line_index = _parse_values(name, lines, line_index, "Integer")
     reals, line_index = _parse_values(name, lines, line_index, "Real")
@@ -181,6 +182,7 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
         unit_code = block.integers[UNIT]
         raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=block.data_line + 1, text=unit_code)
     unit, factor = _UNITS[block.integers[UNIT]]
+    # the real header states the interval in ms
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
         raise_line_error(

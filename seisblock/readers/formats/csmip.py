@@ -69,6 +69,7 @@ class _Section(NamedTuple):
 def is_csmip(head: bytes) -> bool:
     """Return whether bytes begin with the title of a CSMIP or USC file."""
     match = _TITLE.match(head)
+    # GeoNet titles begin alike
     if match is None or b"GNS SCIENCE" in head[:200].upper():
         return False
     return match[1][:3].upper() != b"COR" or b"UNCORRECTED ACCELEROGRAM DATA" in head[:400].upper()
@@ -135,6 +136,7 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     if match is None or interval is None or not step or unit is None:
         message = lazy_gettext("expected a line with count, interval and unit of the samples, found {text!r}", text=text.strip()[:80])
         raise_line_error(name, line_index + 1, message)
+    # stated as an interval in seconds or as a rate
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
     return _Section(
@@ -184,6 +186,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     event, origin, trigger, station, name, hypocentre = (
         text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
     )
+    # entries of one header line are separated by three blanks or more
     words = re.split(r"\s{3,}", name.strip())[0]
     metadata: dict[str, object] = {"station_name": words} if words else {}
     if event.strip() and not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE):

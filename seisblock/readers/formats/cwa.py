@@ -159,6 +159,7 @@ def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> date
 
 
 def _parse_time(entry: _Entry) -> datetime | None:
+    # date and time are separated by a hyphen, or by a T as in ISO 8601
     day, _, time = re.sub(r"(?<=\d)[T-](?=\d\d?:)", " ", entry.value).partition(" ")
     local_time, _ = parse_datetime(f"{day.replace('-', '/')} {time}")
     return local_time - UTC_OFFSETS[TAIWAN_CLOCK] if local_time is not None and _is_local(entry) else local_time
@@ -197,6 +198,7 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         row, parts = samples[direction.code], [part.strip() for part in entry.value.split("~")]
         stated_extremes = sorted(value for part in parts if (value := parse_number(part)) is not None)
         sample_extremes = [float(row.min()), float(row.max())]
+        # header and table are rounded separately
         slack = 2.0 * max(half_last_digit(part) for part in parts) * (1.0 + 1e-6)
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue

@@ -144,6 +144,7 @@ def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
     try:
         year, month, day, hour, minute = (int(part) for part in parts[:5])
         second = float(parts[5])
+        # files of 1995 have years of two digits
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):

@@ -134,6 +134,7 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
                 wanted=expected_label,
                 found=actual,
             )
+        # the labels take 18 columns
         values.append(line[18:].strip())
     return values
 
@@ -261,6 +262,7 @@ def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> 
         "station_height_m": HEIGHT,
     }
     for label, index in labels.items():
+        # a height of -9999 is unknown
         value = parse_number(values[index])
         if value is not None and not (index == HEIGHT and value == -9999):
             metadata[label] = value

@@ -160,6 +160,7 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
     time = parse_jst(text)
     if time is None:
         raise_line_error(name, line_number, lazy_gettext("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
+    # the first row need not be at relative time zero
     return time - timedelta(seconds=relative_time)
 
 

@@ -118,6 +118,7 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
     try:
         with warnings.catch_warnings(record=True) as warning_list:
             warnings.simplefilter("always", UserWarning)
+            # merge joins contiguous pieces; gaps become masked samples, which are refused later
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # obspy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
@@ -156,6 +157,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
     direction = parse_direction(stats.channel)
     if direction is None or direction.is_bare_number:
         direction = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
+    # 1970-01-01 is obspy's default for files without a time
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
     return Record(
         (Component(direction.code, to_si_in_place(values, unit, direction.sign), direction.azimuth_deg),),

@@ -58,6 +58,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     """
     lines = read_lines(blob)
     layout = find_layout(blob.name, lines)
+    # comments become empty lines, so that line numbers in messages stay those of the file
     body = map_lines(lines[layout.body :], lambda line: line if is_data_line(line) else "")
     if layout.decimal_comma:
         body = map_lines(body, lambda line: line.replace(",", "."))
@@ -188,6 +189,7 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
     """Return the columns of a table without names: an evenly increasing first column is time, others acceleration."""
     first_column = rows[0]
     steps = np.diff(first_column)
+    # only a guess of the meaning: the interval itself is checked with its own tolerance
     has_time = len(rows) > 1 and first_column.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
     names = ["time" if has_time and i == 0 else f"C{i + 1}" for i in range(len(rows))]
     # a single column is named ACC, several C1, C2, ...

@@ -85,6 +85,7 @@ def read_smc(blob: RawFile) -> Record:
     _check_title(name, lines[0])
     integer_values = parse_fixed_width(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
     integers = [int(value) for value in integer_values]
+    # the first integer is the one that marks missing integers
     missing_value = integers[0]
     reals = parse_fixed_width(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
@@ -102,6 +103,7 @@ def read_smc(blob: RawFile) -> Record:
         )
     count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
     gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
+    # eight samples per line, the last one incomplete
     end_line = first + -(-count // 8)
     if any(line.strip() for line in lines[end_line:]):
         raise_line_error(
@@ -155,6 +157,7 @@ def _station_code(lines: list[str], integers: list[int], missing_value: int) -> 
 def _start_time(integers: list[int], missing_value: int) -> datetime | None:
     year, day, hour, minute = (integers[place] for place in (YEAR, DAY, HOUR, MINUTE))
     second, millisecond = (0 if integers[place] == missing_value else integers[place] for place in (SECOND, MILLISECOND))
+    # the header counts the days of the year
     start = utc_datetime(year, 1, 1, hour, minute, second + millisecond / 1000.0)
     return start + timedelta(days=day - 1) if start is not None and 1 <= day <= 366 else None
 
@@ -186,6 +189,7 @@ def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[
 
 def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Return a flag if the peak differs from the header."""
+    # a missing extreme ranks below any other
     peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
     peak_text = repr(peak) if abs(peak) < MISSING else ""
     return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))
