@@ -1,30 +1,36 @@
-"""Every kernel that Python calls, compiled before it is wanted; ``python -m tests.kernels`` does it while nothing else is to be done."""
+"""Kernels of the package; ``python -m tests.kernels`` compiles those that Python calls into the cache."""
 
 import importlib
 import pkgutil
 
-from seisblock._jit.lazy import LazyKernel
+from seisblock._jit import LazyKernel
 
-ROOMS = ("seisblock.dynamics", "seisblock.models.respond", "seisblock.models.jump", "seisblock.models.stack")
-ROOMS += ("seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift", "seisblock.measures", "seisblock.records")
-"""Where kernels are, in such an order that two workers who take turns have as much to compile."""
+KERNEL_PACKAGES = ("seisblock.dynamics", "seisblock.models.respond", "seisblock.models.jump", "seisblock.models.stack")
+KERNEL_PACKAGES += ("seisblock.models.slide", "seisblock.models.rock", "seisblock.models.uplift", "seisblock.measures", "seisblock.records")
+"""Packages with kernels, in an order that gives two workers equal shares."""
 
 
-def named_by(kernel):
-    """Return the kernels that a kernel calls, which it holds."""
-    code = kernel.__wrapped__.__code__
-    return {id(kernel.__wrapped__.__globals__.get(name)) for name in code.co_names}
+def all_kernels(package: str) -> list[LazyKernel]:
+    """Return the kernels of a package."""
+    modules = pkgutil.walk_packages(importlib.import_module(package).__path__, f"{package}.")
+    values = [value for module in modules for value in vars(importlib.import_module(module.name)).values()]
+    return list({id(value): value for value in values if isinstance(value, LazyKernel)}.values())
+
+
+def callees(kernel: LazyKernel) -> set[int]:
+    """Return the identities of the kernels that a kernel calls and holds."""
+    function = kernel._function
+    return {id(function.__globals__.get(name)) for name in function.__code__.co_names}
 
 
 def compile_all(*, share: int = 0, of: int = 1) -> None:
-    """Compile each kernel that no other kernel calls, or one share of so many, into the cache; those that are there are read."""
-    for name in ROOMS[share::of]:
-        found = pkgutil.walk_packages(importlib.import_module(name).__path__, f"{name}.")
-        values = [value for module in found for value in vars(importlib.import_module(module.name)).values()]
-        kernels = {id(value): value for value in values if isinstance(value, LazyKernel)}
-        parts = set().union(*map(named_by, kernels.values()))
-        for key in kernels.keys() - parts:
-            _ = kernels[key].compiled
+    """Compile each kernel that no other kernel calls, or one share of so many, into the cache; cached ones are loaded."""
+    for name in KERNEL_PACKAGES[share::of]:
+        kernels = all_kernels(name)
+        called = set().union(*map(callees, kernels))
+        for kernel in kernels:
+            if id(kernel) not in called:
+                _ = kernel.compiled
 
 
 if __name__ == "__main__":

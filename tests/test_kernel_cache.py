@@ -1,150 +1,202 @@
-"""Compiled kernels are kept for the next process; a folder that is damaged, full or closed costs time and nothing else."""
+"""On-disk cache of kernels: reuse by later processes, damaged, full and read-only folders, folders of other versions."""
 
+import ast
+import contextlib
+import logging
 import os
+import re
 import resource
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
+import seisblock
+from seisblock import _jit
+from seisblock._jit import cache
+from tests.kernels import KERNEL_PACKAGES, all_kernels
 from tests.lengths import all_but_slow
+from tests.trees import syntax_tree
+
+PACKAGE = Path(seisblock.__file__).parent
 
 ONE = (
-    "import sys; from seisblock import _jit; _jit.on_message = lambda text: print(text, file=sys.stderr)\n"
+    "import logging; logging.basicConfig(format='%(message)s'); logging.getLogger('seisblock.jit').setLevel(logging.INFO)\n"
     "import numpy as np; from seisblock.dynamics.polynomial import evaluate, first_crossing\n"
     "print(evaluate(np.array([1.0, 2.0]), 1, 0.5))\n"
 )
-"""Calls one kernel of the polynomials, which calls no other."""
+"""Script that calls a kernel without callees."""
 
 SCRIPT = f"{ONE}print(first_crossing(np.array([1.0, -4.0]), 1, 1.0, np.zeros(2), np.zeros(2)))\n"
-"""Calls that and another one, which calls many."""
+"""Script that calls this kernel and one with many callees."""
 
-ANSWER = {ONE: ["2.0"], SCRIPT: ["2.0", "0.25"]}
+OUTPUT = ["2.0", "0.25"]
+"""Results of the two kernels."""
+
+COMPILING = "compiling kernels (first run only, up to 30 s)..."
 
 
-def run_script(folder, script=SCRIPT, **options):
-    """Run a script with a cache folder; return what it says beside its answer, which is right."""
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        env={**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)},
-        capture_output=True,
-        text=True,
-        check=False,
-        **options,
-    )
-    assert (done.returncode, done.stdout.split()) == (0, ANSWER[script]), done.stderr
-    return done.stderr.splitlines()
+def start(folder, script, **options):
+    """Start a script with a cache folder."""
+    environment = {**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    return subprocess.Popen([sys.executable, "-c", script], env=environment, text=True, **pipes, **options)
+
+
+def messages_of(process, script):
+    """Return the messages of a script after checking its output."""
+    output, messages = process.communicate()
+    assert (process.returncode, output.split()) == (0, OUTPUT[: script.count("print")]), messages
+    return messages.splitlines()
+
+
+def run(folder, script=SCRIPT, **options):
+    """Run a script with a cache folder; return its messages after checking its output."""
+    with start(folder, script, **options) as process:
+        return messages_of(process, script)
 
 
 @pytest.fixture(scope="module")
-def compiled_folder(tmp_path_factory):
-    """A folder with the kernels compiled."""
+def filled(tmp_path_factory):
+    """Cache folder with the kernels of the script."""
     folder = tmp_path_factory.mktemp("kernels")
-    assert run_script(folder) == ["compiling kernels (first run only, up to 30 s)..."]
+    assert run(folder) == [COMPILING]
     return folder
 
 
 @pytest.fixture
-def folder(compiled_folder, tmp_path):
-    """A copy of it to spoil."""
-    return Path(shutil.copytree(compiled_folder, tmp_path / "kernels"))
+def folder(filled, tmp_path):
+    """Copy of the filled folder."""
+    return Path(shutil.copytree(filled, tmp_path / "kernels"))
 
 
-def kernel_files(folder):
-    """Return what is kept of each kernel, by name."""
+def cached_files(folder):
+    """Return the content of numba's files by their names."""
     return {path.name: path.read_bytes() for path in folder.rglob("*.nb[ci]")}
 
 
-def test_cache_keeps_entry_kernels_only(compiled_folder):
-    """Of the ten that :func:`first_crossing` calls nothing is compiled or written but what it holds itself."""
-    assert sorted({name.split("-")[0] for name in kernel_files(compiled_folder)}) == ["polynomial.evaluate", "polynomial.first_crossing"]
+def test_cache_holds_only_the_kernels_that_python_calls(filled):
+    """The ten callees of :func:`first_crossing` have no files of their own."""
+    assert sorted({name.split("-")[0] for name in cached_files(filled)}) == ["polynomial.evaluate", "polynomial.first_crossing"]
+    assert [path for path in filled.rglob("*") if path.name.startswith("tmp")] == []
 
 
 @pytest.mark.slow
-def test_process_loads_entry_kernels_only(folder):
-    """Machine code of a kernel holds that of the kernels it calls: with everything in the cache, two of them are made."""
-    counted = (
-        f"{SCRIPT}import gc; from seisblock._jit.lazy import LazyKernel\n"
+def test_a_process_loads_only_the_kernels_that_python_calls(folder):
+    """Machine code of a kernel holds that of its callees."""
+    script = (
+        f"{SCRIPT}import gc; from seisblock._jit import LazyKernel\n"
         "print(*sorted(k.__name__ for k in gc.get_objects() if isinstance(k, LazyKernel) and k._compiled is not None))"
     )
     environment = {**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)}
-    done = subprocess.run([sys.executable, "-c", counted], env=environment, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == [*ANSWER[SCRIPT], "evaluate first_crossing"]
+    process = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True)
+    assert process.stdout.splitlines() == [*OUTPUT, "evaluate first_crossing"]
 
 
-def test_second_process_compiles_nothing(folder):
-    """What one process compiled the next one finds, in silence, and leaves as it is."""
-    before = kernel_files(folder)
+def test_a_second_process_loads_kernels_without_a_message(folder):
+    before = cached_files(folder)
     assert len(before) == 4
-    assert run_script(folder) == []
-    assert kernel_files(folder) == before
+    assert run(folder) == []
+    assert cached_files(folder) == before
 
 
-def test_missing_kernels_are_announced_once(folder):
-    """A folder that holds some kernels is no reason to compile the others in silence; it is said once."""
-    for path in folder.rglob("polynomial.first_crossing*"):
-        path.unlink()
-    assert run_script(folder) == ["compiling kernels (first run only, up to 30 s)..."]
-    assert run_script(folder) == []
+def test_kernels_that_another_command_did_not_need_are_announced(folder):
+    (path,) = folder.rglob("polynomial.first_crossing*.nbi")
+    shutil.rmtree(path.parents[1])
+    assert run(folder) == [COMPILING]
+    assert run(folder) == []
 
 
-SPOILT = {
+def test_processes_that_compile_at_the_same_time_leave_a_sound_cache(tmp_path):
+    """Each kernel's folder is renamed into place when it is complete."""
+    processes = [start(tmp_path, ONE) for _ in range(3)]
+    for process in processes:
+        with process:
+            assert messages_of(process, ONE) in ([], [COMPILING])
+    assert len(cached_files(tmp_path)) == 2
+    assert [path.name for path in tmp_path.rglob("tmp*")] == []
+    assert run(tmp_path, ONE) == []
+
+
+def test_kernels_of_changed_files_are_compiled_without_a_warning(folder):
+    """Numba compiles again where the modification time of a source file has changed; here its stamp is replaced."""
+    script = f"from numba.core import caching; caching._SourceFileBackedLocatorMixin.get_source_stamp = lambda self: 'other'\n{ONE}"
+    before = cached_files(folder)
+    assert run(folder, script) == []
+    assert cached_files(folder) != before
+    assert run(folder, script) == []
+
+
+DAMAGE = {
     "empty": lambda data: b"",
     "half": lambda data: data[: len(data) // 2],
     "last byte": lambda data: data[:-1],
     "inside": lambda data: data[: len(data) // 2] + bytes(300) + data[len(data) // 2 + 300 :],
+    "one bit": lambda data: data[: len(data) // 2] + bytes([data[len(data) // 2] ^ 1]) + data[len(data) // 2 + 1 :],
 }
+"""Damage of files; one bit of the machine code is noticed by the digest only."""
 
 
 @pytest.mark.parametrize(
-    ("spoil", "script"),
+    ("damage", "script"),
     [
         pytest.param("empty", ONE, marks=pytest.mark.slow),
         pytest.param("half", ONE, marks=pytest.mark.slow),
         pytest.param("last byte", ONE, marks=pytest.mark.slow),
-        ("inside", SCRIPT),
+        pytest.param("inside", SCRIPT, marks=pytest.mark.slow),
+        ("one bit", SCRIPT),
     ],
-    ids=SPOILT,
+    ids=DAMAGE,
 )
-@pytest.mark.parametrize("suffix", ["nbc", pytest.param("nbi", marks=pytest.mark.slow)])
-def test_damaged_cache_file_is_recompiled(folder, suffix, spoil, script):
-    """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, the next run finds them whole."""
-    for path in folder.rglob(f"*.{suffix}"):
-        path.write_bytes(SPOILT[spoil](path.read_bytes()))
-    said = run_script(folder, script)
-    assert len(said) == 1 and "damaged file; the affected kernels are compiled again" in said[0] and str(folder) in said[0]
-    assert run_script(folder, script) == []
+@pytest.mark.parametrize(
+    "name", ["*.nbc", pytest.param("*.nbi", marks=pytest.mark.slow), pytest.param("SHA256SUMS", marks=pytest.mark.slow)]
+)
+def test_a_damaged_kernel_is_compiled_again_with_one_warning(folder, name, damage, script):
+    """Altered machine code would be executed."""
+    for path in folder.rglob(name):
+        path.write_bytes(DAMAGE[damage](path.read_bytes()))
+    messages = run(folder, script)
+    assert "damaged file; the affected kernels are compiled again" in messages[0] and str(folder) in messages[0]
+    assert messages[1:] == [COMPILING]
+    assert run(folder, script) == []
 
 
-def test_full_disk_compiles_for_this_run(tmp_path):
-    """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
-    said = run_script(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
-    assert said[0] == "compiling kernels (first run only, up to 30 s)..."
-    assert len(said) == 2 and "compiled again" in said[1] and os.strerror(27) in said[1]
+def test_a_full_disk_has_one_warning_and_no_other_effect(tmp_path):
+    messages = run(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+    assert messages[0] == COMPILING
+    assert len(messages) == 2 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[1] and os.strerror(27) in messages[1]
 
 
 @pytest.mark.parametrize("where", all_but_slow(["file", "file/below"], {"file/below"}))
-def test_unusable_cache_folder_compiles_for_this_run(tmp_path, where):
-    """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
+def test_a_folder_that_cannot_be_created_has_one_warning_and_no_other_effect(tmp_path, where):
     (tmp_path / "file").touch()
-    said = run_script(tmp_path / where, ONE)
-    assert len(said) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in said[0]
+    messages = run(tmp_path / where, ONE)
+    assert len(messages) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[0]
     assert list(tmp_path.iterdir()) == [tmp_path / "file"]
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="to root nothing is read-only")
-def test_read_only_cache_folder_compiles_for_this_run(folder):
-    """A folder of somebody else's is left alone."""
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_read_only_folder_has_one_warning_and_is_left_unchanged(folder):
+    before = cached_files(folder)
     for path in [folder, *folder.rglob("*")]:
         path.chmod(0o555 if path.is_dir() else 0o444)
     try:
-        said = run_script(folder)
+        messages = run(folder)
     finally:
         for path in [folder, *folder.rglob("*")]:
             path.chmod(0o755 if path.is_dir() else 0o644)
-    assert len(said) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in said[0]
+    assert len(messages) == 1 and "set SEISBLOCK_CACHE_DIR to a writable folder" in messages[0]
+    assert cached_files(folder) == before
+
+
+def test_the_library_is_silent_without_a_logging_configuration(folder):
+    for path in folder.rglob("*.nbc"):
+        path.write_bytes(b"")
+    script = ONE.split("\n", 1)[1]
+    assert run(folder, script) == []
 
 
 RACE = """
@@ -170,10 +222,109 @@ threads = [threading.Thread(target=keep, args=(name,)) for name in ("one", "two"
 [thread.join() for thread in threads]
 print(seen["one"], seen["two"], numba.config.CACHE_DIR == before)
 """
-"""Two threads that want to be inside at the same time: each waits half a second for the other one."""
+"""Two threads that set numba's cache folder at the same time; each waits half a second for the other one."""
 
 
-def test_threads_use_separate_cache_folders():
-    """Kernels of one thread were kept beside the sources, or in the working directory, when another one had just finished."""
-    done = subprocess.run([sys.executable, "-c", RACE], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["one", "two", "True"]
+def test_two_threads_write_to_their_own_folders():
+    process = subprocess.run([sys.executable, "-c", RACE], capture_output=True, text=True, check=True)
+    assert process.stdout.split() == ["one", "two", "True"]
+
+
+# folders of other versions
+
+
+@pytest.fixture
+def versions(tmp_path, monkeypatch):
+    """Function that creates cache folders by their days since the last use; a kernel is then compiled into a new one."""
+    names = {}
+
+    def create(*days, content="dynamics_0/polynomial.evaluate-1.py311.nbi"):
+        for number, age in enumerate(days):
+            folder = tmp_path / f"{number:016x}"
+            (folder / content).parent.mkdir(parents=True)
+            (folder / content).touch()
+            moment = time.time() - 86400.0 * age
+            os.utime(folder, (moment, moment))
+            names[folder] = age
+        new = tmp_path / ("f" * 16)
+        monkeypatch.setattr(cache, "cache_directory", lambda: new)
+        monkeypatch.setattr(cache, "_numba_cache_dir", lambda folder: folder.mkdir(parents=True) or contextlib.nullcontext())
+        cache.load_or_compile(lambda cache: "compiled", test_old_folders_are_removed_when_a_new_one_is_created)
+        assert new.is_dir()
+        return [age for folder, age in names.items() if folder.exists()]
+
+    return create
+
+
+def test_old_folders_are_removed_when_a_new_one_is_created(versions):
+    assert versions(31, 400, 29, 0.1) == [29, 0.1]
+
+
+def test_newest_of_the_old_folders_is_kept_whatever_its_age(versions):
+    """Of two versions used in turn none is compiled again."""
+    assert versions(400, 31) == [31]
+
+
+def test_folders_that_hold_no_kernels_are_not_removed(versions):
+    assert versions(400, 300, 200, content="letters/home.txt") == [400, 300, 200]
+
+
+def test_use_of_a_folder_renews_its_time_of_last_use(folder):
+    (version,) = folder.iterdir()
+    os.utime(version, (0.0, 0.0))
+    run(folder, ONE)
+    assert time.time() - version.stat().st_mtime < 600.0
+
+
+# files that the name of the folder depends on
+
+
+@pytest.mark.skipif(not _jit.ENABLED, reason="kernels are not compiled")
+def test_cache_key_covers_every_file_from_which_a_kernel_takes_a_name():
+    """Kernels, constants and named tuples; numba itself notices changes in the kernel's own file only."""
+    sources, origins = cache.kernel_sources(), {}
+    for kernel in (kernel for name in KERNEL_PACKAGES for kernel in all_kernels(name)):
+        path = Path(kernel._function.__code__.co_filename)
+        if path not in origins:
+            nodes = [node for node in syntax_tree(path).body if isinstance(node, ast.ImportFrom) and node.module.startswith("seisblock")]
+            origins[path] = {alias.asname or alias.name: node.module for node in nodes for alias in node.names}
+        assert path in sources
+        for name in kernel._function.__code__.co_names:
+            if name in origins[path]:
+                base = PACKAGE.parent.joinpath(*origins[path][name].split("."))
+                assert {base.with_suffix(".py"), base / "__init__.py"} & sources.keys(), f"{path.name}: {name}"
+    assert len(origins) > 40
+
+
+def test_cache_key_covers_half_of_the_files_of_the_folders_with_kernels():
+    folders = ("dynamics", "measures", "models", "records")
+    assert len(cache.kernel_sources()) < 80 < sum(1 for folder in folders for _ in (PACKAGE / folder).rglob("*.py"))
+
+
+def test_kernels_are_defined_in_the_folders_that_the_cache_key_searches():
+    pattern = re.compile(r"from seisblock\._jit import|from seisblock import .*_jit")
+    folders = {path.relative_to(PACKAGE).parts[0] for path in PACKAGE.rglob("*.py") if pattern.search(path.read_text("utf-8"))}
+    assert folders == {"_jit", "dynamics", "measures", "models", "records"}
+
+
+def test_a_changed_constant_changes_the_cache_folder(monkeypatch):
+    sources = cache.kernel_sources()
+    names = []
+    for text in ("CHATTERING = 1", "CHATTERING = 2"):
+        cache.cache_directory.cache_clear()
+        monkeypatch.setattr(cache, "kernel_sources", lambda text=text: sources | {PACKAGE / "core" / "status.py": text})
+        names.append(cache.cache_directory().name)
+    cache.cache_directory.cache_clear()
+    assert PACKAGE / "core" / "status.py" in sources
+    assert len(set(names)) == 2
+
+
+def test_messages_of_the_logger_reach_a_handler(tmp_path, monkeypatch, caplog):
+    """Library users configure the logger ``seisblock.jit``."""
+    monkeypatch.setattr(cache, "cache_directory", lambda: tmp_path / "file" / "below")
+    monkeypatch.setattr(cache, "_read_only", False)
+    (tmp_path / "file").touch()
+    with caplog.at_level(logging.INFO, "seisblock.jit"):
+        assert cache.load_or_compile(lambda cache: cache, run) is False
+    assert [record.levelname for record in caplog.records] == ["WARNING"]
+    assert "cannot write the kernel cache" in caplog.text

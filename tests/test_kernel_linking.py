@@ -1,25 +1,26 @@
-"""Kernels that other kernels call are parts of these: typed and lowered once, optimised once, whatever the depth of the calls."""
+"""Kernels called by other kernels are linked unoptimised and optimised once, in the kernel that Python calls."""
 
+import re
+import tomllib
+from pathlib import Path
+
+import numba
 import numpy as np
 import pytest
 from numba.core.types import functions
 from numba.core.typing.typeof import typeof
 
 from seisblock import _jit
-from seisblock._jit.linking import UnoptimizedLibrary
-from seisblock._jit.typing_cache import memoize_typing
+from seisblock._jit.internals import UnoptimizedLibrary, memoize_typing
 
 _t = _jit.types()
 SIGNATURE = _t.float64(_t.float64, _t.float64)
 
 
 @pytest.fixture
-def chain(tmp_path, monkeypatch):
-    """Three kernels, each of which calls the one before it, and a fourth that calls two; nothing of them is kept."""
-    monkeypatch.setattr(_jit.cache, "cache_directory", lambda: tmp_path / "kernels")
-    monkeypatch.setattr(_jit.cache, "_disabled", True)
-    monkeypatch.setattr(_jit.cache, "_writable", lambda: True)
-    monkeypatch.setattr(_jit, "_without_linking", False)
+def chain(monkeypatch):
+    """Three kernels, each of which calls the one before it; the third calls both. Nothing is written to the cache."""
+    monkeypatch.setattr(_jit.cache, "load_or_compile", lambda compile_kernel, function: compile_kernel(cache=False))
 
     @_jit.kernel(SIGNATURE)
     def lean(a, b):
@@ -36,8 +37,8 @@ def chain(tmp_path, monkeypatch):
     return lean, rock, fall
 
 
-def answer(a, b):
-    """Return what the last of them answers."""
+def expected(a, b):
+    """Return the result of the last kernel, computed by Python."""
     lean = [(p + q) * 0.5 if p > q else p - q for p, q in ((a, b), (b, a))]
     return sum(lean) * lean[0]
 
@@ -45,66 +46,96 @@ def answer(a, b):
 CASES = np.random.default_rng(3).uniform(-1.0, 1.0, (20, 2)).tolist()
 
 
-def test_callees_stay_unoptimised(chain):
-    """Of the two within there is a part and nothing whole; the answer is Python's."""
+def test_kernel_links_unoptimised_callees(chain):
     lean, rock, fall = chain
-    assert [fall(a, b) for a, b in CASES] == [answer(a, b) for a, b in CASES]
+    assert [fall(a, b) for a, b in CASES] == [expected(a, b) for a, b in CASES]
     for kernel in (lean, rock):
         assert kernel._compiled is None
-        assert type(kernel._part.overloads[SIGNATURE.args].library) is UnoptimizedLibrary
-    assert fall._part is None
-    # a part may be called from Python as well, and is then compiled for it
+        assert type(kernel._callee.overloads[SIGNATURE.args].library) is UnoptimizedLibrary
+    assert fall._callee is None
+    # a callee can be called from Python as well, and is then compiled for it
     assert lean(1.0, 0.5) == 0.75
 
 
-def test_compiled_kernel_is_linked_without_recompilation(chain):
-    """A kernel that Python called before is not compiled a second time for those that call it."""
+def test_kernel_links_a_complete_callee_as_it_is(chain):
+    """A kernel that Python has called is not compiled a second time."""
     lean, _, fall = chain
     assert lean(1.0, 0.5) == 0.75
-    assert fall(0.3, -0.2) == answer(0.3, -0.2)
-    assert lean._part is None
+    assert fall(0.3, -0.2) == expected(0.3, -0.2)
+    assert lean._callee is None
 
 
-def test_unknown_numba_compiles_kernels_whole(chain, monkeypatch):
-    """Where parts cannot be made, kernels answer as before."""
-
-    def unlike(self):
-        raise AttributeError("_final_module")
-
-    monkeypatch.setattr(UnoptimizedLibrary, "finalize", unlike)
+@pytest.mark.parametrize("short", [(0, 60), (0, 69), (1, 0)])
+def test_kernels_are_compiled_completely_with_an_untested_numba(chain, monkeypatch, short):
+    monkeypatch.setattr(numba, "version_info", numba.version_info._replace(short=short))
     lean, rock, fall = chain
-    assert [fall(a, b) for a, b in CASES] == [answer(a, b) for a, b in CASES]
-    assert _jit._without_linking
-    assert all(kernel._compiled is not None and kernel._part is None for kernel in (lean, rock, fall))
+    assert [fall(a, b) for a, b in CASES] == [expected(a, b) for a, b in CASES]
+    assert all(kernel._compiled is not None and kernel._callee is None for kernel in (lean, rock, fall))
 
 
-def test_typing_is_memoized_per_compilation(monkeypatch):
-    """While one kernel is compiled; one that is compiled within asks for itself, and outside all is as it was."""
+def test_tested_versions_of_numba_are_those_of_the_dependency():
+    project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text("utf-8"))["project"]
+    (bounds,) = (re.findall(r"\d+\.\d+", line) for line in project["dependencies"] if line.startswith("numba"))
+    lowest, limit = (tuple(map(int, bound.split("."))) for bound in bounds)
+    assert f"{lowest} <= numba.version_info.short < {limit}" in Path(_jit.__file__).read_text("utf-8")
+
+
+@pytest.fixture
+def inferences(monkeypatch):
+    """List that grows by one for each type inference of numba."""
+    calls = []
+    original = functions.utils.order_by_target_specificity
+
+    def count(*arguments, **options):
+        calls.append(arguments)
+        return original(*arguments, **options)
+
+    monkeypatch.setattr(functions.utils, "order_by_target_specificity", count)
+    return calls
+
+
+def infer(**options):
+    """Return the signature of the sum of a float and an integer."""
     from numba.core.registry import cpu_target
 
     context = cpu_target.typing_context
     context.refresh()
-    asked = []
-    tried = functions.utils.order_by_target_specificity
+    return str(context.resolve_value_type(np.add).get_call_type(context, (typeof(1.0), typeof(1)), {}, **options))
 
-    def counted(*how, **more):
-        asked.append(how)
-        return tried(*how, **more)
 
-    monkeypatch.setattr(functions.utils, "order_by_target_specificity", counted)
-    add = context.resolve_value_type(np.add)
-
-    def ask():
-        return str(add.get_call_type(context, (typeof(1.0), typeof(1)), {}))
-
+def test_memoize_typing_infers_a_signature_once_per_block(inferences):
+    infer()
+    del inferences[:]
     with memoize_typing():
-        said = {ask(), ask()}
-        assert len(asked) == 1
+        signatures = {infer(), infer()}
+        assert len(inferences) == 1
         with memoize_typing():
-            said |= {ask(), ask()}
-        assert len(asked) == 2
-        said |= {ask()}
-        assert len(asked) == 2
-    said |= {ask(), ask()}
-    assert len(asked) == 4
-    assert said == {"(float64, int64) -> float64"}
+            signatures |= {infer(), infer()}
+        signatures |= {infer()}
+        assert len(inferences) == 1
+    signatures |= {infer(), infer()}
+    assert len(inferences) == 3
+    assert signatures == {"(float64, int64) -> float64"}
+
+
+def test_memoize_typing_restores_the_method_of_numba():
+    """The user's own kernels are compiled by numba alone."""
+    original = _t.Function.get_call_type
+    with pytest.raises(ValueError, match="inside"), memoize_typing():
+        assert _t.Function.get_call_type is not original
+        raise ValueError("inside")
+    assert _t.Function.get_call_type is original
+
+
+def test_memoize_typing_passes_unknown_keywords_on_to_numba(monkeypatch):
+    """A future numba may call its method with more arguments."""
+    received = []
+
+    def original(self, context, args, kws, **options):
+        received.append(options)
+        return "(float64, int64) -> float64"
+
+    monkeypatch.setattr(_t.Function, "get_call_type", original)
+    with memoize_typing():
+        assert {infer(depth=1), infer(depth=1)} == {"(float64, int64) -> float64"}
+    assert received == [{"depth": 1}, {"depth": 1}]

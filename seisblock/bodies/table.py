@@ -24,7 +24,7 @@ from seisblock.core.io.csv_table import (
     row_dict,
     split_cells,
 )
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_BODIES, check_limit
 from seisblock.core.units import parse_mass
 
 LENGTH_COLUMNS = ("width", "height", "depth", "centroid_height", "centroid_offset", "slope_length", "tenon", "drop")
@@ -133,7 +133,7 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
     bodies = [body for name in paths for body in (_read_body_table(str(name)) if _is_table(name) else [_read_body_file(str(name))])]
     if not bodies:
         raise BodyError("body required: give a table of bodies, a file that describes one body, or a bundled body")
-    check_limit(N_("bodies"), len(bodies), "SEISBLOCK_BODIES", error=BodyError)
+    check_limit(N_("bodies"), len(bodies), MAX_BODIES, error=BodyError)
     return tuple(bodies)
 
 

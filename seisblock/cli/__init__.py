@@ -17,9 +17,9 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from seisblock import __version__, _jit
+from seisblock import __version__
 from seisblock.cli.command import english_help_option, lang_option
-from seisblock.cli.console import bind_locale, info, reset_warnings
+from seisblock.cli.console import kernel_messages, reset_warnings
 from seisblock.cli.help import Context, help_rows
 from seisblock.cli.locale import use_cli_locale
 from seisblock.cli.process import TERMINATED, Terminated, discard_stdout, fast_exit, graceful_exit, safe_streams
@@ -200,11 +200,10 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report user errors."""
-        translate = bind_locale()  # kernels compile in other threads, which have no locale context
-        _jit.on_message, _jit.on_compile = lambda message: info(translate(message)), lambda task: progress(translate(task))
         reset_warnings()
+        quiet = quiet_output("--quiet" in ctx.obj or None)
         try:
-            with graceful_exit(), track_files(sys.stdout), quiet_output("--quiet" in ctx.obj or None), progress("working"):
+            with graceful_exit(), track_files(sys.stdout), quiet, progress("working"), kernel_messages():
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result
@@ -232,8 +231,6 @@ class SeisblockGroup(click.Group):
             )
             click.secho(f"seisblock: {write_error}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
-        finally:
-            _jit.on_message = _jit.on_compile = None
 
 
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

@@ -14,6 +14,7 @@ from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import MU, Count
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core.i18n import N_
+from seisblock.core.limits import MAX_RUNS
 from seisblock.core.registry import solver_names
 
 
@@ -40,7 +41,7 @@ from seisblock.core.registry import solver_names
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(
     "--runs",
-    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
+    type=Count(N_("samples"), MAX_RUNS, minimum=0),
     default=0,
     show_default=True,
     help="Perturbed samples for the overturning probability; 0 for none.",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import contextlib
+import logging
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import click
 
-from seisblock.cli.progress import close_line, paused
+from seisblock.cli.progress import close_line, paused, set_task
 from seisblock.cli.verbosity import is_quiet
 from seisblock.core.i18n import escape_control, get_locale, gettext, lazy_gettext, use_locale
 
@@ -30,6 +32,35 @@ def bind_locale() -> Callable[[str], str]:
             return gettext(text)
 
     return translate
+
+
+class KernelMessages(logging.Handler):
+    """Handler that prints messages about the compilation of kernels and sets the task of the progress line."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._translate = bind_locale()  # other threads, which compile, too, have no locale context
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print a message of level INFO or higher; take the task of a lower one."""
+        if record.levelno >= logging.INFO:
+            info(self._translate(record.msg))
+        elif task := getattr(record, "task", ""):
+            set_task(self._translate(task))
+
+
+@contextlib.contextmanager
+def kernel_messages() -> Iterator[None]:
+    """Show the messages of the logger ``seisblock.jit`` inside the block."""
+    logger, handler = logging.getLogger("seisblock.jit"), KernelMessages()
+    level = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.DEBUG)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(level)
 
 
 def warning(text: str, /, **values: Any) -> None:

@@ -17,6 +17,7 @@ from seisblock.cli.types import Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
+from seisblock.core.limits import MAX_RUNS, MAX_VALUES
 
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "block")
 """Options that describe a body."""
@@ -109,14 +110,14 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]")
 @option(
     "--folds",
-    type=Count(N_("folds"), "SEISBLOCK_VALUES", minimum=2),
+    type=Count(N_("folds"), MAX_VALUES, minimum=2),
     metavar="K",
     help="Folds of the cross-validation. [default: 5]",
 )
 @option("--confidence", type=float, default=0.9, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--runs",
-    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), MAX_RUNS),
     default=16,
     show_default=True,
     help="Samples of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",

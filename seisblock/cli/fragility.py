@@ -15,6 +15,7 @@ from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, MU, Count
 from seisblock.core.i18n import N_
+from seisblock.core.limits import MAX_RUNS, MAX_VALUES
 from seisblock.core.registry import solver_names
 
 METHODS = ("stripes", "ida", "cloud")
@@ -99,14 +100,14 @@ METHODS = ("stripes", "ida", "cloud")
 )
 @option(
     "--steps",
-    type=Count(N_("levels"), "SEISBLOCK_VALUES", minimum=2),
+    type=Count(N_("levels"), MAX_VALUES, minimum=2),
     default=60,
     show_default=True,
     help="Number of levels, evenly spaced in the logarithm.",
 )
 @option(
     "--perturb",
-    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=2),
+    type=Count(N_("samples"), MAX_RUNS, minimum=2),
     metavar="N",
     help="N samples of each body (size, edges, restitution, friction), which separate its share of the dispersion. [default: nominal "
     "body only]",
@@ -115,7 +116,7 @@ METHODS = ("stripes", "ida", "cloud")
 @option("--confidence", type=float, default=0.95, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--bootstrap",
-    type=Count(N_("bootstrap samples"), "SEISBLOCK_RUNS", minimum=2),
+    type=Count(N_("bootstrap samples"), MAX_RUNS, minimum=2),
     default=1000,
     show_default=True,
     help="Bootstrap samples of the records for the intervals.",

@@ -21,6 +21,7 @@ from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.limits import MAX_RUNS
 
 DEFAULT_BLOCK = "chozusha"
 FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
@@ -121,7 +122,7 @@ JUMPED_OPTIONS = (
 @option("--limit", type=float, default=3.0, show_default=True, help="--slid, --jumped: largest scale factor on a record.")
 @option(
     "--steps",
-    type=Count(N_("factors"), "SEISBLOCK_RUNS"),
+    type=Count(N_("factors"), MAX_RUNS),
     default=300,
     show_default=True,
     help="--slid, --jumped: number of factors in the scan.",

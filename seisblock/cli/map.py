@@ -19,6 +19,7 @@ from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import Count
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.limits import MAX_RUNS
 from seisblock.core.registry import solver_names
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ DEFAULT_RUNS = 50
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
 @option(
     "--runs",
-    type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
+    type=Count(N_("samples"), MAX_RUNS, minimum=0),
     help="Samples for the overturning probability of a body at each station; 0 for none. [default: 50; respond and rock only]",
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the samples.")

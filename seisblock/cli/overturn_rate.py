@@ -21,7 +21,7 @@ from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import N_, gettext, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, MAX_STONES, check_limit
 
 if TYPE_CHECKING:
     from seisblock.studies.survey.shaking import FrequencyKind
@@ -71,7 +71,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
 @option("--both", is_flag=True, section="Body", help="Compare with all stones reinforced: number of stones saved.")
 @option(
     "--most-fragile",
-    type=Count(N_("gravestones"), "SEISBLOCK_STONES"),
+    type=Count(N_("gravestones"), MAX_STONES),
     metavar="K",
     section="Body",
     help="Compare with the K most slender stones reinforced. [default: none]",
@@ -258,7 +258,7 @@ def _shaking_groups(source: Source, params: dict[str, Any]) -> list[tuple[Any, l
 
     pga, frequency = params["pga"], params["frequency"]
     if not source.record:
-        check_limit(N_("ground motions"), len(pga or ()) * len(frequency or FREQUENCIES), "SEISBLOCK_CELLS")
+        check_limit(N_("ground motions"), len(pga or ()) * len(frequency or FREQUENCIES), MAX_CELLS)
         return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
     if pga:
         raise click.UsageError(gettext("RECORD and --pga exclude each other: give only one of them; --target-pga scales a record"))

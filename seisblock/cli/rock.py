@@ -22,6 +22,7 @@ from seisblock.cli.types import MU, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.core.i18n import N_, gettext, lazy_gettext
+from seisblock.core.limits import MAX_RUNS
 from seisblock.models.rock.options import RockOptions
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ DEFAULT_RUNS = 200
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest scale factor of the margin search.")
 @option(
     "--perturb",
-    type=Count(N_("samples"), "SEISBLOCK_RUNS"),
+    type=Count(N_("samples"), MAX_RUNS),
     metavar="N",
     help="Overturning probability from N samples of body and motion.",
 )

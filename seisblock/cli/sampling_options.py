@@ -11,6 +11,7 @@ from seisblock.cli.command import option
 from seisblock.cli.option_checks import given_flags
 from seisblock.cli.types import LENGTH, Count
 from seisblock.core.i18n import N_
+from seisblock.core.limits import MAX_RUNS
 
 _SPREAD_OPTIONS = {
     "size": (0.05, "Samples: half width of width and height, a share of each."),
@@ -35,7 +36,7 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
     options = [
         option(
             "--runs",
-            type=Count(N_("samples"), "SEISBLOCK_RUNS", minimum=0),
+            type=Count(N_("samples"), MAX_RUNS, minimum=0),
             default=runs,
             show_default=True,
             help="Samples of body and motion for the overturning probability; 0 for none.",

@@ -22,6 +22,7 @@ from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import MAX_CELLS
 from seisblock.models.rock.options import RockOptions
 from seisblock.records.motion import ALL_AZIMUTHS
 
@@ -99,7 +100,7 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
 )
 @option(
     "--steps",
-    type=Count(N_("cells"), "SEISBLOCK_CELLS", minimum=2, power=2),
+    type=Count(N_("cells"), MAX_CELLS, minimum=2, power=2),
     default=40,
     show_default=True,
     help="Number of points on each axis left at its default.",

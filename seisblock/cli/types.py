@@ -11,7 +11,7 @@ from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.cli.command import Finite
 from seisblock.core.errors import InputError
 from seisblock.core.i18n import N_, gettext, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
 from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
 from seisblock.records.floor_motion import Storey, parse_storey
 
@@ -26,8 +26,7 @@ class Count(click.ParamType):  # type: ignore[type-arg]
     ----------
     quantity : str
         Noun of the message, see :func:`seisblock.core.limits.check_limit`.
-    variable : str
-        Of the limit.
+    limit : int
     minimum : int
     power : int
         Power of the number that is limited: 2 for points on two axes.
@@ -35,14 +34,14 @@ class Count(click.ParamType):  # type: ignore[type-arg]
 
     name = "integer"
 
-    def __init__(self, quantity: str, variable: str, *, minimum: int = 1, power: int = 1) -> None:
-        self.quantity, self.variable, self.minimum, self.power = quantity, variable, minimum, power
+    def __init__(self, quantity: str, limit: int, *, minimum: int = 1, power: int = 1) -> None:
+        self.quantity, self.limit, self.minimum, self.power = quantity, limit, minimum, power
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         """Return the number."""
         count: int = click.IntRange(min=self.minimum).convert(value, param, ctx)
         try:
-            check_limit(self.quantity, count**self.power, self.variable)
+            check_limit(self.quantity, count**self.power, self.limit)
         except InputError as error:
             self.fail(gettext(error.message), param, ctx)
         return count
@@ -60,7 +59,7 @@ class ContactType(click.ParamType):  # type: ignore[type-arg]
         name, _, count = str(value).partition("=")
         if name != "grid":
             self.fail(gettext("{value!r} is neither edges nor grid=N, for example grid=5", value=value), param, ctx)
-        return Count(N_("contact points along each side of a joint"), "SEISBLOCK_PILE_POINTS", minimum=3).convert(count, param, ctx)
+        return Count(N_("contact points along each side of a joint"), MAX_JOINT_POINTS, minimum=3).convert(count, param, ctx)
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]
@@ -146,7 +145,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
             self.fail(gettext("{text!r}: the step does not lead from the first value to the last", text=text), param, ctx)
         count = math.floor(min((last - first) / step, 1e18) + 1e-9) + 1
         try:
-            check_limit(N_("values"), count, "SEISBLOCK_VALUES", source=repr(text))
+            check_limit(N_("values"), count, MAX_VALUES, source=repr(text))
         except InputError as error:
             self.fail(gettext(error.message), param, ctx)
         return [round(first + i * step, 12) for i in range(count)]

@@ -16,16 +16,8 @@ Handler = Callable[[int, FrameType | None], Any]
 def temporary_handler(number: signal.Signals, handler: Handler, *, default: Any) -> Iterator[bool]:
     """Install a signal handler inside the block and restore the default handler after it; yield whether it was installed.
 
-    Nothing is installed outside the main thread, where Python forbids it, or where a handler other than the default is active.
-
-    Parameters
-    ----------
-    number : signal.Signals
-        Signal number.
-    handler : callable
-        Handler inside the block.
-    default : handler
-        Handler expected before the block: :data:`signal.SIG_DFL` or :func:`signal.default_int_handler`.
+    Nothing is installed outside the main thread, where Python forbids it, or where a handler other than `default` is active, which is
+    :data:`signal.SIG_DFL` or :func:`signal.default_int_handler`.
 
     Examples
     --------

@@ -14,8 +14,8 @@ from typing import TypeVar
 import numpy as np
 
 from seisblock.core.errors import SolverError
-from seisblock.core.i18n import lazy_gettext
-from seisblock.core.limits import check_event_memory
+from seisblock.core.i18n import N_, lazy_gettext
+from seisblock.core.limits import check_memory
 from seisblock.core.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray
 from seisblock.dynamics import hybrid
@@ -120,7 +120,7 @@ def integrate(
             "{name}: integration stopped at {at:.6f} s: {failure}", name=model.name, at=time, failure=lazy_gettext(FAILURES[status])
         )
     if keep_events:
-        check_event_memory(n_events, bytes_per_event(n_states))
+        check_memory(N_("mode changes"), n_events, bytes_per_event(n_states))
         logs.append(_flush_events(output, state, motion.dt))
     events = concatenate_events(logs) if logs else _empty_events(n_states)
     # a stored path is one piece; otherwise the pieces are recomputed on access
@@ -169,7 +169,7 @@ class _Integration:
             if status == PAUSED and 2 * (state.counters[N_EVENTS] - state.counters[N_FLUSHED]) > output.times.size > 0:
                 if state.counters[N_EVENTS] > max(_MAX_EVENTS, _MAX_EVENTS_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
-                check_event_memory(int(state.counters[N_EVENTS]), bytes_per_event(state.state.size))
+                check_memory(N_("mode changes"), int(state.counters[N_EVENTS]), bytes_per_event(state.state.size))
                 logs.append(_flush_events(output, state, self.motion.dt))
                 state.counters[N_FLUSHED] = state.counters[N_EVENTS]
             report_progress(int(state.counters[SAMPLE]), self.motion.samples - 1)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seisblock.core.limits import check_curve_memory
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.dynamics.events import EventLog, Instant, concatenate_events
 
@@ -174,7 +175,7 @@ class Trajectory:
         ParameterError
             If the path and the time histories derived from it exceed the memory limit.
         """
-        check_curve_memory(self.end.sample, 2 * self.final.size + EXTRA_CURVES)
+        check_memory(N_("samples of time histories"), self.end.sample, 8 * (2 * self.final.size + EXTRA_CURVES))
         return concatenate_paths(self.iter_paths())
 
     @property

@@ -8,7 +8,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import CHUNK_SIZE, get_limit
+from seisblock.core.limits import CHUNK_SIZE, MEMORY_VARIABLE, memory_limit
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import GAL, STANDARD_GRAVITY
 from seisblock.measures.fft_filter import add_filtered_square, filter_weights, transform_mib
@@ -26,9 +26,6 @@ SKEW_TOLERANCE = 1e-9
 
 MIN_SINE = 1e-6
 """Sine of that angle below which the horizontals are parallel and cannot be orthogonalised."""
-
-TRANSFORM_LIMIT = "SEISBLOCK_TRANSFORM_MIB"
-"""Environment variable of the memory limit of transforms that cannot be split."""
 
 _HALF_CLASSES = ((5.0, N_("5-")), (5.5, N_("5+")), (6.0, N_("6-")), (6.5, N_("6+")))
 _CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALF_CLASSES)
@@ -127,7 +124,7 @@ def jma_intensity(record: Record) -> float | None:
     n_exceeding = _samples_needed(record)
     if record.vertical is None or len(record.horizontals) != 2 or n_exceeding > record.samples:
         return None
-    if transform_mib(record.samples) > get_limit(TRANSFORM_LIMIT):
+    if transform_mib(record.samples) > memory_limit():
         return None
     weights = filter_weights(record.samples, record.dt, _jma_filter)
     vector_squared = np.zeros(record.samples)
@@ -147,14 +144,14 @@ def missing_intensity_reason(record: Record) -> str:
         return lazy_gettext("two horizontal components and the vertical (UD) are required; the record has {codes}", codes=record.codes)
     if _samples_needed(record) > record.samples:
         return lazy_gettext("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
-    if (required_mib := transform_mib(record.samples)) > (max_mib := get_limit(TRANSFORM_LIMIT)):
+    if (required_mib := transform_mib(record.samples)) > (max_mib := memory_limit()):
         return lazy_gettext(
             "filtering {samples} samples needs {found} MiB, more than the limit of {most} MiB: shorten the record by one or two samples "
             "or raise {variable}",
             samples=record.samples,
             found=required_mib,
             most=max_mib,
-            variable=TRANSFORM_LIMIT,
+            variable=MEMORY_VARIABLE,
         )
     if not any(np.any(c.acceleration) for c in record.components):
         return lazy_gettext("all samples are zero")

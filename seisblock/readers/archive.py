@@ -121,7 +121,7 @@ def _iter_archive(blob: RawFile, budget: ReadBudget) -> Iterator[RawFile]:
 def _iter_zip(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterator[RawFile]:
     with zipfile.ZipFile(stream) as archive:
         for info in archive.infolist():
-            budget.check_member(name)
+            budget.count_member(name)
             if not info.is_dir() and not _PLOT_PATTERN.search(info.filename):
                 member_name = f"{name}/{info.filename}"
                 budget.check_declared_size(member_name, info.file_size)
@@ -149,7 +149,7 @@ def _iter_tar(name: str, stream: Readable, budget: ReadBudget) -> Iterator[RawFi
     # stream mode reads the members in order; seeking in compressed data would unpack it again
     with tarfile.open(fileobj=stream, mode="r|", tarinfo=_StrictTarInfo) as archive:  # type: ignore[call-overload]
         for entry in archive:
-            budget.check_member(name)
+            budget.count_member(name)
             # the size of a sparse member is unrelated to the bytes in the archive, and records are not sparse
             if not entry.isfile() or entry.issparse() or _PLOT_PATTERN.search(entry.name):
                 continue

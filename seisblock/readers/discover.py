@@ -21,7 +21,7 @@ from seisblock.readers.components import channel_file_set, knet_file_set
 from seisblock.readers.detect import OBSPY, detect_format
 from seisblock.readers.dispatch import ReadOptions
 from seisblock.readers.formats.at2 import split_direction
-from seisblock.readers.limits import new_budget
+from seisblock.readers.limits import ReadBudget
 from seisblock.readers.member_buffer import MemberBuffer
 from seisblock.readers.read import read, record_from_files
 from seisblock.readers.source import RawFile, open_source, resolve_path
@@ -77,7 +77,7 @@ class RecordSource:
         if self.failure is not None:
             raise self.failure
         if self.blobs:
-            return record_from_files(self.path, self.blobs, replace(options, budget=new_budget()))
+            return record_from_files(self.path, self.blobs, replace(options, budget=ReadBudget()))
         read_options = {key: getattr(options, key) for key in ("format", "units", "dt", "station", "level")}
         return read(list(self.files), **read_options)
 
@@ -246,7 +246,7 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
     """Yield the recordings in an archive as soon as complete; incomplete sets come last."""
     stamp = _file_stamp(path)
     member_count = 0
-    archive_budget = new_budget()
+    archive_budget = ReadBudget()
     with MemberBuffer() as buffer:
         try:
             for member in iter_members(open_source(path, archive_budget), archive_budget):

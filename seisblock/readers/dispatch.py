@@ -21,7 +21,7 @@ from seisblock.readers.formats.knet_csv import read_knet_csv
 from seisblock.readers.formats.obspy import read_obspy
 from seisblock.readers.formats.plain_csv import read_plain_csv
 from seisblock.readers.formats.smc import read_smc
-from seisblock.readers.limits import ReadBudget, new_budget
+from seisblock.readers.limits import ReadBudget
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.records import Record
@@ -58,7 +58,7 @@ class ReadOptions:
     dt: float | None = None
     station: str | None = None
     level: str | None = None
-    budget: ReadBudget = field(default_factory=new_budget)
+    budget: ReadBudget = field(default_factory=ReadBudget)
 
 
 def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
@@ -67,7 +67,7 @@ def read_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
     if format_name == ARCHIVE:
         return _read_archive(blob, options)
     parts = _read_file(blob, format_name, options)
-    options.budget.check_samples(blob.name, sum(part.samples * len(part.components) for part in parts))
+    options.budget.count_samples(blob.name, sum(part.samples * len(part.components) for part in parts))
     return parts
 
 

@@ -1,17 +1,15 @@
-"""Read limits: bytes, archive members, nesting and samples, counted in one budget per reading."""
+"""Budget of one reading: bytes, archive members, nesting and samples."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
 from seisblock.core.errors import RecordError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import DEFAULT_LIMITS, MIB, get_limit
+from seisblock.core.limits import FACTOR_VARIABLE, MAX_MEMBERS, MAX_NESTING, MEMORY_VARIABLE, MIB, count_limit, memory_limit
 
-_CHUNK_SIZE = MIB
-_PREFIX = "SEISBLOCK_READ_"
+_SAMPLE_BYTES = 8
 
 
 class Readable(Protocol):
@@ -23,85 +21,66 @@ class Readable(Protocol):
 
 @dataclass
 class ReadBudget:
-    """Counters of bytes, members and samples read, and their limits.
+    """Counters of what has been read; each method that counts raises RecordError beyond the limit."""
 
-    Parameters
-    ----------
-    limits : mapping of str to int
-        Limits by the names of their environment variables.
-    """
-
-    limits: Mapping[str, int]
+    limit_mib: int = field(default_factory=memory_limit)
     bytes_read: int = field(default=0, init=False)
     members_read: int = field(default=0, init=False)
     samples_read: int = field(default=0, init=False)
 
-    @property
-    def remaining_bytes(self) -> int:
-        """Bytes that may still be read or unpacked."""
-        return self.limits["SEISBLOCK_READ_MIB"] * MIB - self.bytes_read
-
     def check_declared_size(self, name: str, count: int) -> None:
-        """Raise if a declared size exceeds the remaining bytes, before reading."""
-        # before reading: a declared size may be far beyond the memory
-        if count > self.remaining_bytes:
-            self._raise_exceeded(name, -(-count // MIB), "SEISBLOCK_READ_MIB", "MiB")
+        """Check a declared size, which may be far beyond the memory, before reading."""
+        if self.bytes_read + count > self.limit_mib * MIB:
+            _raise_exceeded(name, -(-count // MIB), self.limit_mib, MEMORY_VARIABLE, "MiB")
 
     def read(self, name: str, stream: Readable) -> bytes:
         """Return the content of a stream, read in chunks within the limit."""
         limited_reader = LimitedReader(name, stream, self)
-        return b"".join(iter(lambda: limited_reader.read(_CHUNK_SIZE), b""))
+        return b"".join(iter(lambda: limited_reader.read(MIB), b""))
 
-    def check_bytes(self, name: str, count: int) -> None:
+    def count_bytes(self, name: str, count: int) -> None:
         """Count bytes read or unpacked."""
         self.bytes_read += count
-        if self.remaining_bytes < 0:
+        if self.bytes_read > self.limit_mib * MIB:
             raise RecordError(
                 "{name}: larger than the limit of {limit} MiB; set {variable} to read more",
                 name=name,
-                limit=self.limits["SEISBLOCK_READ_MIB"],
-                variable="SEISBLOCK_READ_MIB",
+                limit=self.limit_mib,
+                variable=MEMORY_VARIABLE,
             )
 
-    def check_member(self, name: str) -> None:
+    def count_member(self, name: str) -> None:
         """Count one member of an archive."""
         self.members_read += 1
-        if self.members_read > self.limits["SEISBLOCK_READ_MEMBERS"]:
-            self._raise_exceeded(name, self.members_read, "SEISBLOCK_READ_MEMBERS", N_("files"))
+        if self.members_read > (limit := count_limit(MAX_MEMBERS)):
+            _raise_exceeded(name, self.members_read, limit, FACTOR_VARIABLE, N_("files"))
 
     def check_nesting(self, name: str, depth: int) -> None:
-        """Raise if an archive is nested too deeply."""
-        if depth > self.limits["SEISBLOCK_READ_NESTING"]:
-            self._raise_exceeded(name, depth, "SEISBLOCK_READ_NESTING", N_("levels of nested archives"))
+        """Check the depth of an archive inside archives."""
+        if depth > (limit := count_limit(MAX_NESTING)):
+            _raise_exceeded(name, depth, limit, FACTOR_VARIABLE, N_("levels of nested archives"))
 
-    def check_samples(self, name: str, count: int) -> None:
+    def count_samples(self, name: str, count: int) -> None:
         """Count samples that were read."""
         self.samples_read += count
-        if self.samples_read > self.limits["SEISBLOCK_READ_SAMPLES"]:
-            self._raise_exceeded(name, self.samples_read, "SEISBLOCK_READ_SAMPLES", N_("samples"))
+        if self.samples_read > (limit := self.limit_mib * MIB // _SAMPLE_BYTES):
+            _raise_exceeded(name, self.samples_read, limit, MEMORY_VARIABLE, N_("samples"))
 
-    def _raise_exceeded(self, name: str, count: int, variable: str, quantity: str) -> None:
-        raise RecordError(
-            "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more",
-            name=name,
-            found=count,
-            what=lazy_gettext(quantity),
-            limit=self.limits[variable],
-            variable=variable,
-        )
+
+def _raise_exceeded(name: str, count: int, limit: int, variable: str, quantity: str) -> None:
+    raise RecordError(
+        "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more",
+        name=name,
+        found=count,
+        what=lazy_gettext(quantity),
+        limit=limit,
+        variable=variable,
+    )
 
 
 @dataclass(frozen=True)
 class LimitedReader:
-    """Stream that counts the bytes read against a budget.
-
-    Parameters
-    ----------
-    name : str
-        Source name, for messages.
-    stream : Readable
-    budget : ReadBudget
-    """
+    """Stream that counts the bytes read against a budget; its name stands in messages."""
 
     name: str
     stream: Readable
@@ -110,16 +89,5 @@ class LimitedReader:
     def read(self, size: int, /) -> bytes:
         """Return up to `size` bytes."""
         piece = self.stream.read(size)
-        self.budget.check_bytes(self.name, len(piece))
+        self.budget.count_bytes(self.name, len(piece))
         return piece
-
-
-def new_budget() -> ReadBudget:
-    """Return a new budget with limits from the environment.
-
-    Raises
-    ------
-    ParameterError
-        If a variable is not a positive whole number.
-    """
-    return ReadBudget({variable: get_limit(variable) for variable in DEFAULT_LIMITS if variable.startswith(_PREFIX)})

@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, Message, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray
 from seisblock.records.oscillator import oscillator_path
 from seisblock.records.record import Component, Record
@@ -165,12 +165,12 @@ def floor_motion(record: Record, storey: Storey) -> Record:
     dt = record.dt / subdivisions
     items = N_("samples of floor motion")
     # checked before allocation, and again with the free vibration
-    check_limit(items, (record.samples - 1) * subdivisions * len(record.components), "SEISBLOCK_READ_SAMPLES")
+    check_memory(items, (record.samples - 1) * subdivisions * len(record.components), 8)
     rows = [_interpolate(component.acceleration, subdivisions) for component in record.components]
     n_ringdown = max(
         (_ringdown_samples(row, dt, storey) for row, c in zip(rows, record.components, strict=True) if not c.is_vertical), default=0
     )
-    check_limit(items, (rows[0].size + n_ringdown) * len(rows), "SEISBLOCK_READ_SAMPLES")
+    check_memory(items, (rows[0].size + n_ringdown) * len(rows), 8)
     components = [
         replace(component, acceleration=_floor_acceleration(component, np.concatenate((row, np.zeros(n_ringdown))), dt, storey))
         for component, row in zip(record.components, rows, strict=True)

@@ -12,7 +12,7 @@ from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.core import checks
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray
 from seisblock.records import Motion, Record, motion_of
 from seisblock.records._validation import Gain, vertical_gain
@@ -56,7 +56,7 @@ def sweep_azimuths(body: object, step_deg: float = STEP_DEG) -> FloatArray:
     is_asymmetric = isinstance(body, Block) and body.centroid_offset != 0.0
     is_one_way = isinstance(body, SlidingBase) and (body.one_way or body.slope_deg != 0.0)
     full_range_deg = 360.0 if is_asymmetric or is_one_way else 180.0
-    check_limit(N_("azimuths"), math.ceil(full_range_deg / step_deg), "SEISBLOCK_RUNS")
+    check_limit(N_("azimuths"), math.ceil(full_range_deg / step_deg), MAX_RUNS)
     return np.arange(0.0, full_range_deg, step_deg)
 
 

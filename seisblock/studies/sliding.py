@@ -14,7 +14,7 @@ from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_ba
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, check_limit
 from seisblock.core.typing import Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.dynamics import integrate_many
@@ -123,7 +123,7 @@ def slide_study(
     checks.gravity(gravity)
     scales = tuple(float(value) for value in _values(vertical))
     combination_count = len(scales) * math.prod(len(_values(values)) for values in (mu, mu_kinetic, kappa, slope_deg))
-    check_limit(N_("combinations"), len(motion_list) * combination_count, "SEISBLOCK_CELLS")
+    check_limit(N_("combinations"), len(motion_list) * combination_count, MAX_CELLS)
     for motion, scale in itertools.product(motion_list, scales):
         motion_gains(motion, scale)
     bases = [

@@ -14,7 +14,7 @@ from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_factory import spring_block
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, check_limit
 from seisblock.core.typing import ArrayLike, FloatArray, Progress
 from seisblock.models.uplift.harmonic import uplift_thresholds
 from seisblock.models.uplift.minima import UpliftMinimum, lowest_uplift_threshold, uplift_minima
@@ -164,7 +164,7 @@ def uplift_regions(
     [0.087, 0.047]
     """
     block_list, ratio = list(blocks), np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
-    check_limit(N_("curve points"), len(block_list) * ratio.size, "SEISBLOCK_CELLS")
+    check_limit(N_("curve points"), len(block_list) * ratio.size, MAX_CELLS)
     regions = []
     for body, phi, rho in block_list:
         regions.append(uplift_region(body, ratio, phi_deg=phi, rho_deg=rho, corner=corner, between=between))
@@ -207,7 +207,7 @@ def harmonic_blocks(
         if "alpha" in overrides or "gamma" in overrides:
             raise BodyError("`alpha` and `gamma` are ratios of the sizes; give sizes or ratios, not both")
         grid["alpha"] = grid["gamma"] = (float("nan"),)
-    check_limit(N_("combinations"), math.prod(len(values) for values in grid.values()), "SEISBLOCK_CELLS")
+    check_limit(N_("combinations"), math.prod(len(values) for values in grid.values()), MAX_CELLS)
     for values in itertools.product(*grid.values()):
         combination = dict(zip(grid, values, strict=True))
         alpha, gamma, phi, rho = (combination.pop(name) for name in ("alpha", "gamma", "phi", "rho"))

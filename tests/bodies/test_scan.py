@@ -367,16 +367,16 @@ def test_scan_rejects_other_files(name, data, told_so, tmp_path):
 
 def test_scan_limits_bytes_and_triangles(tmp_path, monkeypatch):
     """Bytes and triangles, each with the variable that lifts it; counted before a triangle is made."""
-    monkeypatch.setenv("SEISBLOCK_TRIANGLES", "10")
+    monkeypatch.setattr("seisblock.bodies.scan.mesh.MAX_TRIANGLES", 10)
     for write in (write_ply, write_obj, write_stl):
         path = write(tmp_path / f"box.{write.__name__[-3:]}", *BOX)
         with monkeypatch.context() as patch:
             patch.setattr("seisblock.bodies.scan.mesh._load_triangles", None)
-            with pytest.raises(BodyError, match=r"16 triangles exceed the limit of 10: .* SEISBLOCK_TRIANGLES"):
+            with pytest.raises(BodyError, match=r"16 triangles exceed the limit of 10: .* SEISBLOCK_LIMIT_FACTOR"):
                 read_mesh(path)
-    monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
     path.write_bytes(path.read_bytes() + bytes(2**21))
-    with pytest.raises(BodyError, match="SEISBLOCK_READ_MIB"):
+    with pytest.raises(BodyError, match="SEISBLOCK_MEMORY_MIB"):
         read_mesh(path)
 
 

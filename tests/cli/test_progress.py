@@ -41,7 +41,6 @@ with shown.progress("working"):
 WORKS = {
     "working": "measure record.csv",
     "computing": "measure record.csv",
-    "loading compiled kernels": "slide record.csv --mu 0.2 --csv slide.csv",
     "reading record.csv": "measure record.csv",
     "margin": "rock record.csv --block gravestone --margin",
     "samples": "respond record.csv --block gravestone --runs 400",

@@ -48,8 +48,15 @@ def zip_of_zeros(size, level=9):
 
 @pytest.fixture
 def set_limits(monkeypatch):
-    """Return a function that sets limits through the environment."""
-    return lambda **limits: [monkeypatch.setenv(f"SEISBLOCK_READ_{name.upper()}", str(value)) for name, value in limits.items()]
+    """Return a function that sets the memory limit in the environment, and limits of counts in the module of the readers."""
+
+    def limit(mib=None, **counts):
+        if mib is not None:
+            monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", str(mib))
+        for name, value in counts.items():
+            monkeypatch.setattr(f"seisblock.readers.limits.{name}", value)
+
+    return limit
 
 
 def assert_refused(path, says):
@@ -73,7 +80,7 @@ def test_declared_member_size_is_checked_first(tmp_path, set_limits):
     set_limits(mib=2)
     path = tmp_path / "large.zip"
     path.write_bytes(zip_of_zeros(5 * 2**20))
-    assert_refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_READ_MIB to read more")
+    assert_refused(path, "large.zip/huge.csv: 5 MiB, more than the limit of 2; set SEISBLOCK_MEMORY_MIB to read more")
     (tmp_path / "plain.csv").write_bytes(b"1\n" * 2**21)
     assert_refused(tmp_path / "plain.csv", "4 MiB, more than the limit of 2")
 
@@ -84,7 +91,7 @@ def test_unpacked_bytes_are_counted(packer, tmp_path, set_limits):
     set_limits(mib=1)
     path = tmp_path / "bomb.csv.gz"
     path.write_bytes(packer.compress(b"0" * 3 * 2**20))
-    assert_refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_READ_MIB")
+    assert_refused(path, "larger than the limit of 1 MiB; set SEISBLOCK_MEMORY_MIB")
 
 
 def test_nested_archives_share_one_limit(tmp_path, set_limits):
@@ -98,7 +105,7 @@ def test_nested_archives_share_one_limit(tmp_path, set_limits):
 
 def test_nesting_depth_and_member_count_are_limited(tmp_path, set_limits):
     """An archive in an archive in an archive, and more files than anyone packs."""
-    set_limits(nesting=3, members=50)
+    set_limits(MAX_NESTING=3, MAX_MEMBERS=50)
     data = tar({"a.NS": knet().encode()})
     for depth in range(5):
         path = tmp_path / f"{depth}.tar"
@@ -106,26 +113,26 @@ def test_nesting_depth_and_member_count_are_limited(tmp_path, set_limits):
         if depth < 3:
             assert read(path).samples == 200
         else:
-            assert_refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_READ_NESTING")
+            assert_refused(path, "4 levels of nested archives, more than the limit of 3; set SEISBLOCK_LIMIT_FACTOR")
         data = tar({"inner.tar": data})
     path = tmp_path / "crowd.tar"
     path.write_bytes(tar({f"{i}.txt": b"x" for i in range(60)}))
-    assert_refused(path, "51 files, more than the limit of 50; set SEISBLOCK_READ_MEMBERS")
+    assert_refused(path, "51 files, more than the limit of 50; set SEISBLOCK_LIMIT_FACTOR")
 
 
 def test_sample_count_is_limited(tmp_path, set_limits):
     """More samples than are wanted are refused by their number."""
-    set_limits(samples=5)
+    set_limits(mib=1, _SAMPLE_BYTES=2**20 // 5)
     path = tmp_path / "a.csv"
     path.write_bytes((JMA_HEADER + JMA_BODY).encode("cp932"))
-    assert_refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_READ_SAMPLES")
+    assert_refused(path, "9 samples, more than the limit of 5; set SEISBLOCK_MEMORY_MIB")
 
 
 @pytest.mark.parametrize("text", ["-1", "0", "lots", "1.5", "٣"])
 def test_limit_variable_requires_integer(monkeypatch, text):
     """Anything else is named."""
-    monkeypatch.setenv("SEISBLOCK_READ_MIB", text)
-    with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive integer, found"):
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", text)
+    with pytest.raises(ParameterError, match="SEISBLOCK_MEMORY_MIB must be a positive integer, found"):
         read("synthetic_jma.csv")
 
 

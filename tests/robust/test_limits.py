@@ -133,12 +133,14 @@ def test_count_options_reject_huge_values(what):
 def test_environment_variable_raises_limit(monkeypatch):
     """What the sentence names does it, on the command line and in the library."""
     words = ["rock", "--block", "gravestone", "--perturb", "4"]
-    monkeypatch.setenv("SEISBLOCK_RUNS", "3")
+    monkeypatch.setattr("seisblock.studies.rocking.perturb.MAX_RUNS", 3)
+    (count,) = (option.type for option in main.get_command(None, "rock").params if option.opts[0] == "--perturb")
+    monkeypatch.setattr(count, "limit", 3)
     done = CliRunner().invoke(main, words)
-    assert done.exit_code == 2 and "4 samples exceed the limit of 3: reduce the number or raise SEISBLOCK_RUNS" in " ".join(
+    assert done.exit_code == 2 and "4 samples exceed the limit of 3: reduce the number or raise SEISBLOCK_LIMIT_FACTOR" in " ".join(
         done.stderr.split()
     )
-    monkeypatch.setenv("SEISBLOCK_RUNS", "4")
+    monkeypatch.setenv("SEISBLOCK_LIMIT_FACTOR", "2")
     assert CliRunner().invoke(main, words).exit_code == 0
 
 
@@ -219,11 +221,11 @@ def test_device_behind_link_is_rejected(what, tmp_path):
 @pytest.mark.parametrize("what", READ)
 def test_reading_stops_at_limit(what, tmp_path, monkeypatch):
     """R9: what lifts the limit is named; a pipe, which does not say how much comes, is read as far as it."""
-    monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
     name, use = READ[what]
     path = tmp_path / name
     path.write_bytes(b"0" * (2**20 + 1))
-    refused = pytest.raises(InputError, match=f"{name}: 2 MiB in a file exceed the limit of 1: .* raise SEISBLOCK_READ_MIB")
+    refused = pytest.raises(InputError, match=f"{name}: 2 MiB in a file exceed the limit of 1: .* raise SEISBLOCK_MEMORY_MIB")
     with refused:
         use(path)
     path.unlink()
@@ -235,16 +237,16 @@ def test_reading_stops_at_limit(what, tmp_path, monkeypatch):
 
 def test_curves_of_day_long_record_are_rejected_with_remedy(tmp_path, monkeypatch):
     """A figure and a table of curves name the memory they would take; the verdict alone is given."""
-    monkeypatch.setenv("SEISBLOCK_CURVES_MIB", "1")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
     monkeypatch.chdir(tmp_path)
-    lines = ("time,NS (gal)\n", *(f"{0.01 * k:.2f},{100 * (k % 7 - 3)}\n" for k in range(20_000)))
+    lines = ("time,NS (gal)\n", *(f"{0.01 * k:.2f},{50 * (k % 7 - 3)}\n" for k in range(20_000)))
     (tmp_path / "long.csv").write_text("".join(lines))
     words = ["slide", "long.csv", "--mu", "0.2", "--quiet"]
     done = CliRunner().invoke(main, [*words, "--csv", "out.csv"])
     assert done.exit_code == 3 and not (tmp_path / "out.csv").exists(), done.stderr
     told = " ".join(done.stderr.split())
-    assert "need 2 MiB, more than the limit of 1 MiB" in told and "raise SEISBLOCK_CURVES_MIB" in told
+    assert "need 3 MiB, more than the limit of 1 MiB" in told and "raise SEISBLOCK_MEMORY_MIB" in told
     assert CliRunner().invoke(main, words).exit_code == 0
-    monkeypatch.setenv("SEISBLOCK_CURVES_MIB", "100")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "100")
     assert CliRunner().invoke(main, [*words, "--csv", "out.csv"]).exit_code == 0
     assert len((tmp_path / "out.csv").read_text().splitlines()) > 20_000

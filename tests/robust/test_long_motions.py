@@ -132,9 +132,9 @@ def test_event_buffer_overflow_changes_nothing(monkeypatch):
 
 def test_unbounded_events_are_rejected_with_remedy(monkeypatch):
     """Each of them takes memory: how much is said, and what lifts the limit."""
-    monkeypatch.setenv("SEISBLOCK_CHANGES_MIB", "1")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "1")
     noise = Motion.from_arrays(np.random.default_rng(1).normal(size=40_000), 0.01)
-    with pytest.raises(ParameterError, match=r"^\d+ mode changes need 2 MiB, more than the limit of 1 MiB: .* raise SEISBLOCK_CHANGES_MIB"):
+    with pytest.raises(ParameterError, match=r"^\d+ mode changes need 2 MiB, more than the limit of 1 MiB: .* raise SEISBLOCK_MEMORY_MIB"):
         seisblock.solve_slide(0.05, noise)
 
 

@@ -160,11 +160,11 @@ def test_intensity_of_prime_length_beyond_limit_is_none(monkeypatch):
     samples = 2**18 + 3  # a prime
     found = make_record(samples)
     whole = jma_intensity(found)
-    monkeypatch.setenv("SEISBLOCK_TRANSFORM_MIB", "45")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "45")
     assert whole is not None and jma_intensity(found) is None
     reason = "filtering 262147 samples needs 46 MiB, more than the limit of 45 MiB: shorten the record by one or two samples"
     assert any(reason in warning for warning in measure(found).warnings)
     shorter = Record(tuple(Component(c.code, c.acceleration[:-3]) for c in found.components), found.dt)
     assert jma_intensity(shorter) == pytest.approx(whole, abs=1e-3)
-    monkeypatch.setenv("SEISBLOCK_TRANSFORM_MIB", "46")
+    monkeypatch.setenv("SEISBLOCK_MEMORY_MIB", "46")
     assert jma_intensity(found) == whole

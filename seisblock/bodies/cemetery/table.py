@@ -24,7 +24,7 @@ from seisblock.core.io.csv_table import (
     row_dict,
     split_cells,
 )
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_STONES, check_limit
 from seisblock.samples import resolve_file_or_sample, sample_names
 
 _COLUMN_NAMES = {
@@ -119,7 +119,7 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
         (bad_line, message), more_text = bad_rows[0], more_bad_rows([number for number, _ in bad_rows[1:]])
         raise BodyError("{source}, line {line}: {what}{others}", source=source, line=bad_line, what=message, others=more_text)
     size = sum(stone.count for stone in stones)
-    check_limit(N_("gravestones"), size, "SEISBLOCK_STONES", source=source, error=BodyError)
+    check_limit(N_("gravestones"), size, MAX_STONES, source=source, error=BodyError)
     notes = tuple(line.lstrip("# ").rstrip() for number, line in lines if number < header_line and line.startswith("#"))
     return Cemetery(tuple(stones), Path(source).stem, source, notes)
 
@@ -215,7 +215,7 @@ def _parse_count(row: Mapping[str, str]) -> int:
         return 1
     if not (1 <= value < math.inf and value == int(value)):
         raise BodyError("count must be an integer, 1 or more; found {count}", count=row["count"])
-    check_limit(N_("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
+    check_limit(N_("gravestones"), int(value), MAX_STONES, error=BodyError)
     return int(value)
 
 

@@ -27,7 +27,7 @@ from seisblock.bodies.uncertainty import parse_ranges
 from seisblock.core import checks
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_PILE_STONES, check_limit
 
 _PILE_KEYS = {"name", "kind", "mu", "mu_kinetic", "density", "inset", "reinforced", "fixed", "stone", "note", "ranges"}
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "mu_kinetic", "bottom", "shape", "inset"}
@@ -68,7 +68,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
         raise BodyError("{source}: a pile requires at least one [[stone]] table", source=source)
-    check_limit(N_("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", source=source, error=BodyError)
+    check_limit(N_("stones of a pile"), len(entries), MAX_PILE_STONES, source=source, error=BodyError)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
         support = stones[-1].name if stones else GROUND

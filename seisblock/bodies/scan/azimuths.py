@@ -11,7 +11,7 @@ from seisblock.bodies.block import RIGHT
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.core import checks
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.units import STANDARD_GRAVITY
 
 DEFAULT_STEP_DEG = 10.0
@@ -70,7 +70,7 @@ def scan_azimuths(body: ScannedBody, *, step_deg: float = DEFAULT_STEP_DEG, grav
     """
     checks.instance(body, ScannedBody)
     checks.positive("`step_deg`", step_deg, "degrees")
-    check_limit(N_("azimuths"), math.ceil(360.0 / step_deg), "SEISBLOCK_RUNS")
+    check_limit(N_("azimuths"), math.ceil(360.0 / step_deg), MAX_RUNS)
     return [_at_azimuth(body, azimuth, gravity) for azimuth in np.arange(0.0, 360.0, step_deg).tolist()]
 
 

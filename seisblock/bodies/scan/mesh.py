@@ -15,7 +15,7 @@ from seisblock.core import checks
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, join_alternatives
 from seisblock.core.io.files import read_bytes
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_TRIANGLES, check_limit
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import LENGTH_UNITS
 from seisblock.samples import find_sample
@@ -93,7 +93,7 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
         raise BodyError("unknown upward axis {up!r} of a mesh; known: {known}", up=str(up)[:40], known=list(AXIS_ROTATIONS))
     data = _read_mesh_file(name)
     suffix = Path(name).suffix.lower()
-    check_limit(N_("triangles"), _declared_triangles(data, suffix), "SEISBLOCK_TRIANGLES", source=str(name), error=BodyError)
+    check_limit(N_("triangles"), _declared_triangles(data, suffix), MAX_TRIANGLES, source=str(name), error=BodyError)
     vertices, faces = _load_triangles(io.BytesIO(data), suffix, str(name))
     if faces.size == 0:
         raise BodyError("{name} contains no triangles: export a surface from the scan software", name=str(name))

@@ -26,7 +26,7 @@ from seisblock.bodies.toml import (
 from seisblock.core import checks
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_BASE_CORNERS, check_limit
 
 KEYS = ("name", "mass", "height", "centre", "inertia", "base", "inset", "facing", "scan")
 OPTIONAL_KEYS = ("mu", "mu_kinetic", "restitution")
@@ -49,7 +49,7 @@ def scan_from_table(table: Mapping[str, Any]) -> ScannedBody:
     facing = get_number(table, "facing")
     inset = table.get("inset", 0.0)
     base = _parse_rows(table, "base", 2)
-    check_limit(N_("corners of the base"), len(base), "SEISBLOCK_CORNERS", source=source, error=BodyError)
+    check_limit(N_("corners of the base"), len(base), MAX_BASE_CORNERS, source=source, error=BodyError)
     return ScannedBody(
         get_text(table, "name", source),
         get_mass(table, "mass"),

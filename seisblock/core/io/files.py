@@ -6,9 +6,8 @@ import stat
 from pathlib import Path
 
 from seisblock.core.errors import InputError, SeisblockError, os_error_text
-from seisblock.core.i18n import N_
 from seisblock.core.io.overwrite import mark_read
-from seisblock.core.limits import MIB, check_limit
+from seisblock.core.limits import MIB, check_file_size
 
 MAX_NAME_LENGTH = 200
 """Maximum length of a file name in messages."""
@@ -44,21 +43,17 @@ def read_bytes(path: Path, name: str, error: type[InputError]) -> bytes:
         info = path.stat()
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
             raise error("{name} is a device: give a regular file", name=name)
-        _check_size(info.st_size, name, error)
+        check_file_size(info.st_size, name, error)
         mark_read(path)
         with path.open("rb") as stream:
             while piece := stream.read(MIB):
                 pieces.append(piece)
                 size += len(piece)
                 # the size of a pipe is not known in advance
-                _check_size(size, name, error)
+                check_file_size(size, name, error)
     except SeisblockError:
         # must not be caught below: OutputError is an OSError, too
         raise
     except OSError as failure:
         raise error("cannot read {name}: {reason}", name=name, reason=os_error_text(failure)) from failure
     return b"".join(pieces)
-
-
-def _check_size(size: int, name: str, error: type[InputError]) -> None:
-    check_limit(N_("MiB in a file"), -(-size // MIB), "SEISBLOCK_READ_MIB", source=name, error=error)

@@ -1,7 +1,7 @@
-"""Protection of input files against overwriting.
+"""Protection of input files: outputs that would overwrite a file read or written in the same run are rejected.
 
-Files read and written in a run are tracked, and outputs that would overwrite one of them are rejected. Files are identified by device
-and inode, so that links and relative paths make no difference. Outside :func:`track_files` nothing is tracked or rejected.
+Files are identified by device and inode, so that links and relative paths make no difference. Outside :func:`track_files` nothing is
+tracked or rejected.
 """
 
 from __future__ import annotations
@@ -23,79 +23,59 @@ FileIdentity = tuple[int, int] | str
 
 @dataclass
 class FileTracker:
-    """Files of one run with the names used for them, and the file that stdout is redirected to, if any."""
+    """Names of the files of one run by their identities, and the identity of the file that stdout goes to, if any."""
 
+    stdout: FileIdentity | None
     read: dict[FileIdentity, str] = field(default_factory=dict)
     written: dict[FileIdentity, str] = field(default_factory=dict)
-    stdout: FileIdentity | None = None
 
 
 _tracker: ContextVar[FileTracker | None] = ContextVar("file_tracker", default=None)
 
 
 @contextlib.contextmanager
-def track_files(stdout: TextIO | None = None) -> Iterator[FileTracker]:
-    """Track files read and written inside the block, including the target of stdout."""
-    token = _tracker.set(FileTracker(stdout=_stream_identity(stdout)))
+def track_files(stdout: TextIO) -> Iterator[None]:
+    """Track files read and written inside the block, and the file that stdout is redirected to."""
+    target = None
+    with contextlib.suppress(OSError, ValueError):  # closed, or without a file descriptor
+        info = os.fstat(stdout.fileno())
+        target = (info.st_dev, info.st_ino) if stat.S_ISREG(info.st_mode) else None
+    token = _tracker.set(FileTracker(target))
     try:
-        tracker = _tracker.get()
-        assert tracker is not None
-        yield tracker
+        yield
     finally:
         _tracker.reset(token)
 
 
-def file_identity(path: Path) -> FileIdentity:
-    """Return the identity of a file: device and inode, or the resolved path of a file that does not exist."""
+def _identity(path: Path) -> FileIdentity:
     try:
         info = path.stat()
     except OSError:
-        # Path.resolve raises on a symbolic link to itself
-        return os.path.realpath(path)
+        return os.path.realpath(path)  # Path.resolve raises on a symbolic link to itself
     return info.st_dev, info.st_ino
 
 
-def _stream_identity(stream: TextIO | None) -> FileIdentity | None:
-    """Return the identity of the target of a stream; None for a terminal, a pipe or a device."""
-    if stream is None:
-        return None
-    try:
-        info = os.fstat(stream.fileno())
-    except (OSError, ValueError):
-        # closed stream, or a stream without a file descriptor
-        return None
-    return (info.st_dev, info.st_ino) if stat.S_ISREG(info.st_mode) else None
-
-
 def mark_read(path: Path) -> None:
-    """Register a file that is read.
-
-    Raises
-    ------
-    OutputError
-        If stdout is redirected to the file.
-    """
-    tracker = _tracker.get()
-    if tracker is not None and path.is_file():
-        key = file_identity(path)
+    """Register a file that is read; raise OutputError if stdout is redirected to it."""
+    if (tracker := _tracker.get()) is not None and path.is_file():
+        key = _identity(path)
         if key == tracker.stdout:
             raise OutputError("stdout is redirected to the input file {path}: redirect it to another file", path=path)
         tracker.read.setdefault(key, str(path))
 
 
-def check_not_input(path: Path) -> None:
-    """Raise an error if an output would overwrite an input file or another output of this run.
+def mark_written(path: Path) -> None:
+    """Register a file that was written."""
+    if (tracker := _tracker.get()) is not None and path.is_file():
+        tracker.written[_identity(path)] = str(path)
 
-    Raises
-    ------
-    OutputError
-        If the output is a file read or written in this run, or the target of stdout.
-    """
+
+def check_not_input(path: Path) -> None:
+    """Raise OutputError if an output is a file read or written in this run, or the target of stdout."""
     tracker = _tracker.get()
-    if tracker is None or (path.exists() and not path.is_file()):
-        # devices and pipes cannot be overwritten
+    if tracker is None or (path.exists() and not path.is_file()):  # devices and pipes cannot be overwritten
         return
-    key = file_identity(path)
+    key = _identity(path)
     if key in tracker.read:
         raise OutputError(
             "the output {path} would overwrite the input file {use}: choose another output name", path=path, use=tracker.read[key]
@@ -108,10 +88,3 @@ def check_not_input(path: Path) -> None:
         raise OutputError(
             "the output {path} would overwrite another output ({use}): give each output its own name", path=path, use=tracker.written[key]
         )
-
-
-def mark_written(path: Path) -> None:
-    """Register a file that was written."""
-    tracker = _tracker.get()
-    if tracker is not None and path.is_file():
-        tracker.written[file_identity(path)] = str(path)

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_curve_memory
+from seisblock.core.limits import check_memory
 from seisblock.core.results import Channel, Event, Histories, Phase
 from seisblock.models.jump import modes as flying
 from seisblock.models.jump import rocking
@@ -141,7 +141,7 @@ def all_phases_and_events(motion: Motion, segments: Sequence[Segment]) -> tuple[
 
 def jump_histories(motion: Motion, block: TwoLayerBlock, segments: Sequence[Segment]) -> Histories:
     """Return the time histories of the whole motion, chains and rests."""
-    check_curve_memory(motion.samples, COLUMNS)
+    check_memory(N_("samples of time histories"), motion.samples, 8 * (COLUMNS))
     clock = motion.time
     columns: list[tuple[np.ndarray, ...]] = []
     for segment in segments:

@@ -13,7 +13,7 @@ from seisblock.bodies.pile.stone import Joint, bearing_rectangle
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_JOINT_POINTS, check_limit
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.models.stack.buffers import PileLayout, PileMemory
 from seisblock.models.stack.constraint_assembly import CONTACT_ID_COLUMNS, STEP_INFO_COLUMNS
@@ -133,7 +133,7 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, restitutio
         with edge wear with a grid.
     """
     checks.integer("the number of points along each side of a joint", points, minimum=2)
-    check_limit(N_("points along each side of a joint"), points, "SEISBLOCK_PILE_POINTS")
+    check_limit(N_("points along each side of a joint"), points, MAX_JOINT_POINTS)
     _check_bases(body, contact, points)
     members = tuple(body.bodies())
     centres = np.array(body.centres())

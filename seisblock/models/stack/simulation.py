@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core.errors import ParameterError
-from seisblock.core.limits import check_curve_memory
+from seisblock.core.i18n import N_
+from seisblock.core.limits import check_memory
 from seisblock.core.results import Status
 from seisblock.core.typing import FloatArray
 from seisblock.dynamics.cancellation import check_cancelled
@@ -141,7 +142,7 @@ class Simulation:
         """
         if end.rows <= len(end.track.time):
             return end.track
-        check_curve_memory(end.rows, CURVE_COLUMNS * len(self.pile.body.stones))
+        check_memory(N_("samples of time histories"), end.rows, 8 * CURVE_COLUMNS * len(self.pile.body.stones))
         return self.run(end.rows).track
 
     def _motion_chunks(self) -> Iterator[tuple[int, FloatArray]]:

@@ -10,7 +10,7 @@ import numpy as np
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray
 from seisblock.records.record import Component, Record
 from seisblock.records.synthetic.point_source import PointSource
@@ -77,7 +77,7 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     source = PointSource(magnitude, 1e3 * checks.in_interval("the distance", distance_km, "[1, 300]", "km"))
     checks.integer("the number of records", count, minimum=1)
     envelope, onset = _envelope(source)
-    check_limit(N_("samples of synthetic records"), 3 * count * envelope.size, "SEISBLOCK_READ_SAMPLES")
+    check_memory(N_("samples of synthetic records"), 3 * count * envelope.size, 8)
     # a discrete transform is the continuous one over the sampling interval
     target = source.spectrum(np.asarray(np.fft.rfftfreq(envelope.size, DT), dtype=np.float64)) / DT
     name = f"synthetic_M{magnitude:g}_R{distance_km:g}"

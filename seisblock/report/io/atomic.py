@@ -37,14 +37,9 @@ ENCODING_ERRORS = "backslashreplace"
 
 @contextlib.contextmanager
 def atomic_write(path: Path | str) -> Iterator[Path]:
-    """Yield a temporary file that replaces `path` when the block succeeds.
+    """Yield a temporary file that replaces `path` when the block succeeds; after an OutputError the old file is unchanged.
 
-    Links are followed; devices and pipes are written into. After an error the old file is unchanged.
-
-    Raises
-    ------
-    OutputError
-        If `path` is a folder, an input file, another output or read-only, its folder does not exist, or the disk is full.
+    Links are followed; devices and pipes are written into.
     """
     target = Path(path)
     try:
@@ -77,13 +72,7 @@ def atomic_write(path: Path | str) -> Iterator[Path]:
 
 
 def check_target(path: Path | str) -> Path:
-    """Return the resolved path of an output file after checking that it can be written.
-
-    Raises
-    ------
-    OutputError
-        If the file cannot be written.
-    """
+    """Return the resolved path of an output file; raise OutputError if it cannot be written."""
     target = Path(path)
     if target.exists() and not (target.is_file() or target.is_dir()):
         return target  # a pipe such as /dev/fd/63 has no resolved path
@@ -108,13 +97,7 @@ def check_target(path: Path | str) -> Path:
 
 
 def check_distinct_outputs(*targets: Path | str | None) -> None:
-    """Check, before anything is written, that outputs are writable and distinct; see :func:`check_target`.
-
-    Raises
-    ------
-    OutputError
-        If an output cannot be written, or two outputs are the same file.
-    """
+    """Raise OutputError, before anything is written, if an output cannot be written or two outputs are the same file."""
     targets_by_path: dict[Path, Path] = {}
     for target in (Path(path) for path in targets if path is not None):
         real = check_target(target)
@@ -126,13 +109,7 @@ def check_distinct_outputs(*targets: Path | str | None) -> None:
 
 
 def check_figure(path: Path | str) -> None:
-    """Check the suffix of a figure file.
-
-    Raises
-    ------
-    OutputError
-        If the suffix is not in :data:`FIGURE_SUFFIXES`.
-    """
+    """Raise OutputError if the suffix of a figure file is not in :data:`FIGURE_SUFFIXES`."""
     if Path(path).suffix.lower() not in FIGURE_SUFFIXES:
         raise OutputError(
             "cannot save the figure as {target}: the name must end in {suffixes}", target=path, suffixes=join_alternatives(FIGURE_SUFFIXES)
@@ -140,13 +117,7 @@ def check_figure(path: Path | str) -> None:
 
 
 def check_animation(path: Path | str) -> None:
-    """Check the suffix of an animation file, and that ffmpeg is available for .mp4.
-
-    Raises
-    ------
-    OutputError
-        If the suffix is not in :data:`ANIMATION_SUFFIXES`, or ffmpeg is missing for .mp4.
-    """
+    """Raise OutputError if the suffix of an animation is not in :data:`ANIMATION_SUFFIXES`, or ffmpeg is missing for .mp4."""
     suffix = Path(path).suffix.lower()
     if suffix not in ANIMATION_SUFFIXES:
         raise OutputError(
@@ -182,13 +153,7 @@ def write_text(path: Path | str, text: str) -> None:
 
 
 def make_folder(folder: Path) -> None:
-    """Create a folder and its parents if they do not exist.
-
-    Raises
-    ------
-    OutputError
-        If the folder cannot be created, or a file has its name.
-    """
+    """Create a folder and its parents if they do not exist; raise OutputError if that is impossible."""
     if folder.exists() and not folder.is_dir():
         raise OutputError("cannot write into {directory}: a file, not a folder; give a folder", directory=folder)
     try:
@@ -198,13 +163,7 @@ def make_folder(folder: Path) -> None:
 
 
 def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
-    """Write records as CSV at full precision, one file per record, into a folder that is created if needed; return the files.
-
-    Raises
-    ------
-    OutputError
-        If the folder cannot be created or a file cannot be written.
-    """
+    """Write records as CSV at full precision, one file per record, into a folder that is created if needed; return the files."""
     make_folder(folder)
     paths = []
     for record in records:
@@ -224,13 +183,7 @@ def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence
 
 
 def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
-    """Yield the rows of a CSV batch table, cells converted to the types of the columns, None where empty.
-
-    Raises
-    ------
-    OutputError
-        If the columns differ or the table cannot be read.
-    """
+    """Yield the rows of a CSV batch table, cells converted to the types of the columns, None where empty."""
     with table_errors(path), path.open(encoding="utf-8", newline="") as stream:
         rows = csv.DictReader(stream)
         check_columns(path, rows.fieldnames or (), columns)

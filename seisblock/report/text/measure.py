@@ -8,8 +8,8 @@ from typing import Any
 from rich.console import Group
 from rich.text import Text
 
-from seisblock.core.i18n import gettext
-from seisblock.core.limits import check_curve_memory
+from seisblock.core.i18n import N_, gettext
+from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
 from seisblock.records import Record
@@ -160,7 +160,7 @@ def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) 
 def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) -> Iterator[Sequence[Any]]:
     """Yield the rows of one record; missing components are empty."""
     present = {m.component for m in answer.components}
-    check_curve_memory(record.samples, 1 + 2 * len(present))
+    check_memory(N_("samples of time histories"), record.samples, 8 * (1 + 2 * len(present)))
     columns: list[FloatArray | None] = [record.time]
     for code in codes:
         if code not in present:

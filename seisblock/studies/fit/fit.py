@@ -12,7 +12,7 @@ from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
@@ -295,4 +295,4 @@ def _check_runs(runs: int) -> None:
     count = checks.integer("the number of runs", runs, minimum=1)
     if count > SHARE_DENOMINATOR or count & (count - 1):
         raise ParameterError("`runs` must be one of 1, 2, 4, 8, 16, 32, 64; found {found}", found=count)
-    check_limit(N_("Monte Carlo samples"), count, "SEISBLOCK_RUNS")
+    check_limit(N_("Monte Carlo samples"), count, MAX_RUNS)

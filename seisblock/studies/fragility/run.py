@@ -14,7 +14,7 @@ from seisblock.bodies.factory import block_for_motion
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, MAX_RUNS, check_limit
 from seisblock.core.registry import SolverBody, get_solver
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.readers.source import Location
@@ -178,7 +178,7 @@ def run_fragility(
     checks.in_interval("the confidence", confidence, "(0, 1)")
     checks.integer("the number of bootstrap samples", bootstrap, minimum=2)
     checks.integer("the number of samples of the body", perturb, minimum=0)
-    check_limit(N_("bootstrap samples"), bootstrap, "SEISBLOCK_RUNS")
+    check_limit(N_("bootstrap samples"), bootstrap, MAX_RUNS)
     if perturb and not capabilities(solver).samples_in_rows:
         raise ParameterError("`perturb` has no effect with {solver}: omit `perturb`", solver=solver)
     states = limit_states(limits, solver, capabilities(solver).limits)
@@ -274,7 +274,7 @@ def _run_all(study: StudyPlan, fit_options: FitOptions, grids: list[FloatArray],
     runs_per_motion = grids[0].shape[1] * versions
     total = runs_per_motion * len(study.suite.motions) * len(study.bodies)
     directions = max(sweep_azimuths(body.body).size for body in study.bodies) if study.suite.all_azimuths else 1
-    check_limit(N_("runs"), total * directions, "SEISBLOCK_CELLS")
+    check_limit(N_("runs"), total * directions, MAX_CELLS)
     results, count = [], 0
     for b, (body, grid, values) in enumerate(zip(study.bodies, grids, study.values, strict=True)):
         runs = []

@@ -13,7 +13,7 @@ from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, check_limit
 from seisblock.core.typing import ArrayLike, FloatArray, IntArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.initiation import friction_to_rock, peak_loading_ratio
@@ -131,7 +131,7 @@ def mode_map(
     cells = len(blocks) * mu.size
     if not cells:
         raise ParameterError("a mode map requires at least one cell: give at least one friction, size and slenderness")
-    check_limit(N_("cells"), cells, "SEISBLOCK_CELLS")
+    check_limit(N_("cells"), cells, MAX_CELLS)
     kinds, friction_by_cell = np.arange(cells) // mu.size, np.tile(mu, len(blocks))
     settings = RespondBatchParams(
         to_block_array(blocks)[kinds], friction_by_cell, friction_by_cell, np.full(cells, restitution), np.ones(cells), False, gravity, 0.0

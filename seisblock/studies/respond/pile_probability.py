@@ -17,7 +17,7 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.core import checks
 from seisblock.core.errors import SolverError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.models.stack.options import EDGES, StackOptions
 from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
@@ -175,7 +175,7 @@ def stack_probability(
     validate_inputs(body, Pile, motion)
     checks.instance(versions, PileVariation)
     checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
+    check_limit(N_("Monte Carlo samples"), runs, MAX_RUNS)
     checks.positive("the residual displacement that counts as moved", moved_m, "m")
     if options.mu_kinetic is not None:
         body = body.with_kinetic_friction(options.mu_kinetic)

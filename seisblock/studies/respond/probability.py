@@ -19,7 +19,7 @@ from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.models.respond.batch import RespondBatchResult, no_answer, respond_many
 from seisblock.models.respond.options import RespondOptions
@@ -162,7 +162,7 @@ def respond_probability(
     validate_inputs(block, Block, motion)
     checks.instance(versions, ParameterVariation)
     checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
+    check_limit(N_("Monte Carlo samples"), runs, MAX_RUNS)
     if not (math.isfinite(moved_m) and moved_m > 0.0):
         raise ParameterError("the residual displacement that counts as moved must be positive, found {found} m", found=moved_m)
     respond_params(block, options)  # validates the nominal values: perturbed ones are clipped into their ranges

@@ -16,7 +16,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.results import Response
 from seisblock.core.typing import BoolArray, FloatArray, Progress
 from seisblock.models.rock.options import RockOptions
@@ -116,7 +116,7 @@ def find_margin(
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan requires 0 < `step` <= `limit`, found step {step} and limit {limit}", step=step, limit=limit)
     params = rock_params(block, motion, options)
-    check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
+    check_limit(N_("factors"), math.floor(min(limit / step, 1e18)), MAX_RUNS)
     regular_factors = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     # a finer grid around 1, so that a verdict sensitive to 2 % of the amplitude is not missed
     grid = np.unique(np.concatenate([regular_factors, _nearby_factors()]))

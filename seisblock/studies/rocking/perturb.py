@@ -11,7 +11,7 @@ from seisblock.bodies.block_array import samples
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import RockBatchParams, rock_batch_params
@@ -131,7 +131,7 @@ def perturb(
     """
     checks.instance(spread, Spread)
     checks.integer("the number of runs", runs, minimum=1)
-    check_limit(N_("Monte Carlo samples"), runs, "SEISBLOCK_RUNS")
+    check_limit(N_("Monte Carlo samples"), runs, MAX_RUNS)
     validate_inputs(block, Block, motion)
     azimuth_width = spread.azimuth_deg if motion.transverse.any() else 0.0
     draws = draw_samples(runs, checks.seed(seed))

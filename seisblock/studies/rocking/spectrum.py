@@ -14,7 +14,7 @@ from seisblock.core import checks
 from seisblock.core._display import PlotMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_CELLS, check_limit
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.rock.options import RockOptions
@@ -148,7 +148,7 @@ def rocking_spectrum_all_azimuths(
     diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
     azimuth_sweep = make_azimuth_sweep(Block(1.0, 1.0), record, step_deg=step_deg, vertical=options.vertical)
     count, directions = len(blocks), azimuth_sweep.azimuths.size
-    check_limit(N_("cells"), count * directions, "SEISBLOCK_CELLS")
+    check_limit(N_("cells"), count * directions, MAX_CELLS)
     params = rock_batch_params(blocks, azimuth_sweep.motion, options)
     ratio, worst, falls = np.full(count, -1.0), np.zeros(count), np.zeros(count, dtype=np.int64)
     first = np.full(count, np.inf)
@@ -184,7 +184,7 @@ def _offset_progress(progress: Progress, offset: int, total: int) -> Progress:
 def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: EdgeWear) -> tuple[FloatArray, FloatArray, BlockArray]:
     diagonal = _check_grid(sizes, N_("size 2R"), "m", math.inf)
     alpha = _check_grid(slendernesses, N_("slenderness"), "rad", math.pi / 2)
-    check_limit(N_("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
+    check_limit(N_("cells"), diagonal.size * alpha.size, MAX_CELLS)
     return diagonal, alpha, rectangular_blocks(np.outer(diagonal, np.sin(alpha)).ravel(), np.outer(diagonal, np.cos(alpha)).ravel(), inset)
 
 

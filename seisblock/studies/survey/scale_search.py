@@ -17,7 +17,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core import checks
 from seisblock.core.i18n import N_
-from seisblock.core.limits import check_limit
+from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.dynamics import integrate_many
 from seisblock.models.jump.batch import jump_many
@@ -141,7 +141,7 @@ def scale_factors(
     checks.positive("the observed displacement", observed, "m")
     checks.positive("the largest factor", limit)
     checks.integer("the number of steps", steps, minimum=1)
-    check_limit(N_("factors"), steps, "SEISBLOCK_RUNS")
+    check_limit(N_("factors"), steps, MAX_RUNS)
     grid = [limit * i / steps for i in range(steps + 1)]
     values = [0.0, *_scan(displacement, grid[1:], progress)]
     peak = float(np.abs(motion.horizontal).max())
