@@ -38,7 +38,7 @@ from seisblock.core.registry import solver_names
 )
 @option("--solver", type=SuggestingChoice(solver_names()), default="respond", show_default=True, help="Model that computes the response.")
 @option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies without a friction of their own.")
-@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option(
     "--runs",
     type=Count(N_("samples"), MAX_RUNS, minimum=0),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import click
@@ -42,7 +43,7 @@ def criteria(
     gravity: float,
     restitution: float | None,
     linear: bool,
-    vertical: bool,
+    vertical: bool | None,
     azimuth: tuple[str, ...],
     mu: float | None,
     mu_kinetic: float | None,
@@ -60,6 +61,7 @@ def criteria(
     from seisblock.cli.load_records import load_records, selected_components
     from seisblock.cli.write_results import write_results
     from seisblock.records import motion_of
+    from seisblock.records._validation import vertical_acts
     from seisblock.report.json.criteria import document
     from seisblock.report.text import criteria as text_output
     from seisblock.studies.criteria_comparison import compare_criteria
@@ -73,15 +75,16 @@ def criteria(
     if mu is None:
         reject_without("--mu", ["mu_kinetic"])
     options = RockOptions(restitution=choice.restitution, linear=linear, vertical=vertical, gravity=gravity)
-    cards = []
+    cards, motions = [], []
     for record in load_records(source):
         for name in selected_components(record, source):
             motion = motion_of(record, name)
             require_vertical(motion, vertical)
+            motions.append(motion)
             block = choice.block_for_motion(motion)
             cards.append(compare_criteria(record, motion, block, mu=mu, mu_kinetic=mu_kinetic, options=options))
     write_results(
-        document(cards, options),
+        document(cards, replace(options, vertical=vertical_acts(motions, vertical))),
         output,
         tables=lambda: text_output.tables(cards, gal=output.gal),
         csv=lambda path: text_output.write_csv(path, cards),

@@ -107,7 +107,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
     help="Half width of the variation between runs, a share of size, slenderness, restitution and amplitude. [default: estimated]",
 )
 @option("--lapse", type=float, metavar="SHARE", help="Lapse rate: share of outcomes independent of the model. [default: estimated]")
-@option("--vertical/--no-vertical", default=False, help="Apply or omit the vertical component. [default: omitted]")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option(
     "--folds",
     type=Count(N_("folds"), MAX_VALUES, minimum=2),
@@ -132,6 +132,7 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
     Cross-validation shows how well the fitted block predicts records that were left out.
     """
     from seisblock.cli.progress import progress
+    from seisblock.records._validation import vertical_acts
     from seisblock.report.json.fit import document
     from seisblock.report.text import fit as text_output
     from seisblock.studies.fit.fit import fit_block
@@ -150,7 +151,8 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
             progress=advance,
             **options,
         )
-    answer = document(result, observed, block, outcomes, vertical=options["vertical"], gravity=options["gravity"])
+    acts = vertical_acts((observation.motion for observation in observed), options["vertical"])
+    answer = document(result, observed, block, outcomes, vertical=acts, gravity=options["gravity"])
 
     def figure() -> Any:
         from seisblock.report.figures.fit import fit_figure

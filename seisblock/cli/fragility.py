@@ -112,7 +112,7 @@ METHODS = ("stripes", "ida", "cloud")
     help="N samples of each body (size, edges, restitution, friction), which separate its share of the dispersion. [default: nominal "
     "body only]",
 )
-@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option("--confidence", type=float, default=0.95, show_default=True, help="Confidence level of the intervals, 0 to 1.")
 @option(
     "--bootstrap",

@@ -111,7 +111,11 @@ JUMPED_OPTIONS = (
 )
 @option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency.")
 @option("--largest", is_flag=True, help="--slid: the maximum displacement was observed, not the residual.")
-@option("--vertical", is_flag=True, help="--slid: apply the vertical component.")
+@option(
+    "--vertical/--no-vertical",
+    default=None,
+    help="--slid: apply or omit the vertical component. [default: applied where the record has one]",
+)
 @option("--flight-only", is_flag=True, help="--jumped: the jump alone was observed, without the slide-rocking after it.")
 @option("--first", is_flag=True, help="--jumped: use only the first chain of motion in the record. [default: sum of all]")
 @option("--repeat", is_flag=True, hidden=True, help="--jumped: sum of all chains of motion; the default since 0.2.0.")
@@ -248,6 +252,7 @@ def _assumptions(params: dict[str, Any]) -> Any:
 def _infer_from_displacement(source: Source, output: OutputOptions, params: dict[str, Any]) -> None:
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
+    from seisblock.records._validation import vertical_acts
     from seisblock.studies.survey.scale_search import scale_factors
 
     if params["slid"] is not None and params["mu"] is None:
@@ -255,14 +260,17 @@ def _infer_from_displacement(source: Source, output: OutputOptions, params: dict
     observed = params["jumped"] if params["slid"] is None else params["slid"]
     displacement_function, document = _moving_object(source, params)
     curves: list[tuple[Any, Any]] = []
+    motions = []
     # a jump continues beyond the window in which rocking may start
     for record in load_records(source, keep_whole=params["jumped"] is not None):
         for motion in selected_motions(record, source):
+            motions.append(motion)
             displacement = displacement_function(motion)
             with progress("{name}: factors up to {limit:g}", name=motion.name, limit=params["limit"]) as advance:
                 factors = scale_factors(displacement, observed, motion, limit=params["limit"], steps=params["steps"], progress=advance)
             curves.append((record, factors))
-    answer = document(curves, observed_m=observed, limit=params["limit"], steps=params["steps"])
+    options = {} if params["slid"] is None else {"vertical": vertical_acts(motions, params["vertical"])}
+    answer = document(curves, observed_m=observed, limit=params["limit"], steps=params["steps"], **options)
 
     def tables() -> Any:
         from seisblock.report.text.infer import factor_tables
@@ -299,9 +307,7 @@ def _moving_object(source: Source, params: dict[str, Any]) -> tuple[Any, Any]:
         options = SlideOptions(vertical=params["vertical"], gravity=gravity)
         displacement_function = partial(study.slide_displacement, base, options=options, largest=params["largest"])
         frictions = {"mu": params["mu"], "mu_kinetic": params["mu_kinetic"]}
-        return displacement_function, partial(
-            slid_document, largest=params["largest"], vertical=params["vertical"], gravity_m_s2=gravity, **frictions
-        )
+        return displacement_function, partial(slid_document, largest=params["largest"], gravity_m_s2=gravity, **frictions)
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     choice = two_layer_choice(params, default=DEFAULT_BLOCK)

@@ -60,7 +60,8 @@ def jump(source: Source, output: OutputOptions, repeat: bool, tenon: float | Non
 
     Each horizontal component is solved separately, as a sequence of chains of motion; a motion under way at the end of the record
     continues on still ground. --window limits the start of rocking, not the ground motion. Tilt is positive towards the component's
-    positive direction; displacements of the centroid are relative to the ground.
+    positive direction; displacements of the centroid are relative to the ground. The model of the paper has no vertical ground
+    motion: the vertical component of the record does not act.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
     from seisblock.cli.hints import jump_hint

@@ -71,7 +71,7 @@ DEFAULT_RUNS = 50
     help="--solver uplift: natural frequency of the vertical motion on the springs, Hz.",
 )
 @option("--solver", type=SuggestingChoice(solver_names()), help="Model that computes the response. [default: respond]")
-@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: as in the command of the solver]")
+@option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option(
     "--runs",
     type=Count(N_("samples"), MAX_RUNS, minimum=0),

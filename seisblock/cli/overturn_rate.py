@@ -10,6 +10,7 @@ import click
 
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, MAX_SHARE, EdgeWear
 from seisblock.cli import shell_completion
+from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
@@ -22,6 +23,7 @@ from seisblock.cli.write_results import write_results
 from seisblock.core import checks
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_CELLS, MAX_STONES, check_limit
+from seisblock.models.rock.options import RockOptions
 
 if TYPE_CHECKING:
     from seisblock.studies.survey.shaking import FrequencyKind
@@ -131,6 +133,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     callback=check_callback(partial(checks.in_interval, interval="(0, 1)")),
     help="Confidence level of the interval of the rate, 0 to 1.",
 )
+@solver_options(RockOptions, "vertical")
 @gravity_option
 @output_options(histories=False, film=False)
 def overturn_rate(
@@ -179,7 +182,8 @@ def overturn_rate(
         stones, [shaking for _, shakings in groups for shaking in shakings], method, reinforced_cemetery=dowelled
     )
     frequency_kind = "given" if params["frequency"] else FREQUENCY_KINDS[params["equivalent"]]
-    parameters = parameters_of(stones, dowelled, method, frequency_kind=frequency_kind)
+    motions = [shaking.motion for _, shakings in groups for shaking in shakings if shaking.motion is not None]
+    parameters = parameters_of(stones, dowelled, method, motions=motions, frequency_kind=frequency_kind)
     answer = document(results, curve, parameters, citations=method.citations, warnings=warnings)
 
     def tables() -> Any:
@@ -207,7 +211,7 @@ def overturn_rate(
 def _check_options(source: Source, params: dict[str, Any]) -> None:
     """Raise an error for options without effect on this motion or criterion."""
     if not source.record:
-        reject_without("RECORD", [*RECORD_OPTIONS, "equivalent"])
+        reject_without("RECORD", [*RECORD_OPTIONS, "equivalent", "vertical"])
     elif params["frequency"]:
         reject_with("--frequency", ["equivalent"])
     if params["criterion"] != "furukawa":
@@ -226,7 +230,9 @@ def _make_method(params: dict[str, Any]) -> Any:
         for custom, preset in ((params["fit"], PLAIN), (params["fit_reinforced"], DOWELLED))
     )
     width = PAPER_WIDTH if params["stone_width"] is None else params["stone_width"]
-    return AssessmentMethod(params["criterion"], (undowelled, dowelled), params["inset"], width, params["gravity"], params["confidence"])
+    return AssessmentMethod(
+        params["criterion"], (undowelled, dowelled), params["inset"], width, params["gravity"], params["confidence"], params["vertical"]
+    )
 
 
 def _resolve_inset(inset: EdgeWear | None, criterion: str) -> tuple[EdgeWear, list[str]]:

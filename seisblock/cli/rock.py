@@ -27,6 +27,7 @@ from seisblock.models.rock.options import RockOptions
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
+    from seisblock.records._validation import Gain
 
 DEFAULT_RUNS = 200
 """Default number of samples of body and motion with ``--margin``."""
@@ -37,7 +38,7 @@ DEFAULT_RUNS = 200
     essential=("--width", "--height", "--inset", "--kind", "--block", "--restitution", "--vertical", "--margin", "--floor"),
     examples=(
         "seisblock rock --width 24cm --height 72cm",
-        "seisblock rock record.csv --block gravestone --component EW --vertical --margin --plot rock.png",
+        "seisblock rock record.csv --block gravestone --component EW --margin --plot rock.png",
     ),
 )
 @record_options
@@ -75,7 +76,7 @@ def rock(
     gravity: float,
     restitution: float | None,
     linear: bool,
-    vertical: bool,
+    vertical: bool | None,
     azimuth: tuple[str, ...],
     mu: float | None,
     margin: bool,
@@ -154,7 +155,7 @@ def _azimuth_study(body: Any, options: RockOptions) -> Callable[[Record], Sequen
     return look
 
 
-def require_vertical(motion: Motion, vertical: bool) -> None:
+def require_vertical(motion: Motion, vertical: Gain | None) -> None:
     """Raise an error for ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(

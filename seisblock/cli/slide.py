@@ -12,6 +12,7 @@ from seisblock.cli.build import solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
+from seisblock.cli.option_checks import reject_with
 from seisblock.cli.options import Source, output_options, record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
@@ -45,7 +46,7 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     essential=("--mu", "--kappa", "--slope", "--one-way", "--vertical", "--target-pga"),
     examples=(
         "seisblock slide --mu 0.2",
-        "seisblock slide record.csv --mu 0.3 --kappa 0.5 --vertical --csv slide.csv --plot slide.png",
+        "seisblock slide record.csv --mu 0.3 --kappa 0.5 --csv slide.csv --plot slide.png",
         "seisblock slide --mu 0.05:0.20:0.005 --kappa 0.333,0.5,0.75,1 --plot study.png",
     ),
 )
@@ -79,8 +80,14 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @option(
     "--one-way", is_flag=True, section="Body", help="Slide only downhill (on level ground: in the positive direction), as Newmark assumed."
 )
-@option("--vertical", is_flag=True, help="Apply the vertical component.")
-@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Scale factor on the vertical component; implies --vertical. [default: 1]")
+@solver_options(SlideOptions, "vertical")
+@option(
+    "--vertical-scale",
+    type=FLOATS,
+    metavar="GAMMA",
+    help="Scale factor on the vertical component; implies --vertical. A parameter study with either option adds beta, the maximum "
+    "displacement with over without vertical motion. [default: 1]",
+)
 @solver_options(SlideOptions, "gravity")
 @output_options()
 def slide(
@@ -92,7 +99,7 @@ def slide(
     slope: tuple[float, ...],
     slope_length: float | None,
     one_way: bool,
-    vertical: bool,
+    vertical: bool | None,
     vertical_scale: tuple[float, ...] | None,
     gravity: float,
 ) -> None:
@@ -101,7 +108,9 @@ def slide(
     Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal component is
     solved separately; --component all-azimuths sweeps the azimuths in steps of 5 degrees and reports the worst.
     """
-    scales = vertical_scale or ((1.0,) if vertical else (0.0,))
+    if vertical is False:
+        reject_with("--no-vertical", ["vertical_scale"])
+    scales = vertical_scale or (None if vertical is None else (float(vertical),))
     parameters = {
         "mu": mu,
         "mu_kinetic": mu_kinetic,
@@ -140,7 +149,7 @@ def _run_single(
 
     base_options = {name: value for name, value in single.items() if name != "vertical"}
     base = sliding_base(**base_options, slope_length=fixed["slope_length"], one_way=fixed["one_way"])
-    vertical = single["vertical"]
+    vertical = single.get("vertical")
     responses, sweep = [], []
     for record in records:
         if directions is None:
@@ -195,7 +204,8 @@ def _run_study(
         else []
     )
     parameters = {
-        **{"vertical_scale" if name == "vertical" else name: values for name, values in choice.items()},
+        **{name: values for name, values in choice.items() if name != "vertical"},
+        "vertical_scale": tuple(dict.fromkeys(point.vertical for _, point in pairs)),
         "slope_length_m": fixed["slope_length"],
         "one_way": fixed["one_way"],
         "gravity_m_s2": fixed["gravity"],

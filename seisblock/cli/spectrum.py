@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.cli.azimuth_sweep import is_azimuth_sweep
@@ -123,7 +122,7 @@ def spectrum(
     steps: int,
     restitution: float | None,
     linear: bool,
-    vertical: bool,
+    vertical: bool | None,
     azimuth: tuple[str, ...],
 ) -> None:
     """Rocking spectrum: peak tilt of rectangular blocks over alpha, against size and slenderness, for each component.
@@ -131,7 +130,7 @@ def spectrum(
     Overturning is not monotone: the figure may show islands. With --component all-azimuths, tilts are those of the worst of 18
     azimuths; --kind overturning gives the number of azimuths in which each block overturns. --kind sliding: maximum slip against
     friction. --kind modes: response of a free-standing block as in respond, over friction and shape, or over friction and size for
-    one shape; the vertical component acts where the record has one, and --restitution is Poisson's, default 0.
+    one shape; --restitution is Poisson's, default 0.
     """
     source = with_azimuths(source, azimuth)
     if is_azimuth_sweep(source) and kind not in AZIMUTH_KINDS:
@@ -157,19 +156,11 @@ def spectrum(
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else None)
     if kind == "modes":
         _reject_options(kind, {"linear": linear})
-        vertical_given = click.get_current_context().get_parameter_source("vertical") is not ParameterSource.DEFAULT
-        _run_modes(
-            source,
-            output,
-            gravity,
-            (mu, diagonals, alphas, steps),
-            restitution or 0.0,
-            inset or SHARP_EDGES,
-            vertical if vertical_given else None,
-        )
+        _run_modes(source, output, gravity, (mu, diagonals, alphas, steps), restitution or 0.0, inset or SHARP_EDGES, vertical)
         return
     _reject_options(kind, {"mu": mu})
     from seisblock.cli.write_results import write_results
+    from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import document
     from seisblock.report.text import spectrum as text_output
 
@@ -177,8 +168,9 @@ def spectrum(
     alphas = default_slendernesses(steps) if alphas is None else alphas
     options = RockOptions(restitution=restitution, linear=linear, vertical=vertical, gravity=gravity)
     spectra = list(_spectra(source, diagonals, alphas, inset or SHARP_EDGES, options))
+    applied_options = replace(options, vertical=vertical_acts((motion for motion, _ in spectra), vertical))
     write_results(
-        document(spectra, kind, options, inset or SHARP_EDGES),
+        document(spectra, kind, applied_options, inset or SHARP_EDGES),
         output,
         tables=lambda: text_output.tables(spectra, kind, _wear_note(inset)),
         csv=lambda path: text_output.write_csv(path, spectra),
@@ -195,7 +187,7 @@ def _spectra(source: Source, sizes: Any, alphas: Any, inset: EdgeWear, options: 
 
     if not is_azimuth_sweep(source):
         for motion in (motion for record in load_records(source) for motion in selected_motions(record, source)):
-            require_vertical(motion, bool(options.vertical))
+            require_vertical(motion, options.vertical)
             with progress("spectrum {name}", name=motion.name) as advance:
                 yield motion, rocking_spectrum(sizes, alphas, motion, inset=inset, progress=advance, options=options)
         return
@@ -216,11 +208,12 @@ def _reject_options(kind: str, values: dict[str, Any]) -> None:
             raise ParameterError("--{name} has no effect with --kind {kind}: omit it", name=name, kind=kind)
 
 
-def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
+def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tuple[float, ...] | None, vertical: bool | None) -> None:
     """Run ``--kind sliding``."""
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
+    from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import sliding_document
     from seisblock.report.text import sliding_spectrum as text_output
     from seisblock.studies.sliding import slide_study
@@ -232,7 +225,7 @@ def _run_sliding(source: Source, output: OutputOptions, gravity: float, mu: tupl
         with progress("sliding {name}", name=motion.name) as advance:
             curves.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=advance)))
     write_results(
-        sliding_document(curves, gravity=gravity, vertical=vertical),
+        sliding_document(curves, gravity=gravity, vertical=vertical_acts((motion for motion, _ in curves), vertical)),
         output,
         tables=lambda: text_output.tables(curves),
         csv=lambda path: text_output.write_csv(path, curves),
@@ -253,13 +246,14 @@ def _run_modes(
     from seisblock.cli.load_records import load_records, selected_motions
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
+    from seisblock.records._validation import vertical_acts
     from seisblock.report.json.spectrum import modes_document
     from seisblock.report.text import mode_map as text_output
     from seisblock.studies.respond.mode_map import mode_map
 
     all_motions = [motion for record in load_records(source) for motion in selected_motions(record, source)]
     for motion in all_motions:
-        require_vertical(motion, bool(vertical))
+        require_vertical(motion, vertical)
     axes = _grid_axes(all_motions, grid, gravity, vertical=vertical)
     maps = []
     for motion in all_motions:
@@ -267,7 +261,7 @@ def _run_modes(
             result = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=vertical, gravity=gravity, progress=advance)
             maps.append((motion, result))
     write_results(
-        modes_document(maps, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical is not False),
+        modes_document(maps, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical_acts(all_motions, vertical)),
         output,
         tables=lambda: text_output.tables(maps, _wear_note(inset)),
         csv=lambda path: text_output.write_csv(path, maps),

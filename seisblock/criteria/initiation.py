@@ -20,6 +20,7 @@ from seisblock.core.i18n import N_
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
 from seisblock.records._validation import Gain, vertical_gain
+from seisblock.records.motion import ALONG, UP
 
 REST, SLIDE, ROCK, SLIDE_ROCK = N_("rest"), N_("slide"), N_("rock"), N_("slide-rock")
 """Modes at the initiation of motion."""
@@ -50,6 +51,34 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
         ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)
     peak_index = int(np.argmax(ratio))
     return float(ratio[peak_index]), float(motion.time[peak_index])
+
+
+def onset_factor(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:
+    """Return the smallest scale factor at which a body moves; infinite if none does.
+
+    Motion to +x begins at -a = c (g + a_v) with ground acceleration a to +x; a and a_v are both scaled (derived here).
+
+    Parameters
+    ----------
+    towards : (float, float), 1
+        Ratio c of horizontal to vertical acceleration at which motion to +x and to -x begins; infinite if impossible.
+    motion : Motion
+    gravity : float, m/s^2
+    vertical : float, 1
+        Factor on the vertical motion.
+
+    Examples
+    --------
+    >>> onset_factor((0.1, 0.2), Motion.from_arrays([0.0, 1.6, -0.5], 0.01), gravity=10.0)
+    1.25
+    """
+    max_ratio = 0.0
+    for stretch in motion.segments((True, False, vertical != 0.0)):
+        along, up = stretch.acceleration[ALONG], vertical * stretch.acceleration[UP]
+        for sense, share in zip((-1.0, 1.0), towards, strict=True):
+            if 0.0 < share < np.inf:
+                max_ratio = max(max_ratio, float(np.max(sense * along - share * up)) / share)
+    return gravity / max_ratio if max_ratio > 0.0 else np.inf
 
 
 def friction_to_rock(block: Block, ratio: float) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TypeAlias
 
 from seisblock.core import checks
@@ -63,7 +64,12 @@ def vertical_gain(motion: Motion, vertical: Gain | None) -> float:
     ----------
     motion : Motion
     vertical : bool, float or None
-        Switch or factor; None applies the vertical component where the record has one.
+        Switch or factor; None applies the vertical component where the motion has one.
+
+    Returns
+    -------
+    float
+        With None: 1.0 if the motion's record has a vertical component, or, without a record, if any vertical sample is nonzero; else 0.0.
 
     Raises
     ------
@@ -74,7 +80,7 @@ def vertical_gain(motion: Motion, vertical: Gain | None) -> float:
     """
     # a missing component is a row of zeros, which a factor of one leaves alone
     if vertical is None:
-        return 1.0
+        return float(_has_vertical(motion))
     gain = checks.finite("the vertical gain", float(vertical) if isinstance(vertical, bool) else vertical)
     if gain != 0.0 and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
@@ -84,3 +90,16 @@ def vertical_gain(motion: Motion, vertical: Gain | None) -> float:
             codes=motion.record.codes,
         )
     return gain
+
+
+def vertical_acts(motions: Iterable[Motion], vertical: Gain | None) -> bool:
+    """Return True if the vertical acceleration acts in any of the motions; see :func:`vertical_gain`."""
+    gains = [vertical_gain(motion, vertical) for motion in motions]  # a list, so that every motion is validated
+    return any(gain != 0.0 for gain in gains)
+
+
+def _has_vertical(motion: Motion) -> bool:
+    """Return True if a motion has a vertical component."""
+    if motion.record is not None:
+        return motion.record.vertical is not None
+    return bool(motion.vertical.any())

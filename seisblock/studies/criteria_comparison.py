@@ -78,7 +78,7 @@ def compare_criteria(
     response = flag_near_flip(solve_rock(block, motion, **options.keywords()))
     rows = overturning_card(block, peaks.pga_m_s2, peaks.pgv_m_s, asdict(peaks.equivalent_frequency_hz), gravity)
     comparison = compare_models(block, motion, options=options)
-    estimate = best_estimate(block, motion, mu=mu, mu_kinetic=mu_kinetic, gravity=gravity)
+    estimate = best_estimate(block, motion, mu=mu, mu_kinetic=mu_kinetic, vertical=options.vertical, gravity=gravity)
     return CriteriaComparison(
         record, motion.name, block, peaks, rows, response.outcome, conventions.velocity_highpass_hz, response.warnings, comparison, estimate
     )

@@ -6,6 +6,7 @@ limits from experiments. The difference between models exceeds the parameter var
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,6 +19,7 @@ from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.core.i18n import N_
 from seisblock.core.results import Response
 from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
+from seisblock.criteria.initiation import onset_factor
 from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
 from seisblock.criteria.pulses import half_sine_acceleration
 from seisblock.measures.baseline import ground_history
@@ -27,6 +29,7 @@ from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.models.stack.outcome import StackOutcome
 from seisblock.records import Motion
+from seisblock.records._validation import vertical_gain
 
 SHARP_BLOCK = N_("rigid block with sharp edges")
 WORN_BLOCK = N_("rigid block with worn edges")
@@ -152,8 +155,11 @@ def _simulate(model: str, block: Block, motion: Motion, pga: float, options: Roc
     def falls(factor: float) -> bool:
         return rock_verdict(block, motion, scale=factor, options=options).overturned
 
-    # no overturning below the rocking threshold, unless a vertical motion reduces the effective gravity
-    factor = min(block.rocking_threshold(options.gravity) / pga, MAX_FACTOR) if not options.vertical else 0.1
+    # no overturning without rocking; the vertical motion changes the effective gravity and with it the threshold
+    factor = min(block.rocking_threshold(options.gravity) / pga, MAX_FACTOR)
+    if vertical := vertical_gain(motion, options.vertical):
+        towards = math.tan(block.slendernesses[0]), math.tan(block.slendernesses[1])
+        factor = min(onset_factor(towards, motion, gravity=options.gravity, vertical=vertical), MAX_FACTOR)
     while factor <= MAX_FACTOR and not falls(factor):
         factor *= FACTOR_STEP
     if factor > MAX_FACTOR:
@@ -200,5 +206,5 @@ def compare_pile_models(response: Response[StackOutcome]) -> ModelComparison | N
     fit = (DOWELLED if dowelled else PLAIN) if top.name == SAO else None
     pile_result = ModelResult(PILE, top.name in response.outcome.overturned, None)
     block, stone = rigid_top(pile, 2), Block(top.width, top.height)
-    options = RockOptions(gravity=response.options.gravity)
+    options = RockOptions(vertical=response.options.vertical, gravity=response.options.gravity)
     return compare_models(block, response.motion, stone=stone, fit=fit, extra_results=[pile_result], options=options)

@@ -21,7 +21,7 @@ from seisblock.dynamics import integrate_many
 from seisblock.models.slide.final_slip import slip_at_rest
 from seisblock.models.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.models.slide.solve import motion_gains, raise_lift_off
-from seisblock.records._validation import Gain, validate_motion
+from seisblock.records._validation import Gain, validate_motion, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.studies.parallel import cpu_count, map_threads
 
@@ -45,7 +45,8 @@ class SlidePoint:
     slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
         As in :class:`seisblock.models.slide.solve.SlideOutcome`.
     beta : float or None, 1
-        Maximum slip over that of the horizontal motion alone; None without vertical motion, or if the latter is zero.
+        Maximum slip over that of the horizontal motion alone, in a study of given factors on the vertical motion; else None, as where the
+        latter is zero.
     """
 
     component: str
@@ -74,7 +75,7 @@ def slide_study(
     *,
     mu_kinetic: float | Sequence[float] | None = None,
     kappa: float | Sequence[float] | None = None,
-    vertical: Gain | Sequence[float] = False,
+    vertical: Gain | Sequence[float] | None = None,
     slope_deg: float | Sequence[float] = 0.0,
     slope_length: float | None = None,
     one_way: bool = False,
@@ -88,7 +89,8 @@ def slide_study(
     ----------
     mu, mu_kinetic, kappa, slope_deg, vertical : float or sequence, 1
         As in :func:`seisblock.bodies.sliding_base.sliding_base`, and the factor on the vertical ground motion; all combinations. A
-        combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed without a run.
+        combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed without a run. A
+        `vertical` of None applies the vertical motion where there is one, without the runs of the horizontal motion alone for beta.
     motions : Motion or several
     slope_length, one_way, gravity
         Common to all runs.
@@ -121,10 +123,10 @@ def slide_study(
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     checks.gravity(gravity)
-    scales = tuple(float(value) for value in _values(vertical))
-    combination_count = len(scales) * math.prod(len(_values(values)) for values in (mu, mu_kinetic, kappa, slope_deg))
+    scales = None if vertical is None else tuple(float(value) for value in _values(vertical))
+    combination_count = len(scales or (1.0,)) * math.prod(len(_values(values)) for values in (mu, mu_kinetic, kappa, slope_deg))
     check_limit(N_("combinations"), len(motion_list) * combination_count, MAX_CELLS)
-    for motion, scale in itertools.product(motion_list, scales):
+    for motion, scale in itertools.product(motion_list, scales or ()):
         motion_gains(motion, scale)
     bases = [
         _base(m, d, k, slope, slope_length, one_way)
@@ -140,17 +142,21 @@ def slide_study(
             slope_length=slope_length,
             one_way=one_way,
         )
-    # beta is relative to the horizontal motion alone, so scale 0 is added
-    run_scales = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
-    rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in run_scales]
+    # beta is relative to the horizontal motion alone, so scale 0 is added to given scales
+    has_beta = scales is not None and any(scales)
+    motion_scales = [(vertical_gain(motion, None),) if scales is None else scales for motion in motion_list]
+    run_scales = [tuple(dict.fromkeys((*own, 0.0))) if has_beta else own for own in motion_scales]
+    solved_bases = [base for base in bases if isinstance(base, SlidingBase)]
+    rows = [[(base, scale) for base in solved_bases for scale in own] for own in run_scales]
     computed_points = _run_all(motion_list, rows, gravity, progress, workers or cpu_count())
     points = []
-    for motion, base in itertools.product(motion_list, bases):
-        if isinstance(base, SlidingBase):
-            by_scale = {scale: next(computed_points) for scale in run_scales}
-            points += [_with_beta(by_scale[scale], by_scale[0.0]) if any(scales) else by_scale[scale] for scale in scales]
-        else:
-            points += [SlidePoint(motion.name, **base, vertical=scale, holds_at_rest=False) for scale in scales]
+    for motion, own, runs in zip(motion_list, motion_scales, run_scales, strict=True):
+        for base in bases:
+            if isinstance(base, SlidingBase):
+                by_scale = {scale: next(computed_points) for scale in runs}
+                points += [_with_beta(by_scale[scale], by_scale[0.0]) if has_beta else by_scale[scale] for scale in own]
+            else:
+                points += [SlidePoint(motion.name, **base, vertical=scale, holds_at_rest=False) for scale in own]
     return points
 
 
@@ -186,14 +192,18 @@ def _base(
 
 
 def _run_all(
-    motions: Sequence[Motion], rows: Sequence[tuple[SlidingBase, float]], gravity: float, progress: Progress | None, workers: int
+    motions: Sequence[Motion],
+    rows: Sequence[Sequence[tuple[SlidingBase, float]]],
+    gravity: float,
+    progress: Progress | None,
+    workers: int,
 ) -> Iterator[SlidePoint]:
-    """Yield the points of all rows for all motions, motion by motion, row by row; computed in threads."""
+    """Yield the points of the rows of each motion, motion by motion, row by row; computed in threads."""
     jobs = []
-    for motion in motions:
-        share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(rows) / workers)))
-        jobs += [(motion, rows[first : first + share]) for first in range(0, len(rows), share)]
-    total = len(motions) * len(rows)
+    for motion, own in zip(motions, rows, strict=True):
+        share = max(1, min(CHUNK_SIZE // motion.samples, math.ceil(len(own) / workers)))
+        jobs += [(motion, own[first : first + share]) for first in range(0, len(own), share)]
+    total = sum(map(len, rows))
     points: list[SlidePoint] = []
     for batch in map_threads(lambda job: _points(*job, gravity), jobs, workers=workers):
         points += batch

@@ -2,7 +2,8 @@
 
 Sizes and medians are printed in the descriptions of the components ([FEMAP58]_ table of components E.20.22, as in the model library of
 pelicun). The ground motions behind the medians are not documented: [Boore2003]_ records of magnitude 7 at 20 km on rock are used
-instead. The constant depends on the suite (1.26 to 1.57 for seven suites); the evidence is that a single number fits all nine.
+instead, their horizontal motion alone. The constant depends on the suite (1.26 to 1.57 for seven suites); the evidence is that a single
+number fits all nine.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ PGV_LEVELS = np.geomspace(0.1, 5.0, 24)
 def ratios() -> FloatArray:
     """Return the median of the rocking block over that of P-58 for each shelf, (9,), 1."""
     bodies = {name: Block(depth * INCH, height * INCH) for name, (depth, height, _) in SHELVES.items()}
-    study = run_fragility(synthetic_suite(7.0, 20.0, RECORDS), bodies, "rock", im="pgv", levels=PGV_LEVELS, bootstrap=2)
+    suite = synthetic_suite(7.0, 20.0, RECORDS)
+    study = run_fragility(suite, bodies, "rock", im="pgv", levels=PGV_LEVELS, bootstrap=2, vertical=False)
     medians = {curve.body: curve.median or np.nan for curve in study.curves}
     return np.array([medians[name] / p58_median for name, (_, _, p58_median) in SHELVES.items()])
 

@@ -38,14 +38,14 @@ def el_centro() -> Motion:
 @functools.cache
 def largest_slips() -> FloatArray:
     """Return the largest displacement of fig. 7, (31 friction coefficients, 4 ratios), m."""
-    points = slide_study(FRICTION.tolist(), el_centro(), kappa=RATIOS, gravity=G)
+    points = slide_study(FRICTION.tolist(), el_centro(), kappa=RATIOS, vertical=False, gravity=G)
     return np.array([point.max_slip_m for point in points]).reshape(FRICTION.size, len(RATIOS))
 
 
 @functools.cache
 def slope_points(mu: float) -> tuple[SlidePoint, ...]:
     """Return the points of fig. 15 for one friction coefficient: a slope of 1 m, level ground beyond, kappa = 0.5."""
-    points = slide_study(mu, el_centro(), kappa=0.5, slope_deg=SLOPES.tolist(), slope_length=1.0, gravity=G)
+    points = slide_study(mu, el_centro(), kappa=0.5, slope_deg=SLOPES.tolist(), slope_length=1.0, vertical=False, gravity=G)
     return tuple(point for point in points if point.holds_at_rest)
 
 
@@ -84,7 +84,7 @@ def _rate(mu: float) -> float:
 
 def _critical(slope: float) -> float:
     """Return the largest friction with which the object slides over 2 m down a slope of fig. 16, kappa = 0.5."""
-    points = slide_study(np.arange(0.05, 1.6, 0.005).tolist(), el_centro(), kappa=0.5, slope_deg=slope, gravity=G)
+    points = slide_study(np.arange(0.05, 1.6, 0.005).tolist(), el_centro(), kappa=0.5, slope_deg=slope, vertical=False, gravity=G)
     return max(point.mu for point in points if point.holds_at_rest and (point.final_slip_m is None or (point.max_slip_m or 0.0) > 2.0))
 
 

@@ -53,7 +53,7 @@ def test_contact_loss_is_reported_at_exact_time():
     assert response.outcome.contact_lost_s == pytest.approx(2.0, abs=1e-6)
     assert response.outcome.max_friction_demand is None
     assert any("contact" in text for text in response.warnings)
-    assert not solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down)).outcome.contact_lost
+    assert not solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down), vertical=False).outcome.contact_lost
 
 
 def test_rocking_ends_in_rest_and_restarts_at_threshold():

@@ -65,9 +65,9 @@ def contains(interval, truth):
     return (low is None or low <= truth) and (high is None or truth <= high)
 
 
-def coverage(stones_overturned, edges=None, *, known=True):
+def coverage(stones_overturned, edges=None, *, known=True, seed=3):
     """Return the share of surveys of 60 stones whose 90 % interval holds the PGA."""
-    rng, held = np.random.default_rng(3), []
+    rng, held = np.random.default_rng(seed), []
     for inset, frequency, pga, falls in stones_overturned:
         if (edges is not None and inset != edges) or not 1 < falls.sum() < falls.size - 1:
             continue
@@ -82,11 +82,12 @@ def coverage(stones_overturned, edges=None, *, known=True):
 def test_infer_coverage_for_rigid_blocks_under_records(stones_overturned):
     """N9: rigid blocks, sharp and worn, under recorded and synthetic motions: 85 to 95 % of the 90 % intervals hold the PGA.
 
-    So few surveys leave 2 % more open; those of which nothing or all fell, which any bound holds, do not count.
+    So few surveys leave 2 % more open; those of which nothing or all fell, which any bound holds, do not count. An unknown frequency is
+    drawn eight times: one draw of it for some 40 surveys scatters by 5 %.
     """
     assert len(stones_overturned) >= 60
     assert 0.85 <= coverage(stones_overturned) <= 0.97
-    assert coverage(stones_overturned, known=False) >= 0.83
+    assert np.mean([coverage(stones_overturned, known=False, seed=seed) for seed in range(8)]) >= 0.83
     for edges in (0.0, 0.1):
         assert coverage(stones_overturned, edges) >= 0.82
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from seisblock.bodies.block import Restitution
 from seisblock.core.i18n import N_
-from seisblock.core.options import GRAVITY, SolverOptions, documented, option
+from seisblock.core.options import GRAVITY, VERTICAL, SolverOptions, documented, option
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
 
@@ -31,10 +31,7 @@ class RockOptions(SolverOptions):
     linear: bool = field(
         default=False, metadata=option(N_("Use the linearised equation of slender blocks. [default: exact equation]"), "--linear")
     )
-    vertical: Gain | None = field(
-        default=False,
-        metadata=option(N_("Apply or omit the vertical component. [default: omitted]"), "--vertical/--no-vertical", document=bool),
-    )
+    vertical: Gain | None = field(default=None, metadata=VERTICAL)
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)
     initial: tuple[float, float] = field(
         default=(0.0, 0.0), metadata=option("Tilt, rad, and angular velocity, rad/s, at the first sample.")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from seisblock.core.options import GRAVITY, SolverOptions, documented, option
+from seisblock.core.options import GRAVITY, KEY, VERTICAL, SolverOptions, documented
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records._validation import Gain
 
@@ -14,8 +14,5 @@ from seisblock.records._validation import Gain
 class SlideOptions(SolverOptions):
     """Options of :func:`~seisblock.models.slide.solve.solve_slide`."""
 
-    vertical: Gain | None = field(
-        default=False,
-        metadata=option("Scale factor on the vertical component; 0 if omitted.", key="vertical_scale", document=float),
-    )
+    vertical: Gain | None = field(default=None, metadata={KEY: replace(VERTICAL[KEY], key="vertical_scale", document=float)})
     gravity: float = field(default=STANDARD_GRAVITY, metadata=GRAVITY)

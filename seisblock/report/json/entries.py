@@ -60,7 +60,7 @@ def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = N
     kinds : type
         Dataclasses of options.
     extra : mapping of str to type
-        Keys after those of the options.
+        Keys after those of the options, or in place of one of the same name.
     exclude : tuple of str
         Options that are no keys.
     """
@@ -72,7 +72,7 @@ def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = N
                 shape = described.document or hints[field]
                 keys[document_key(field, described)] = Annotated[shape, Meta(description=plain_help(described))]
     result_type: Any = msgspec.defstruct(
-        name, [*keys.items(), *(extra or {}).items()], frozen=True, kw_only=True, namespace={"__doc__": "Parameters of the command."}
+        name, list((keys | dict(extra or {})).items()), frozen=True, kw_only=True, namespace={"__doc__": "Parameters of the command."}
     )
     return result_type  # type: ignore[no-any-return]
 

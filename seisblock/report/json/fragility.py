@@ -62,7 +62,7 @@ class FragilityParameters(Struct, frozen=True, kw_only=True):
     limits, im : list of str
         Limit states in increasing order; intensity measures, that of the curves first.
     vertical : bool or None
-        Whether the vertical component acts; null: default of the solver.
+        Whether the vertical component acts; null: where the record has one.
     gravity_m_s2 : float
     perturb, bootstrap, seed : int
         Samples of each body, bootstrap samples of the records, and the random seed.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -11,7 +11,8 @@ from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.measures import Conventions
-from seisblock.records import Record
+from seisblock.records import Motion, Record
+from seisblock.records._validation import vertical_acts
 from seisblock.report.json.entries import entry_type, to_entry
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.survey.assessment import AssessmentMethod, CemeteryRate
@@ -38,6 +39,8 @@ class RateParameters(Struct, frozen=True, kw_only=True):
     gravity_m_s2 : float
     confidence : float
         Level of the interval of a rate.
+    vertical : bool
+        True if the vertical component acts on simulated stones.
     equivalent_frequency : str
         Definition of the frequency, or ``given``.
     velocity_highpass_hz, velocity_baseline : float or None, str
@@ -55,6 +58,7 @@ class RateParameters(Struct, frozen=True, kw_only=True):
     stone_width_m: float
     gravity_m_s2: float
     confidence: float
+    vertical: bool
     equivalent_frequency: str
     velocity_highpass_hz: float | None
     velocity_baseline: str
@@ -72,7 +76,9 @@ RATE = DocumentSchema("overturn-rate", RateParameters, RATE_RESULT, CURVE_KEY, v
 CURVE_ALONE = DocumentSchema("overturn-rate", RateParameters, CurveResult, CURVE_KEY, name="curve", version=2)
 
 
-def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, frequency_kind: str) -> RateParameters:
+def parameters_of(
+    stones: Cemetery, dowelled: Cemetery | None, method: AssessmentMethod, *, motions: Iterable[Motion], frequency_kind: str
+) -> RateParameters:
     """Return all parameters that determine the result."""
     rules = Conventions()
     return RateParameters(
@@ -87,6 +93,7 @@ def parameters_of(stones: Cemetery, dowelled: Cemetery | None, method: Assessmen
         stone_width_m=method.width,
         gravity_m_s2=method.gravity,
         confidence=method.confidence,
+        vertical=vertical_acts(motions, method.vertical),
         equivalent_frequency=frequency_kind,
         velocity_highpass_hz=rules.velocity_highpass_hz,
         velocity_baseline=rules.velocity_baseline,

@@ -23,7 +23,10 @@ SLIDE_PARAMETERS = parameters_type(
     "SlideParameters",
     SlidingBase,
     SlideOptions,
-    extra={"kappa": Annotated[float, Meta(description="Kinetic over static friction.")]},
+    extra={
+        "vertical_scale": Annotated[float, Meta(description="Factor on the vertical component, 0 if it does not act.")],
+        "kappa": Annotated[float, Meta(description="Kinetic over static friction.")],
+    },
 )
 
 
@@ -35,7 +38,7 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
     mu, mu_kinetic, kappa : list of float
         Static and kinetic friction, and the kinetic over the static.
     vertical_scale : list of float
-        Factors on the vertical component, 0 if ignored.
+        Factors on the vertical component, 0 if it does not act.
     slope_deg, slope_length_m : list of float, float
         Angles of the base, and the distance to its foot; null without an end.
     one_way : bool

@@ -109,7 +109,7 @@ class ModesParameters(Struct, frozen=True, kw_only=True):
     restitution : float
         Poisson's, of an impact at one corner.
     vertical : bool
-        Whether the vertical component acts, if the record has one.
+        Whether the vertical component acts.
     inset : Inset
         Edge wear.
     """

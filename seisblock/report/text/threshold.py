@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from seisblock.core.i18n import N_, gettext
+from seisblock.criteria.initiation import onset_factor
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records import Motion
-from seisblock.records.motion import ALONG, UP
 from seisblock.report.text.tables import format_acceleration
 
 ROCKS, SLIDES = N_("rocking threshold {threshold}{factor}"), N_("sliding threshold {threshold}{factor}")
@@ -71,25 +71,6 @@ def effective_friction(options: RespondOptions) -> float:
     (0.3, inf)
     """
     return math.inf if options.tenon > 0.0 else float(options.mu)
-
-
-def onset_factor(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:
-    """Return the smallest scale factor at which a body moves; infinite if none does.
-
-    Motion to +x begins at -a = c (g + a_v) with ground acceleration a to +x; a and a_v are both scaled (derived here).
-
-    Examples
-    --------
-    >>> onset_factor((0.1, 0.2), Motion.from_arrays([0.0, 1.6, -0.5], 0.01), gravity=10.0)
-    1.25
-    """
-    max_ratio = 0.0
-    for stretch in motion.segments((True, False, vertical != 0.0)):
-        along, up = stretch.acceleration[ALONG], vertical * stretch.acceleration[UP]
-        for sense, share in zip((-1.0, 1.0), towards, strict=True):
-            if 0.0 < share < np.inf:
-                max_ratio = max(max_ratio, float(np.max(sense * along - share * up)) / share)
-    return gravity / max_ratio if max_ratio > 0.0 else np.inf
 
 
 def format_factor(factor: float) -> str:

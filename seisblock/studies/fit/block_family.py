@@ -49,8 +49,8 @@ class BlockFamily:
         Edge wear, a share of the width per side, unless free.
     scatter : float, 1
         Relative half width of the run-to-run changes, unless free.
-    vertical : bool or float
-        True or a factor to apply the vertical component.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component; None: where the record has one.
     gravity : float, m/s^2
     """
 
@@ -59,7 +59,7 @@ class BlockFamily:
     restitution: float | None
     inset: float
     scatter: float
-    vertical: Gain
+    vertical: Gain | None
     gravity: float
 
     @property

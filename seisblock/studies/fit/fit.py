@@ -124,7 +124,7 @@ def fit_block(
     bounds: Bounds | None = None,
     scatter: float | None = None,
     lapse: float | None = None,
-    vertical: Gain = False,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
     folds: int | None = None,
     level: float = DEFAULT_LEVEL,
@@ -157,8 +157,8 @@ def fit_block(
         Relative half width of the run-to-run changes, and 100 times as many degrees; default: free, between 0.01 and 0.2.
     lapse : float, 1
         Share of outcomes that follow no model; default: free, with a prior mean of 0.1.
-    vertical : bool or float
-        True or a factor to apply the vertical component.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component; None: where the record has one.
     gravity : float, m/s^2
     folds : int
         Folds of the records, each predicted from the others; default: 5, at most one per record.
@@ -261,7 +261,7 @@ def _family(
     is_wear_given: bool,
     bounds: Bounds,
     scatter: float | None,
-    vertical: Gain,
+    vertical: Gain | None,
     gravity: float,
 ) -> BlockFamily:
     """Return the family of blocks of the fit after a check of its parameters."""

@@ -12,6 +12,7 @@ from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.models.respond.params import rigid_body
 from seisblock.models.respond.solve import solve_respond
 from seisblock.records import Motion
+from seisblock.records._validation import Gain
 from seisblock.studies.respond.probability import Probability, respond_probability
 
 JAMMING_MARGIN = 0.8
@@ -57,7 +58,7 @@ def best_estimate(
     *,
     mu: float | None = None,
     mu_kinetic: float | None = None,
-    vertical: bool = True,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
     runs: int = 0,
 ) -> BestEstimate:
@@ -69,8 +70,8 @@ def best_estimate(
     motion : Motion
     mu, mu_kinetic : float or None, 1
         Friction; None if unknown: the no-slip friction is used.
-    vertical : bool
-        True to apply the vertical component, if the motion has one.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component; None: if the motion has one.
     gravity : float, m/s^2
     runs : int
         Samples for the probability; 0 for none.
@@ -78,7 +79,7 @@ def best_estimate(
     options = RespondOptions(
         mu=no_slip_friction(block) if mu is None else mu,
         mu_kinetic=None if mu is None else mu_kinetic,
-        vertical=None if vertical else False,
+        vertical=vertical,
         gravity=gravity,
     )
     response = solve_respond(block, motion, **options.keywords())

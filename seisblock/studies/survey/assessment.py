@@ -16,6 +16,7 @@ from seisblock.core.typing import BoolArray, FloatArray, Progress
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_NOTE, PLAIN, GravestoneFit, fit_range_warnings
 from seisblock.measures import FilterRange
+from seisblock.records._validation import Gain
 from seisblock.references import papers
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.studies.survey.limits import fitted_limits, rigid_limits
@@ -54,6 +55,8 @@ class AssessmentMethod:
     gravity : float, m/s^2
     confidence : float
         Level of the interval of a rate.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component to simulated stones; None: where the record has one.
     """
 
     criterion: Criterion = "furukawa"
@@ -62,6 +65,7 @@ class AssessmentMethod:
     width: float = PAPER_WIDTH
     gravity: float = STANDARD_GRAVITY
     confidence: float = CONFIDENCE
+    vertical: Gain | None = None
 
     def limits(self, cemetery: Cemetery, frequency: float) -> FloatArray:
         """Return the overturning PGA of each stone, (size,), m/s^2; furukawa and rigid only."""
@@ -149,7 +153,9 @@ def assess_stones(cemetery: Cemetery, shaking: Shaking, method: AssessmentMethod
         from seisblock.studies.survey.simulation import simulated_overturns, sine_motion
 
         motion = shaking.motion or sine_motion(shaking.pga, shaking.frequency)
-        return simulated_overturns(cemetery, motion, inset=method.inset, width=method.width, gravity=method.gravity)
+        return simulated_overturns(
+            cemetery, motion, inset=method.inset, width=method.width, vertical=method.vertical, gravity=method.gravity
+        )
     checks.positive("the peak ground acceleration", shaking.pga, "m/s^2")
     falls: BoolArray = shaking.pga > method.limits(cemetery, shaking.frequency)
     return falls
@@ -174,7 +180,14 @@ def overturning_curve(
         sine_frequencies = [] if recorded_motions else list(frequencies) if shaking is None else [shaking.frequency]
         motions = recorded_motions or [(sine_motion(1.0, f), f) for f in sine_frequencies]
         return simulated_curve(
-            cemetery, motions, SIMULATED_PGA, inset=method.inset, width=method.width, gravity=method.gravity, progress=progress
+            cemetery,
+            motions,
+            SIMULATED_PGA,
+            inset=method.inset,
+            width=method.width,
+            vertical=method.vertical,
+            gravity=method.gravity,
+            progress=progress,
         )
     first = [] if shaking is None else [shaking.frequency]
     curve_frequencies = list(dict.fromkeys([*first, *frequencies]))
@@ -221,7 +234,15 @@ def assess_cemetery(
         fit_range_warnings(shaking.pga, shaking.frequency, ratios) if method.criterion == "furukawa" else (),
         usual_highpass=highpass_range,
         rate_range=None if highpass_range is None else _rate_range(cemetery, shaking, method, highpass_range.pga_pgv_hz),
-        models=rates_by_model(cemetery, shaking.pga, shaking.frequency, shaking.motion, width=method.width, gravity=method.gravity),
+        models=rates_by_model(
+            cemetery,
+            shaking.pga,
+            shaking.frequency,
+            shaking.motion,
+            width=method.width,
+            vertical=method.vertical,
+            gravity=method.gravity,
+        ),
     )
 
 

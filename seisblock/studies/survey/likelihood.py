@@ -4,11 +4,11 @@ A stone falls if ln PGA - b + e + s exceeds the logarithm of its limit by [Furuk
 the normal error e are common to a cemetery (criterion, ground, record); the normal error s is independent for each stone.
 The prior is flat in ln PGA.
 
-Both were measured against a generator independent of the criterion: rigid blocks, 8 sun wide and proportioned like Aoyama's stones,
-under 21 recorded accelerograms of 0.5 to 3 Hz, 0.35 to 1.6 times the median limit. Eq. (9), fitted to sines, requires less PGA than
-records do: by a factor of 1.68 for sharp blocks and of 1.25 for blocks worn by 0.1 of their width per side, with a scatter of 0.28 and
-0.27 in ln PGA from record to record. Between the two edges b = 0.33 and e = 0.3, with f known to a tenth, the 90 % interval covers the
-true PGA of 87 to 95 % of such surveys. The half sine on a rigid block of the same edges has no bias (0.0, -0.04) and a scatter of 0.24.
+Both were measured against a generator independent of the criterion: rigid blocks, 8 sun wide and proportioned like Aoyama's stones, under
+the horizontal motion of 21 recorded accelerograms of 0.5 to 3 Hz, 0.35 to 1.6 times the median limit. Eq. (9), fitted to sines, requires
+less PGA than records do: by a factor of 1.68 for sharp blocks and of 1.25 for blocks worn by 0.1 of their width per side, with a scatter of
+0.28 and 0.27 in ln PGA from record to record. Between the two edges b = 0.33 and e = 0.3, with f known to a tenth, the 90 % interval covers
+the true PGA of 87 to 95 % of such surveys. The half sine on a rigid block of the same edges has no bias (0.0, -0.04) and a scatter of 0.24.
 The limit of a single stone scatters by 0.2.
 Of the six surveyed rates of table 6, taken as of 100 stones each, the interval covers five recorded PGAs.
 """

@@ -10,6 +10,7 @@ from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, SHARP_EDGES
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records import Motion
+from seisblock.records._validation import Gain
 from seisblock.studies.model_comparison import GRAVESTONES, PULSE, SHARP_BLOCK, WORN_BLOCK
 from seisblock.studies.survey.limits import fitted_limits, rigid_limits
 from seisblock.studies.survey.simulation import simulated_overturns
@@ -32,6 +33,7 @@ def rates_by_model(
     motion: Motion | None = None,
     *,
     width: float = PAPER_WIDTH,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> tuple[ModelRate, ...]:
     """Return the overturning rate of a cemetery by each model of its stones ([Furukawa2009]_ eq. (9), [Housner1963]_).
@@ -46,6 +48,8 @@ def rates_by_model(
         The shaking, for simulated models.
     width : float, m
         Width of stones of unknown width.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component to simulated stones; None: where the record has one.
     gravity : float, m/s^2
     """
     rates = [ModelRate(GRAVESTONES, float(np.mean(pga > fitted_limits(cemetery, frequency))))]
@@ -55,6 +59,6 @@ def rates_by_model(
     rates.append(ModelRate(PULSE, share, frequency, worn=True))
     if motion is not None:
         for model, inset in ((WORN_BLOCK, DEFAULT_WEAR), (SHARP_BLOCK, SHARP_EDGES)):
-            falls = simulated_overturns(cemetery, motion, inset=inset, width=width, gravity=gravity)
+            falls = simulated_overturns(cemetery, motion, inset=inset, width=width, vertical=vertical, gravity=gravity)
             rates.append(ModelRate(model, float(falls.mean())))
     return tuple(rates)

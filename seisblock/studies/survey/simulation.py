@@ -21,6 +21,7 @@ from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
 from seisblock.records import Motion
+from seisblock.records._validation import Gain
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 from seisblock.studies.survey.limits import require_undowelled
 from seisblock.studies.survey.overturning_rate import CurvePoint
@@ -81,6 +82,7 @@ def simulated_overturns(
     scale: float = 1.0,
     inset: EdgeWear = DEFAULT_WEAR,
     width: float = PAPER_WIDTH,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> BoolArray:
     """Return the stones that overturn under a motion, each rocking as one rigid block ([Housner1963]_), (size,).
@@ -96,6 +98,8 @@ def simulated_overturns(
         As for :func:`sao`.
     width : float, m
         Width of stones of unknown width.
+    vertical : bool, float or None
+        True or a factor to apply the vertical component; None: where the record has one.
     gravity : float, m/s^2
 
     Raises
@@ -107,7 +111,7 @@ def simulated_overturns(
     # equal stones share one run
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     ratio, b = sizes.T
-    stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, options=RockOptions(gravity=gravity))
+    stones = rock_batch_params(rectangular_blocks(b, b * ratio, inset), motion, options=RockOptions(vertical=vertical, gravity=gravity))
     return parallel_verdicts(stones, motion, stones.gains(scale)).overturned[index.ravel()]
 
 
@@ -118,6 +122,7 @@ def simulated_curve(
     *,
     inset: EdgeWear = DEFAULT_WEAR,
     width: float = PAPER_WIDTH,
+    vertical: Gain | None = None,
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
 ) -> tuple[CurvePoint, ...]:
@@ -130,7 +135,7 @@ def simulated_curve(
         With the frequency, or equivalent frequency, of each, Hz.
     pga : sequence of float, m/s^2
         Levels to which each motion is scaled.
-    inset, width, gravity
+    inset, width, vertical, gravity
         As for :func:`simulated_overturns`.
     progress : callable
         Called with the number of finished points and the total.
@@ -139,7 +144,7 @@ def simulated_curve(
     for motion, frequency in motions:
         peak = float(np.abs(motion.horizontal).max())
         for level in pga:
-            falls = simulated_overturns(cemetery, motion, scale=level / peak, inset=inset, width=width, gravity=gravity)
+            falls = simulated_overturns(cemetery, motion, scale=level / peak, inset=inset, width=width, vertical=vertical, gravity=gravity)
             points.append(CurvePoint(float(level), frequency, float(falls.mean())))
             if progress is not None:
                 progress(len(points), len(motions) * len(pga))
