@@ -1,4 +1,4 @@
-"""Assembly of files or channels of one recording into one record."""
+"""Third stage of reading: components of one recording to one record."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ from dataclasses import replace
 
 from seisblock.core.errors import ComponentError, RecordError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.readers.registry import find_format
 from seisblock.readers.source import MAX_QUOTED_LENGTH
 from seisblock.records import Component, Record
 from seisblock.records.site import matches_station
 
 LEVELS = ("surface", "borehole")
 _COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # other codes: before the vertical
-SYNCHRONOUS_FORMATS = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
-"""Formats whose components have a common start but may differ in length."""
-
 TRIM_TOLERANCE = 0.05
 """Largest relative excess in length over the shortest component that is trimmed."""
 
@@ -54,7 +52,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     components = [c for part in selected_parts for c in part.components]
     history = dict.fromkeys(line for part in selected_parts for line in part.history)
     # other formats with unequal lengths are rejected by Record
-    if selected_parts[0].format in SYNCHRONOUS_FORMATS:
+    if find_format(selected_parts[0].format).synchronous:
         components, trim_notes = _trim_to_shortest(components)
         history.update(dict.fromkeys(trim_notes))
     components.sort(key=lambda c: _COMPONENT_ORDER.get(c.code, 2))

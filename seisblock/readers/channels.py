@@ -10,11 +10,14 @@ from dataclasses import replace
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers.directions import Direction
+from seisblock.readers.registry import FileSet
 from seisblock.records import Component, Record
 
 MAX_CHANNELS = 3
 """Channels of one sensor: two horizontals and the vertical."""
 
+# HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC, AKBMR--n.1000hyfh.BNZ.--.acc.V2c
+_SEED_NAME = re.compile(r"(?P<before>.+\.[FGDCESHBML][NGHL])(?P<code>[ENZ123])(?P<after>\..+)\Z", re.IGNORECASE)
 _LABEL = re.compile(r"^(?:location)?[\s:,;-]*", re.IGNORECASE)
 
 
@@ -75,3 +78,15 @@ def parse_location(text: str) -> str:
     ('Roof, SE corner', 'Ground floor', '')
     """
     return _LABEL.sub("", re.sub(r"\([^)]*\)", " ", text).strip()).strip()
+
+
+def seed_file_set(basename: str) -> FileSet | None:
+    """Return the file set of a file with a SEED channel code in its name, None for other names.
+
+    Examples
+    --------
+    >>> seed_file_set("HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC"), seed_file_set("CE36456.V2")
+    (FileSet(key='hi.ars1..hn?.d.20190728.160908.c.acc.asc', size=3, component='E', level=''), None)
+    """
+    match = _SEED_NAME.match(basename)
+    return match and FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"])

@@ -1,4 +1,4 @@
-"""Reading of records: files, component sets, archives and bundled samples."""
+"""Reading of records in three stages: names to named bytes (discover), bytes to components (parse), components to records (assemble)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from seisblock.core import checks
 from seisblock.core.errors import ComponentError, KindError, ParameterError
 from seisblock.readers._memory import trim_heap
 from seisblock.readers.assemble import assemble, belongs_to_recording
-from seisblock.readers.components import load_component_files
-from seisblock.readers.dispatch import ReadOptions, read_parts
+from seisblock.readers.discover import RecordSource, load_component_files, unpack
+from seisblock.readers.limits import new_budget
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.parse import parse_file
 from seisblock.readers.source import STDIN, Location, RawFile, open_source, sha256_digest
 from seisblock.records import Record
 from seisblock.records.qc import run_qc
@@ -42,11 +44,11 @@ def read(
     Parameters
     ----------
     source : path, or sequence of paths
-        File of any format listed below, or name of a bundled sample. One component of a set (K-NET, KiK-net, PEER AT2, SMC, ESM, COSMOS)
-        includes the other components in the same folder. Several paths are read as ONE record.
+        File of any registered format, or name of a bundled sample. One component file of a set, as of K-NET, includes the other
+        components in the same folder. Several paths are read as ONE record.
     format : str or None
-        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CWA``, ``CSV``, or
-        ``OBSPY:`` followed by a format of obspy. None detects the format from the content.
+        Name of a format, see :func:`~seisblock.readers.registry.format_names`, as ``JMA-CSV`` or ``AT2``, or ``OBSPY:`` followed by a
+        format of obspy. None detects the format from the content.
     units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Unit of files that do not state it.
     dt : float or None, s
@@ -134,16 +136,22 @@ def read_all(
     return [record for g in groups for record in _assemble_records(g, options, named_paths)]
 
 
-def record_from_files(name: str, blobs: Sequence[RawFile], options: ReadOptions) -> Record:
-    """Return the record in the given bytes, without a search for companion files.
+def read_source(source: RecordSource, options: ReadOptions) -> Record:
+    """Return the record of a discovered recording, read with a fresh budget.
 
     Raises
     ------
     InputError
-        As for `read`.
+        If the recording cannot be read.
     """
-    parts = [part for blob in blobs for part in read_parts(blob, options)]
-    return run_qc(replace(assemble(name, parts, level=_applicable_level(parts, options.level)), sha256=sha256_digest(blobs)))
+    if source.failure is not None:
+        raise source.failure
+    if not source.blobs:
+        return read(list(source.files), **options.keywords)
+    options = replace(options, budget=new_budget())
+    parts = [part for blob in source.blobs for part in parse_file(blob, options)]
+    record = assemble(source.path, parts, level=_applicable_level(parts, options.level))
+    return run_qc(replace(record, sha256=sha256_digest(source.blobs)))
 
 
 def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
@@ -177,7 +185,15 @@ class OpenedSource:
 
 def _open_and_parse(source: Location, options: ReadOptions) -> OpenedSource:
     blob = open_source(source, options.budget)
-    return OpenedSource(blob.name, blob, read_parts(blob, options))
+    return OpenedSource(blob.name, blob, _parse_parts(blob, options))
+
+
+def _parse_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
+    """Return the records, or single components, in a file or an archive."""
+    files = unpack(blob, options)
+    bundle = {} if files[0] is blob else {"bundle": blob.name}
+    parts = [part for file in files for part in parse_file(file, options)]
+    return [replace(part, metadata={**part.metadata, **bundle}) for part in parts] if bundle else parts
 
 
 def _assemble_records(group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None]) -> list[Record]:
@@ -228,7 +244,7 @@ def _load_components(
         # companions that are sources themselves are not read twice
         family = [b for b in siblings if b is blobs[0] or b.path not in named_paths]
         if family != blobs:
-            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else read_parts(blob, options))]
+            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else _parse_parts(blob, options))]
             blobs = family
     return name, parts, blobs
 

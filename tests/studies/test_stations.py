@@ -16,7 +16,8 @@ from seisblock.measures import measure
 from seisblock.models.respond.solve import solve_respond
 from seisblock.readers import read, read_all
 from seisblock.readers.discover import iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody, StationCemetery
@@ -45,7 +46,7 @@ def found(event):
 def prepared(event, station):
     """Return the record of one station of a bundle, as it is judged."""
     recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(station))
-    return Preparation().apply(recording.read(ReadOptions()))
+    return Preparation().apply(read_source(recording, ReadOptions()))
 
 
 def test_a_damaged_member_costs_only_itself(found):
@@ -110,7 +111,8 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
     subject = FOLLOWED[solver]
     strong = Preparation(scale=3.0)
     answer = survey_stations(event, subject, preparation=strong).answers[0]
-    record = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station)).read(ReadOptions())
+    recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station))
+    record = read_source(recording, ReadOptions())
     components = "all-azimuths" if subject.is_directional else ()
     options = {**subject.options, "runs": subject.runs, "preparation": strong}
     table = run_batch(record, {"it": subject.body}, solver, components=components, **options)

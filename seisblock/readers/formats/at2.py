@@ -13,11 +13,11 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers._header import parse_number
 from seisblock.readers.directions import parse_direction
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, Record
 
-FORMAT = "AT2"
 _HEADER_LINES = 12
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _INTERVAL = re.compile(r"\bDT\s*=\s*([\d.]+(?:[ED][-+]?\d+)?)", re.IGNORECASE)
@@ -64,7 +64,7 @@ def read_at2(blob: RawFile) -> Record:
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
     history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
-    return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
+    return Record((component,), dt, station=station, source=blob.name, format=FORMAT.name, history=history, metadata=metadata)
 
 
 def parse_orientation(direction: str) -> tuple[str, float | None, float]:
@@ -150,3 +150,36 @@ def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
     if len(fields) == 3 and parse_orientation(fields[-1])[1:] != (None, 1.0):
         return fields[0], fields[1], fields[2]
     return line.strip(), name_parts[0] if name_parts else "", name_parts[1] if name_parts else ""
+
+
+def at2_file_set(basename: str) -> FileSet | None:
+    """Return the file set of an AT2 file whose name ends with the direction.
+
+    Examples
+    --------
+    >>> at2_file_set("RSN1690_NORTH151_SYL360-hor2.AT2"), at2_file_set("elcentro.at2")
+    (FileSet(key='rsn1690_north151_syl', size=3, component='NS', level=''), None)
+    """
+    parts = split_direction(basename) if basename.lower().endswith(".at2") else None
+    return parts and FileSet(parts[0].lower(), 3, parse_orientation(parts[1])[0])
+
+
+def _recording_key(head: bytes) -> object:
+    """Return the title without the direction, and the sampling interval."""
+    lines = head[:2000].splitlines()
+    interval = re.search(rb"DT\s*=\s*0*([\d.]+)", head[:2000])
+    return lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval and interval[1].rstrip(b"0")
+
+
+FORMAT = register(
+    Format(
+        name="AT2",
+        title="PEER AT2",
+        parse=read_at2,
+        matches=is_at2,
+        specificity=1,  # NPTS and DT may stand in any of the first lines
+        synchronous=True,
+        file_set=at2_file_set,
+        recording_key=_recording_key,
+    )
+)

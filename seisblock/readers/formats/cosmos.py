@@ -17,15 +17,15 @@ from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
 from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
 from seisblock.readers._header_text import parse_datetime, utc_datetime
-from seisblock.readers.channels import make_component, parse_location, split_by_location
+from seisblock.readers.channels import make_component, parse_location, seed_file_set, split_by_location
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
 from seisblock.readers.formats.csmip import parse_magnitude
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.parse import raise_line_error, to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "COSMOS"
 _TITLE_LINE = re.compile(rb"[ ]*([A-Za-z][A-Za-z ]*?)\s*\(Format v[\d.]+ with\s+(\d+) text lines\)", re.IGNORECASE)
 _SECTION_HEAD = re.compile(r"\s*(\d+)\s+(Integer|Real)-header values follow on\s+(\d+)\s+lines", re.IGNORECASE)
 _COMMENTS = re.compile(r"\s*(\d+)\s+Comment line\(s\) follow", re.IGNORECASE)
@@ -201,7 +201,7 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
         station=_parse_station(block)[0],
         start=start,
         source=name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=history,
         metadata={"unit": unit, "volume": f"V{block.integers[LEVEL]}", **_metadata(block)},
         doubts=flags,
@@ -271,3 +271,21 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
         )
         flags += (QCFlag("count", message),)
     return flags
+
+
+def _recording_key(head: bytes) -> object:
+    lines = [*head.decode("latin-1").splitlines(), *[""] * (CHANNEL + 1)]
+    start_text = re.sub(r"\s*RcrdId.*", "", lines[START_TIME])
+    return is_cosmos(head) and (lines[TITLE][:40], lines[STATION], start_text, lines[CHANNEL].partition("Location:")[2].strip())
+
+
+FORMAT = register(
+    Format(
+        name="COSMOS",
+        parse=read_cosmos,
+        matches=is_cosmos,
+        synchronous=True,
+        file_set=seed_file_set,
+        recording_key=_recording_key,
+    )
+)

@@ -22,13 +22,13 @@ from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
 from seisblock.readers._header_text import parse_coordinates, parse_datetime
 from seisblock.readers.channels import make_component, parse_location, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import raise_line_error, to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "CSMIP"
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
 """Header lines above the samples of a channel, by volume."""
 
@@ -173,7 +173,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
         station=station[1],
         start=start,
         source=name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=history,
         metadata=metadata,
         doubts=_qc_flags(direction.code, " ".join(text), section, volume),
@@ -240,3 +240,6 @@ def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCF
         )
         flags += (QCFlag("count", message),)
     return flags
+
+
+FORMAT = register(Format(name="CSMIP", parse=read_csmip, matches=is_csmip, synchronous=True))

@@ -19,6 +19,7 @@ from seisblock.readers._header import parse_number
 from seisblock.readers._header_check import half_last_digit
 from seisblock.readers._header_text import parse_datetime
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
@@ -27,7 +28,6 @@ from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "CWA"
 TAIWAN_CLOCK = "GMT+08"
 """Name of the Taiwan time zone in headers."""
 
@@ -93,7 +93,7 @@ def read_cwa(blob: RawFile) -> Record:
         station=header["stationcode"].value if "stationcode" in header else "",
         start=start,
         source=blob.name,
-        format=FORMAT,
+        format=FORMAT.name,
         metadata={"unit": unit, **_metadata(header)},
         doubts=flags,
     )
@@ -220,3 +220,6 @@ def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
     }
     origin = _parse_time(header["origintime"]) if "origintime" in header else None
     return metadata | ({} if origin is None else {"origin_time": origin})
+
+
+FORMAT = register(Format(name="CWA", parse=read_cwa, matches=is_cwa, aliases=("CWB",)))

@@ -13,14 +13,14 @@ from seisblock.readers._fixed_width import parse_sample_count
 from seisblock.readers._header import parse_number
 from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
 from seisblock.readers._header_text import utc_datetime
-from seisblock.readers.channels import make_component
+from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "ESM"
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
 _MAX_HEADER_LINES = 100
 """Number of lines searched for the end of the header (64 lines)."""
@@ -76,7 +76,7 @@ def read_esm(blob: RawFile) -> Record:
         station=_get_value(blob.name, header, "STATION_CODE")[1],
         start=_parse_time(_get_value(blob.name, header, "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS")[1]),
         source=blob.name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=history,
         metadata={"unit": unit, **_metadata(header)},
         doubts=_qc_flags(direction.code, header, values, unit_text, dt) + _flag_truncated_end(lines),
@@ -168,3 +168,21 @@ def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()
     return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
+
+
+def _recording_key(head: bytes) -> object:
+    text = head.decode("latin-1")
+    keys = ("STATION_CODE", "LOCATION", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "UNITS", "DATA_TYPE")
+    return is_esm(head) and [re.findall(rf"^{key}:(.*)$", text, re.MULTILINE) for key in keys]
+
+
+FORMAT = register(
+    Format(
+        name="ESM",
+        parse=read_esm,
+        matches=is_esm,
+        synchronous=True,
+        file_set=seed_file_set,
+        recording_key=_recording_key,
+    )
+)

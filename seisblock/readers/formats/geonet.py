@@ -19,11 +19,11 @@ from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
 from seisblock.readers._header_text import parse_coordinates, utc_datetime
 from seisblock.readers.channels import make_component, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.parse import raise_line_error, to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "GEONET"
 TEXT, INTEGERS, REALS = 16, 4, 6
 """Lines of text, integers and reals above the samples of a component."""
 
@@ -124,7 +124,7 @@ def _to_record(name: str, block: _ComponentBlock) -> Record:
         station=block.text[SITE].split()[1] if len(block.text[SITE].split()) > 1 else "",
         start=_start_time(block.integers),
         source=name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=history,
         metadata=_metadata(block),
         doubts=_qc_flags(direction, block, scale, dt),
@@ -180,3 +180,6 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
         )
         flags += (QCFlag("count", message),)
     return flags
+
+
+FORMAT = register(Format(name="GEONET", title="GeoNet", parse=read_geonet, matches=is_geonet, synchronous=True))

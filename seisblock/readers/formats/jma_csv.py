@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.readers._header import JST, parse_number
 from seisblock.readers.lines import read_lines
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.headers import component_code, normalize_unit
 from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si_in_place
 from seisblock.readers.table.precision import flag_missing_points
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "JMA-CSV"
 _HEADER_LINES = 40  # 7 in all files examined
 _CODES = ("NS", "EW", "UD", "X", "Y")
 _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
@@ -24,8 +24,7 @@ _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
 
 def is_jma_csv(head: bytes) -> bool:
     """Return whether bytes begin a JMA CSV."""
-    first = head.removeprefix(b"\xef\xbb\xbf").lstrip()[:9].upper()
-    return first == b"SITE CODE"
+    return re.match(rb"(?:\xef\xbb\xbf)?\s*SITE CODE\s*=", head, re.IGNORECASE) is not None
 
 
 def read_jma_csv(blob: RawFile) -> Record:
@@ -58,7 +57,7 @@ def read_jma_csv(blob: RawFile) -> Record:
         station=station,
         start=start,
         source=blob.name,
-        format=FORMAT,
+        format=FORMAT.name,
         metadata=metadata,
         doubts=_qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ","),
     )
@@ -166,3 +165,6 @@ def _parse_site(text: str) -> tuple[str, dict[str, object]]:
     if len(numbers) >= 7 and numbers[5] and numbers[6]:
         metadata["travel_time_p_s"], metadata["travel_time_s_s"] = numbers[5], numbers[6]
     return code or station_name, metadata
+
+
+FORMAT = register(Format(name="JMA-CSV", title=N_("JMA CSV"), parse=read_jma_csv, matches=is_jma_csv, aliases=("JMA", "JMACSV")))

@@ -13,12 +13,13 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import component_code
 from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT, KIK_FORMAT = "KNET", "KIKNET"
+KIK_FORMAT = "KIKNET"
 TRIGGER_DELAY = timedelta(seconds=15)
 """Delay of the header's record time after the first sample."""
 
@@ -62,7 +63,12 @@ _LABELS = (
     MEMO,
 ) = range(17)
 _CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
-_FILE_NAME = re.compile(r"(?:(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)[12]?\Z", re.IGNORECASE)
+_SENSORS = {"": "", "1": "borehole", "2": "surface"}
+"""Levels of KiK-net by the last digit of the file name."""
+
+_FILE_NAME = re.compile(
+    r"(?P<stem>(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)(?P<sensor>[12]?)\Z", re.IGNORECASE
+)
 _MAXIMUM_TOLERANCE = 0.0011
 """Tolerance of the header maximum, gal, which has three decimals."""
 
@@ -113,7 +119,7 @@ def read_knet(blob: RawFile) -> Record:
         station=values[STATION],
         start=start - TRIGGER_DELAY,
         source=blob.name,
-        format=KIK_FORMAT if level else FORMAT,
+        format=KIK_FORMAT if level else FORMAT.name,
         metadata=metadata,
         doubts=flags,
     )
@@ -273,3 +279,30 @@ def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> 
     if header_maximum is not None:
         metadata["header_max_gal"] = {code: header_maximum}
     return metadata
+
+
+def knet_file_set(basename: str) -> FileSet | None:
+    """Return the file set of a K-NET station (three files) or of a KiK-net station (three of each sensor), by a file name.
+
+    Examples
+    --------
+    >>> knet_file_set("AOM0012003011200.EW")
+    FileSet(key='AOM0012003011200', size=3, component='EW', level='')
+    >>> knet_file_set("AICH040010061330.NS2")
+    FileSet(key='AICH040010061330', size=6, component='NS', level='surface')
+    """
+    match = _FILE_NAME.match(basename)
+    return match and FileSet(match["stem"], 6 if match["sensor"] else 3, match["code"].upper(), _SENSORS[match["sensor"]])
+
+
+FORMAT = register(
+    Format(
+        name="KNET",
+        title="K-NET/KiK-net",
+        parse=read_knet,
+        matches=is_knet,
+        aliases=(KIK_FORMAT, "K-NET", "KIK-NET"),
+        plugin=False,  # obspy reads it itself
+        file_set=knet_file_set,
+    )
+)

@@ -13,6 +13,7 @@ from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import TIME, component_code, normalize_unit, split_unit
 from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
@@ -20,7 +21,6 @@ from seisblock.readers.table.precision import flag_missing_points, flag_truncate
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "KNET-CSV"
 _TIME_OF_DAY = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d{1,6})?")
 _CHANNELS = {"1": ("NS", "borehole"), "2": ("EW", "borehole"), "3": ("UD", "borehole")}
 _CHANNELS |= {"4": ("NS", "surface"), "5": ("EW", "surface"), "6": ("UD", "surface")}
@@ -73,7 +73,7 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
                 station=_line_after(header, "Code,").split(",")[0],
                 start=start,
                 source=blob.name,
-                format=FORMAT,
+                format=FORMAT.name,
                 metadata=_metadata(header, level) | {"offset_gal": {code: float(row.mean()) for code, row in rows.items()}},
                 doubts=flags,
             )
@@ -174,3 +174,6 @@ def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
     numbers = dict(zip(("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude"), event[1:], strict=False))
     numbers |= dict(zip(("station_latitude_deg", "station_longitude_deg"), station[1:], strict=False))
     return metadata | {label: value for label, text in numbers.items() if (value := parse_number(text)) is not None}
+
+
+FORMAT = register(Format(name="KNET-CSV", title="K-NET CSV", parse=read_knet_csv, matches=is_knet_csv, aliases=("KNETCSV",)))

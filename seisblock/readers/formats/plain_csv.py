@@ -15,19 +15,19 @@ from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import JST
 from seisblock.readers.lines import map_lines, read_lines
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.columns import Column, TableColumns, parse_header
 from seisblock.readers.table.comments import flag_comment_mismatch
 from seisblock.readers.table.header_rows import INSPECTED_LINES, TIME_HEADING, guess_first_name
 from seisblock.readers.table.headers import TIME, split_unit, zone_offset_s
-from seisblock.readers.table.layout import FORTRAN_EXPONENT, find_layout, is_data_line, preamble_error
+from seisblock.readers.table.layout import FORTRAN_EXPONENT, find_layout, is_data_line, looks_like_csv, preamble_error
 from seisblock.readers.table.parse import parse_columns, to_si_in_place
 from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.readers.table.timestamps import Timestamp, parse_timestamp, seconds_replacer
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
 _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s")
 
@@ -110,7 +110,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         dt,
         start=start,
         source=blob.name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=(*columns.notes, *start_notes),
         metadata=metadata
         | (
@@ -218,3 +218,16 @@ def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[
             dt=dt,
         )
     return interval
+
+
+FORMAT = register(
+    Format(
+        name="CSV",
+        title=N_("a plain table"),
+        parse=read_plain_csv,
+        matches_text=looks_like_csv,
+        specificity=0,
+        options=("units", "dt"),
+        plugin=False,
+    )
+)

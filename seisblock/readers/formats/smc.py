@@ -16,19 +16,20 @@ from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import DOS_EOF, parse_fixed_width, parse_sample_count
 from seisblock.readers._header_check import flag_peak_mismatch
 from seisblock.readers._header_text import utc_datetime
-from seisblock.readers.channels import make_component
+from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.parse import raise_line_error, to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "SMC"
 _TITLE_LINE = re.compile(
     rb"[ ]*(?:[0-9][ ]+)?((?:UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTR\w*|\*)[ ]*\r?\n", re.IGNORECASE
 )
 TEXT, INTEGERS, REALS = 11, 6, 10
 """Lines of text, integers and reals."""
 
+_FILE_NAME = re.compile(r"(?P<before>.*\d)(?P<code>[A-Z])(?P<after>(?:_[ACPU])?\.SMC)\Z", re.IGNORECASE)
 _INTEGER, _REAL, _SAMPLE = (8, 10), (5, 15), (8, 10)
 YEAR, DAY, HOUR, MINUTE, SECOND, MILLISECOND, VERTICAL, AZIMUTH, COMMENTS, SAMPLES = 1, 2, 3, 4, 5, 6, 12, 13, 15, 16
 FLOOR, NUMBER = 24, 29
@@ -119,7 +120,7 @@ def read_smc(blob: RawFile) -> Record:
         station=_station_code(lines, integers, missing_value),
         start=_start_time(integers, missing_value),
         source=name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=history,
         metadata=_metadata(lines, integers, reals),
         doubts=_qc_flags(direction.code, reals, gal),
@@ -189,3 +190,34 @@ def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ..
     peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
     peak_text = repr(peak) if abs(peak) < MISSING else ""
     return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))
+
+
+def smc_file_set(basename: str) -> FileSet | None:
+    """Return the file set of a station from a file name: the letter behind the number, or that of a SEED code, is the component.
+
+    Examples
+    --------
+    >>> smc_file_set("0111a.smc"), smc_file_set("np01002p_4225b_a.smc").key, smc_file_set("CE36456.V2")
+    (FileSet(key='0111?.smc', size=3, component='a', level=''), 'np01002p_4225?_a.smc', None)
+    """
+    match = _FILE_NAME.match(basename)
+    return FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"]) if match else seed_file_set(basename)
+
+
+def _recording_key(head: bytes) -> object:
+    lines = head.decode("latin-1").splitlines()
+    if not is_smc(head):
+        return None
+    return lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[TEXT].split()[1:7]
+
+
+FORMAT = register(
+    Format(
+        name="SMC",
+        parse=read_smc,
+        matches=is_smc,
+        synchronous=True,
+        file_set=smc_file_set,
+        recording_key=_recording_key,
+    )
+)

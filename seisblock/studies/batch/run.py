@@ -15,7 +15,7 @@ from seisblock.core.errors import KindError, ParameterError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import Progress
 from seisblock.readers.discover import RecordSource, iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.studies.batch.models import BatchModel, SolverBody, batch_model
