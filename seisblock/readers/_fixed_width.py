@@ -9,10 +9,9 @@ from math import ceil, isfinite
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import MAX_COUNT
-from seisblock.readers.table.parse import raise_line_error
+from seisblock.readers.lines import line_error
 
 DOS_EOF = "\x1a"
 """End-of-file character of DOS text files."""
@@ -69,10 +68,14 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
         line = text.rstrip()
         # a lost or inserted character shifts all later fields of the line
         if len(line) != line_count * width:
-            message = lazy_gettext(
-                "expected {count} numbers of {width} characters each, found {text!r}", count=line_count, width=width, text=line.strip()[:80]
+            raise line_error(
+                "expected {count} numbers of {width} characters each, found {text!r}",
+                name,
+                first + row + 1,
+                count=line_count,
+                width=width,
+                text=line.strip()[:80],
             )
-            raise_line_error(name, first + row + 1, message)
         for column in range(line_count):
             values[row * per_line + column] = _parse_field(name, first + row + 1, line[column * width : (column + 1) * width])
     return values
@@ -95,7 +98,7 @@ def _parse_field(name: str, line: int, cell: str) -> float:
     except ValueError:
         value = float("nan")
     if not isfinite(value) or "_" in cell:
-        raise_line_error(name, line, lazy_gettext("expected a number, found {cell!r}", cell=cell.strip()))
+        raise line_error("expected a number, found {cell!r}", name, line, cell=cell.strip())
     return value
 
 
@@ -108,5 +111,5 @@ def parse_sample_count(name: str, line: int, text: str) -> int:
         If the text is not a whole number, or below 2.
     """
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
-        raise_line_error(name, line, lazy_gettext("expected the number of samples, found {text!r}", text=text.strip()[:40]))
+        raise line_error("expected the number of samples, found {text!r}", name, line, text=text.strip()[:40])
     return int(text)

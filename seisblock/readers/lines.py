@@ -10,6 +10,7 @@ from typing import overload
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import IntArray
 from seisblock.readers import source
 from seisblock.readers.source import FileBytes, RawFile, decode_text, is_binary
@@ -102,6 +103,24 @@ def read_lines(blob: RawFile) -> Sequence[str]:
             continue
         return lines
     raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
+
+
+def line_error(message: str, name: str, line: int, /, **values: object) -> RecordFormatError:
+    """Return the error of a line of a file.
+
+    Parameters
+    ----------
+    message : str
+        Template: what was expected, and what was found.
+    name : str
+        File name.
+    line : int
+        Number of the line, counted from 1.
+    values
+        Values of the template's fields.
+    """
+    what = lazy_gettext(message, **values)
+    return RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=what)
 
 
 def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:

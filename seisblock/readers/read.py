@@ -47,7 +47,7 @@ def read(
         File of any registered format, or name of a bundled sample. One component file of a set, as of K-NET, includes the other
         components in the same folder. Several paths are read as ONE record.
     format : str or None
-        Name of a format, see :func:`~seisblock.readers.registry.format_names`, as ``JMA-CSV`` or ``AT2``, or ``OBSPY:`` followed by a
+        Name of a format, see :func:`~seisblock.core.format_names.format_names`, as ``JMA-CSV`` or ``AT2``, or ``OBSPY:`` followed by a
         format of obspy. None detects the format from the content.
     units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Unit of files that do not state it.

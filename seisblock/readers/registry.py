@@ -7,10 +7,10 @@ import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import NamedTuple
 
 from seisblock.core.errors import RecordFormatError
+from seisblock.core.format_names import format_names
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.readers.lines import read_lines
 from seisblock.readers.source import RawFile
@@ -51,7 +51,7 @@ class Format:
     Parameters
     ----------
     name : str
-        Name in the option ``format`` and in :attr:`~seisblock.records.Record.format`.
+        Name in the option ``format``, that of its file in upper case with hyphens, and in :attr:`~seisblock.records.Record.format`.
     parse : callable
         ``parse(blob, **options)``: a record, or a list of records or of single components to be assembled.
     title : str
@@ -113,24 +113,14 @@ def list_formats() -> tuple[Format, ...]:
     >>> [file_format.name for file_format in list_formats() if file_format.specificity < 2]
     ['AT2', 'CSV', 'OBSPY']
     """
-    for file in Path(__file__).with_name("formats").glob("[!_]*.py"):
-        importlib.import_module(f"seisblock.readers.formats.{file.stem}")
+    for name in format_names():
+        importlib.import_module(f"seisblock.readers.formats.{name.lower().replace('-', '_')}")
     return tuple(sorted(_FORMATS.values(), key=lambda file_format: (-file_format.specificity, file_format.name)))
-
-
-def format_names() -> list[str]:
-    """Return the names accepted by the option ``format``, without aliases."""
-    return sorted(file_format.name for file_format in list_formats() if file_format.name != FALLBACK)
 
 
 def format_titles() -> list[Message]:
     """Return the titles of the formats recognised by their first bytes, for messages."""
-    own_formats = sorted(list_formats(), key=lambda file_format: file_format.name)
-    return [
-        lazy_gettext(file_format.title or file_format.name)
-        for file_format in own_formats
-        if file_format.matches and file_format.name != FALLBACK
-    ]
+    return [lazy_gettext(f.title or f.name) for f in map(find_format, format_names()) if f.matches is not None and f.name != FALLBACK]
 
 
 def find_format(name: str) -> Format:

@@ -13,9 +13,9 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers._header import parse_number
 from seisblock.readers.directions import parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, Record
 
 _HEADER_LINES = 12
@@ -106,16 +106,12 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
             stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
             # contradicting values indicate concatenated or edited headers
             if any(len(values) > 1 for values in stated_values):
-                raise_line_error(
-                    name,
-                    index + 1,
-                    lazy_gettext("expected one NPTS and one DT, found several in the header: {text!r}", text=line.strip()[:80]),
+                raise line_error(
+                    "expected one NPTS and one DT, found several in the header: {text!r}", name, index + 1, text=line.strip()[:80]
                 )
             dt = parse_number(interval)
             if not dt or dt < 0:
-                raise_line_error(
-                    name, index + 1, lazy_gettext("expected a sampling interval DT above 0, found {interval!r}", interval=interval)
-                )
+                raise line_error("expected a sampling interval DT above 0, found {interval!r}", name, index + 1, interval=interval)
             return index, int(count), dt
     raise RecordFormatError(
         "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines",
@@ -137,7 +133,7 @@ def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArr
         for offset, line in enumerate(lines):
             for cell in line.split():
                 if parse_number(cell) is None:
-                    raise_line_error(name, first_line + offset, lazy_gettext("expected accelerations in g, found {cell!r}", cell=cell))
+                    raise line_error("expected accelerations in g, found {cell!r}", name, first_line + offset, cell=cell)
     return values
 
 

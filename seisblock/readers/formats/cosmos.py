@@ -15,14 +15,13 @@ from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_datetime, utc_datetime
+from seisblock.readers._header import flag_peak_mismatch, half_last_digit, parse_datetime, parse_magnitude, qc_flag, utc_datetime
 from seisblock.readers.channels import make_component, parse_location, seed_file_set, split_by_location
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
-from seisblock.readers.formats.csmip import parse_magnitude
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
@@ -111,27 +110,27 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     """Return the channel that begins at a line."""
     title = _TITLE_LINE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
+        raise line_error("expected the title of a channel, found {text!r}", name, begin + 1, text=lines[begin].strip()[:60])
     _check_quantity(name, title[1].decode("latin-1"))
     line_index = begin + int(title[2][:3])
     integers, line_index = _parse_values(name, lines, line_index, "Integer")
     reals, line_index = _parse_values(name, lines, line_index, "Real")
     comment_head = _COMMENTS.match(lines[line_index]) if line_index < len(lines) else None
     if comment_head is None:
-        raise_line_error(
-            name, line_index + 1, lazy_gettext("expected the number of comments, found {text!r}", text=_line_text(lines, line_index))
-        )
+        raise line_error("expected the number of comments, found {text!r}", name, line_index + 1, text=_line_text(lines, line_index))
     count = int(comment_head[1][:4])
     comments = lines[line_index + 1 : line_index + 1 + count]
     if len(comments) < count or not all(line.lstrip().startswith("|") for line in comments):
-        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comment lines beginning with |", count=count))
+        raise line_error("expected {count} comment lines beginning with |", name, line_index + 1, count=count)
     line_index += 1 + count
     data, layout = _DATA.match(lines[line_index] if line_index < len(lines) else ""), parse_fortran_format(_line_text(lines, line_index))
     if data is None or layout is None:
-        message = lazy_gettext(
-            "expected a line with count, unit and format of the samples, found {text!r}", text=_line_text(lines, line_index)
+        raise line_error(
+            "expected a line with count, unit and format of the samples, found {text!r}",
+            name,
+            line_index + 1,
+            text=_line_text(lines, line_index),
         )
-        raise_line_error(name, line_index + 1, message)
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
@@ -141,12 +140,15 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     samples = parse_fixed_width(name, lines, line_index + 1, size, layout)
     end = line_index + 1 + count_lines(size, layout)
     if end < len(lines) and not re.match(r"/&|End-of-data", lines[end], re.IGNORECASE):
-        raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=_line_text(lines, end)))
+        raise line_error("expected the end of the channel, found {text!r}", name, end + 1, text=_line_text(lines, end))
     if int(data[4]) != integer_values[UNIT]:
-        message = lazy_gettext(
-            "sample unit {one} contradicts unit code {other} in the integer header", one=data[3].strip(), other=integer_values[UNIT]
+        raise line_error(
+            "sample unit {one} contradicts unit code {other} in the integer header",
+            name,
+            line_index + 1,
+            one=data[3].strip(),
+            other=integer_values[UNIT],
         )
-        raise_line_error(name, line_index + 1, message)
     text = [*lines[begin : begin + int(title[2][:3])], *[""] * (PEAK + 1)]
     return _ChannelBlock(text, integer_values, reals, "\n".join(comments), samples, line_index, end + 1)
 
@@ -168,10 +170,13 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
     """Return the values of a header section, and the index of the line after them."""
     head, layout = _SECTION_HEAD.match(_line_text(lines, line_index)), parse_fortran_format(_line_text(lines, line_index))
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
-        message = lazy_gettext(
-            "expected number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
+        raise line_error(
+            "expected number, lines and format of {kind}-header values, found {text!r}",
+            name,
+            line_index + 1,
+            kind=kind,
+            text=_line_text(lines, line_index),
         )
-        raise_line_error(name, line_index + 1, message)
     count = int(head[1][:6])
     return parse_fixed_width(name, lines, line_index + 1, count, layout), line_index + 1 + count_lines(count, layout)
 
@@ -183,17 +188,15 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
     unit, factor = _UNITS[block.integers[UNIT]]
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
-        raise_line_error(
-            name,
-            block.data_line + 1,
-            lazy_gettext("expected a sampling interval above 0 ms in the real header, found {dt:g} ms", dt=1000.0 * dt),
+        raise line_error(
+            "expected a sampling interval above 0 ms in the real header, found {dt:g} ms", name, block.data_line + 1, dt=1000.0 * dt
         )
     direction, direction_name = _parse_direction(block)
     scaled_samples = block.samples if factor == 1.0 else factor * block.samples
     component, history = make_component(direction, to_si(scaled_samples, unit), direction_name)
     flags = _qc_flags(direction.code, block, dt)
     if not is_complete:
-        flags += (QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated")),)
+        flags += (qc_flag("end mark of the last channel missing: file probably truncated", "cut"),)
     start = _start_time(block)
     return Record(
         (component,),
@@ -263,13 +266,15 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     size, length = block.samples.size, float(block.reals[LENGTH])
     # 1.5 intervals and the printed decimals: the length may count samples or intervals
     if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=f"{length:g}",
-            count=size,
-            seconds=size * dt,
+        flags += (
+            qc_flag(
+                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+                "count",
+                text=f"{length:g}",
+                count=size,
+                seconds=size * dt,
+            ),
         )
-        flags += (QCFlag("count", message),)
     return flags
 
 

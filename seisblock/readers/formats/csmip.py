@@ -17,15 +17,22 @@ from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_coordinates, parse_datetime
+from seisblock.readers._header import (
+    flag_peak_mismatch,
+    half_last_digit,
+    parse_coordinates,
+    parse_datetime,
+    parse_magnitude,
+    parse_number,
+    qc_flag,
+)
 from seisblock.readers.channels import make_component, parse_location, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
@@ -98,7 +105,7 @@ def read_csmip(blob: RawFile) -> list[Record]:
 
 def _flag_truncated(part: Record) -> Record:
     """Return a record with the flag of a missing end mark."""
-    flag = QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated"))
+    flag = qc_flag("end mark of the last channel missing: file probably truncated", "cut")
     return replace(part, doubts=(*part.doubts, flag))
 
 
@@ -106,7 +113,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
     """Return the channel that begins at a line, and the index of the next."""
     title = _TITLE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
+        raise line_error("expected the title of a channel, found {text!r}", name, begin + 1, text=lines[begin].strip()[:60])
     kind = title[1][:3].decode().upper()
     if kind in _UNSUPPORTED:
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
@@ -117,7 +124,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
         sections.append(_parse_section(name, lines, sections[-1].end, volume))
     end = sections[-1].end
     if end < len(lines) and not lines[end].startswith("/&"):
-        raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
+        raise line_error("expected the end of the channel, found {text!r}", name, end + 1, text=lines[end].strip()[:60])
     acceleration = next((section for section in sections if section.quantity == "accel"), None)
     if acceleration is None:
         raise RecordFormatError("{name}, line {line}: no acceleration in this channel", name=name, line=begin + 1)
@@ -133,8 +140,9 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
-        message = lazy_gettext("expected a line with count, interval and unit of the samples, found {text!r}", text=text.strip()[:80])
-        raise_line_error(name, line_index + 1, message)
+        raise line_error(
+            "expected a line with count, interval and unit of the samples, found {text!r}", name, line_index + 1, text=text.strip()[:80]
+        )
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
     return _Section(
@@ -156,9 +164,7 @@ def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section:
     station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + line_shift], re.IGNORECASE)
     if channel is None or station is None:
         line = begin + 1 + line_shift + (STATION if station is None else CHANNEL)
-        raise_line_error(
-            name, line, lazy_gettext("expected a station or a channel, found {text!r}", text=text[line - begin - 1].strip()[:60])
-        )
+        raise line_error("expected a station or a channel, found {text!r}", name, line, text=text[line - begin - 1].strip()[:60])
     direction = parse_direction(channel[2]) or Direction(channel[2].upper())
     component, history = make_component(direction, to_si(section.values, unit), channel[2])
     start, _ = parse_datetime(text[TRIGGER + line_shift])
@@ -202,21 +208,6 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     return metadata | {"clock": clock}
 
 
-def parse_magnitude(text: str) -> dict[str, object]:
-    """Return metadata with the magnitude in a text, Mw before ML before Ms.
-
-    Examples
-    --------
-    >>> parse_magnitude("MS=6.6(NEIC), MW=6.4(CIT)"), parse_magnitude("ML:  To be determined.")
-    ({'magnitude': 6.4}, {})
-    """
-    magnitudes = {
-        kind.upper(): parse_number(value.rstrip(".")) for kind, value in re.findall(r"\b(M[WLS]?)\s*=\s*(\d[\d.]*)", text, re.IGNORECASE)
-    }
-    magnitude = next((magnitudes[kind] for kind in ("MW", "ML", "MS", "M") if magnitudes.get(kind)), None)
-    return {} if magnitude is None else {"magnitude": magnitude}
-
-
 def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
     """Return flags for peak, count and record length that differ from the header."""
     size, dt = section.values.size, section.dt
@@ -226,19 +217,19 @@ def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCF
     count_match = re.search(r"(?:no\. of points\s*=\s*(\d+)|(\d+)\s+points of instrument)", text, re.IGNORECASE)
     promised_count = int((count_match[1] or count_match[2])[:12]) if count_match else 0
     if promised_count != size:
-        flags += (
-            QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=size)),
-        )
+        flags += (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=size),)
     length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
     seconds = parse_number(length[1]) if length else None
     if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=length[1] if length else "-",
-            count=size,
-            seconds=size * dt,
+        flags += (
+            qc_flag(
+                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+                "count",
+                text=length[1] if length else "-",
+                count=size,
+                seconds=size * dt,
+            ),
         )
-        flags += (QCFlag("count", message),)
     return flags
 
 

@@ -13,16 +13,14 @@ from datetime import datetime, timedelta
 from typing import NamedTuple
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import half_last_digit
-from seisblock.readers._header_text import parse_datetime
+from seisblock.readers._header import half_last_digit, parse_datetime, parse_number, qc_flag
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
@@ -77,9 +75,7 @@ def read_cwa(blob: RawFile) -> Record:
     unit = normalize_unit(_require_entry(blob.name, header, "amplitudeunit").value.partition(" ")[0])
     if unit is None:
         entry = header["amplitudeunit"]
-        raise_line_error(
-            blob.name, entry.line, lazy_gettext("expected an acceleration unit such as gal, found {text!r}", text=entry.value[:40])
-        )
+        raise line_error("expected an acceleration unit such as gal, found {text!r}", blob.name, entry.line, text=entry.value[:40])
     labels = {"Time": 0, **{code: i + 1 for i, code in enumerate(directions)}}
     rows = parse_columns(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
     dt = _sampling_interval(blob.name, header, rows[0], lines[body:])
@@ -125,8 +121,9 @@ def _parse_directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Dire
     parsed_directions = [parse_direction(letter) for letter in letters]
     directions = {direction.code: direction for direction in parsed_directions if direction is not None and direction.sign > 0.0}
     if not _SEQUENCE.match(entry.value) or len(directions) != len(letters):
-        message = lazy_gettext("expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
-        raise_line_error(name, entry.line, message)
+        raise line_error(
+            "expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}", name, entry.line, text=entry.value[:60]
+        )
     return directions
 
 
@@ -135,7 +132,7 @@ def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArra
     entry = _require_entry(name, header, "samplerate")
     rate = parse_number(entry.value)
     if rate is None or not rate > 0.0:
-        raise_line_error(name, entry.line, lazy_gettext("expected the number of samples per second, found {text!r}", text=entry.value[:40]))
+        raise line_error("expected the number of samples per second, found {text!r}", name, entry.line, text=entry.value[:40])
     dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
     # the times have three decimals; the rate of the header is exact
     if abs(1.0 / rate - dt) > 1e-6:
@@ -152,9 +149,7 @@ def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> date
         return None
     start = _parse_time(entry)
     if start is None:
-        raise_line_error(
-            name, entry.line, lazy_gettext("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", text=entry.value[:40])
-        )
+        raise line_error("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", name, entry.line, text=entry.value[:40])
     return start + timedelta(seconds=first_s) if abs(first_s) < MAX_FIRST_TIME_S else start
 
 
@@ -178,13 +173,13 @@ def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterato
     # headers state the length as n or n - 1 intervals
     slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
-        message = lazy_gettext(
+        yield qc_flag(
             "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+            "count",
             text=entry.value[:20] or "-",
             count=count,
             seconds=count * dt,
         )
-        yield QCFlag("count", message)
 
 
 def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[QCFlag]:
@@ -200,15 +195,16 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         slack = 2.0 * max(half_last_digit(part) for part in parts) * (1.0 + 1e-6)
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
-        text = lazy_gettext(
+        yield qc_flag(
             "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}",
+            "header",
+            direction.code,
             component=direction.code,
             told=entry.value[:40],
             low=sample_extremes[0],
             high=sample_extremes[1],
             unit=unit,
         )
-        yield QCFlag("header", text, direction.code)
 
 
 def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:

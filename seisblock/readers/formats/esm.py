@@ -7,18 +7,16 @@ from collections.abc import Sequence
 from datetime import datetime
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import utc_datetime
+from seisblock.readers._header import flag_peak_mismatch, half_last_digit, parse_number, qc_flag, utc_datetime
 from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.records import QCFlag, Record
 
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
@@ -57,7 +55,7 @@ def read_esm(blob: RawFile) -> Record:
     line, text = _get_value(blob.name, header, "SAMPLING_INTERVAL_S")
     dt = parse_number(text)
     if not dt or dt < 0:
-        raise_line_error(blob.name, line, lazy_gettext("expected a sampling interval above 0 s, found {text!r}", text=text))
+        raise line_error("expected a sampling interval above 0 s, found {text!r}", blob.name, line, text=text)
     count = parse_sample_count(blob.name, *_get_value(blob.name, header, "NDATA"))
     (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
@@ -90,12 +88,10 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
         match = _KEY.match(line.strip("\ufeff\r "))
         if match is None:
             if parse_number(line) is None:
-                raise_line_error(
-                    name, index + 1, lazy_gettext("expected 'KEY: value' or the first sample, found {text!r}", text=line.strip()[:80])
-                )
+                raise line_error("expected 'KEY: value' or the first sample, found {text!r}", name, index + 1, text=line.strip()[:80])
             return header, index
         if match[1] in header:
-            raise_line_error(name, index + 1, lazy_gettext("duplicate header entry {key}", key=match[1]))
+            raise line_error("duplicate header entry {key}", name, index + 1, key=match[1])
         header[match[1]] = (index + 1, (match[2] or "").strip())
     raise RecordFormatError("{name}: no sample in the first {count} lines: file truncated or damaged", name=name, count=_MAX_HEADER_LINES)
 
@@ -149,14 +145,12 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     duration = parse_number(text)
     if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
         flags += (
-            QCFlag(
+            qc_flag(
+                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
                 "count",
-                lazy_gettext(
-                    "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                    text=text[:20] or "-",
-                    count=values.size,
-                    seconds=values.size * dt,
-                ),
+                text=text[:20] or "-",
+                count=values.size,
+                seconds=values.size * dt,
             ),
         )
     return flags
@@ -167,7 +161,7 @@ def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
     last = lines[-1].strip()
     if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
         return ()
-    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
+    return (qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"),)
 
 
 def _recording_key(head: bytes) -> object:

@@ -11,17 +11,15 @@ from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import count_lines, parse_fixed_width, parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_coordinates, utc_datetime
+from seisblock.readers._header import flag_peak_mismatch, half_last_digit, parse_coordinates, parse_number, qc_flag, utc_datetime
 from seisblock.readers.channels import make_component, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 
 TEXT, INTEGERS, REALS = 16, 4, 6
@@ -81,7 +79,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock
     text = lines[begin : begin + TEXT]
     if len(text) < TEXT or not is_geonet(text[0].encode("latin-1", "replace") + b"\n"):
         title = text[0].strip()[:60] if text else ""
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a component, found {text!r}", text=title))
+        raise line_error("expected the title of a component, found {text!r}", name, begin + 1, text=title)
     integers = parse_fixed_width(name, lines, begin + TEXT, 10 * INTEGERS, _FORM)
     integer_values = [int(value) for value in integers]
     reals = parse_fixed_width(name, lines, begin + TEXT + INTEGERS, 10 * REALS, _FORM)
@@ -100,23 +98,23 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock
 def _to_record(name: str, block: _ComponentBlock) -> Record:
     dt = float(block.reals[INTERVAL_INDEX])
     if not dt > 0.0:
-        raise_line_error(
-            name, block.first_line + TEXT + INTEGERS + 2, lazy_gettext("expected a sampling interval above 0 s, found {dt:g}", dt=dt)
-        )
+        raise line_error("expected a sampling interval above 0 s, found {dt:g}", name, block.first_line + TEXT + INTEGERS + 2, dt=dt)
     factor = re.search(r"units of\s+([\d.]+)\s*mm/s/s", " ".join(block.text), re.IGNORECASE)
     scale = parse_number(factor[1]) if factor else 1.0
     if not scale:
-        raise_line_error(
-            name,
-            block.first_line + 10,
-            lazy_gettext("expected samples in units of mm/s/s, found {text!r}", text=block.text[10].strip()[:60]),
+        raise line_error(
+            "expected samples in units of mm/s/s, found {text!r}", name, block.first_line + 10, text=block.text[10].strip()[:60]
         )
     words = block.text[COMPONENT].split()
     direction_name = words[1] if len(words) > 1 and words[0].lower() == "component" else ""
     direction = parse_direction(direction_name)
     if direction is None:
-        message = lazy_gettext("expected a component such as N10E or Up, found {text!r}", text=block.text[COMPONENT].strip()[:40])
-        raise_line_error(name, block.first_line + COMPONENT, message)
+        raise line_error(
+            "expected a component such as N10E or Up, found {text!r}",
+            name,
+            block.first_line + COMPONENT,
+            text=block.text[COMPONENT].strip()[:40],
+        )
     component, history = make_component(direction, to_si(scale * block.samples, _UNIT), direction_name)
     return Record(
         (component,),
@@ -170,15 +168,17 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
     count, text = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
     size, seconds = block.samples.size, parse_number(text)
     if count != size:
-        flags += (QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=count, count=size)),)
+        flags += (qc_flag("header states {promised} samples, file contains {count}", "count", promised=count, count=size),)
     if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=text[:20] or "-",
-            count=size,
-            seconds=size * dt,
+        flags += (
+            qc_flag(
+                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
+                "count",
+                text=text[:20] or "-",
+                count=size,
+                seconds=size * dt,
+            ),
         )
-        flags += (QCFlag("count", message),)
     return flags
 
 

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import N_, lazy_gettext
-from seisblock.readers._header import JST, parse_number
-from seisblock.readers.lines import read_lines
+from seisblock.core.i18n import N_
+from seisblock.readers._header import JST, parse_number, qc_flag
+from seisblock.readers.lines import line_error, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
 from seisblock.readers.table.headers import component_code, normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si_in_place
+from seisblock.readers.table.parse import parse_columns, to_si_in_place
 from seisblock.readers.table.precision import flag_missing_points
 from seisblock.records import Component, QCFlag, Record
 
@@ -67,15 +67,17 @@ def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ..
     """Return flags for a truncated file: JMA files end with a line end and have whole seconds."""
     flags = []
     if lines[-1].strip():
-        flags.append(QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")))
+        flags.append(qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
-        text = lazy_gettext(
-            "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
-            samples=samples,
-            seconds=seconds,
+        flags.append(
+            qc_flag(
+                "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
+                "count",
+                samples=samples,
+                seconds=seconds,
+            )
         )
-        flags.append(QCFlag("count", text))
     return tuple(flags)
 
 
@@ -101,9 +103,7 @@ def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]
     for index, heading in enumerate(names):
         code = component_code(heading)
         if code not in _CODES or code in columns:
-            raise_line_error(
-                name, line, lazy_gettext("expected the components NS, EW and UD once each, found {names}", names=[repr(n) for n in names])
-            )
+            raise line_error("expected the components NS, EW and UD once each, found {names}", name, line, names=[repr(n) for n in names])
         columns[code] = index
     return columns
 
@@ -122,7 +122,7 @@ def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
     rate = parse_number(match[1]) if match else None
     if not rate:
-        raise_line_error(name, line, lazy_gettext("expected a sampling rate such as 100Hz, found {text!r}", text=text))
+        raise line_error("expected a sampling rate such as 100Hz, found {text!r}", name, line, text=text)
     return rate
 
 
@@ -146,7 +146,7 @@ def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):
-        raise_line_error(name, line, lazy_gettext("expected a time such as 2016 04 16 01 25 00, found {text!r}", text=text))
+        raise line_error("expected a time such as 2016 04 16 01 25 00, found {text!r}", name, line, text=text) from None
 
 
 def _parse_site(text: str) -> tuple[str, dict[str, object]]:

@@ -12,11 +12,11 @@ import numpy as np
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number, qc_flag
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import component_code
-from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, QCFlag, Record
 
 KIK_FORMAT = "KIKNET"
@@ -94,19 +94,13 @@ def read_knet(blob: RawFile) -> Record:
     start = parse_jst(values[RECORD_TIME])
     scale = re.fullmatch(r"([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)", values[SCALE], re.IGNORECASE)
     if not rate or rate < 0:
-        raise_line_error(
-            blob.name, RATE + 1, lazy_gettext("expected a sampling frequency such as 100Hz, found {text!r}", text=values[RATE])
-        )
+        raise line_error("expected a sampling frequency such as 100Hz, found {text!r}", blob.name, RATE + 1, text=values[RATE])
     if start is None:
-        raise_line_error(
-            blob.name,
-            RECORD_TIME + 1,
-            lazy_gettext("expected a time such as 2016/04/16 01:25:15, found {text!r}", text=values[RECORD_TIME]),
+        raise line_error(
+            "expected a time such as 2016/04/16 01:25:15, found {text!r}", blob.name, RECORD_TIME + 1, text=values[RECORD_TIME]
         )
     if scale is None or not float(scale[2]):
-        raise_line_error(
-            blob.name, SCALE + 1, lazy_gettext("expected a scale factor such as 3920(gal)/6182761, found {text!r}", text=values[SCALE])
-        )
+        raise line_error("expected a scale factor such as 3920(gal)/6182761, found {text!r}", blob.name, SCALE + 1, text=values[SCALE])
     counts = _decode_counts(blob.name, values, lines)
     flags = _flag_length(blob.name, counts.size, values[DURATION], rate)
     # counts and factors are whole numbers: a single, correctly rounded division
@@ -150,7 +144,7 @@ def _parse_direction(name: str, text: str) -> tuple[str, str]:
         return _CHANNELS[text], "borehole" if text in "123" else "surface"
     code = component_code(text)
     if code not in ("NS", "EW", "UD"):
-        raise_line_error(name, DIRECTION + 1, lazy_gettext("expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}", text=text))
+        raise line_error("expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}", name, DIRECTION + 1, text=text)
     return code, ""
 
 
@@ -190,15 +184,14 @@ def _raise_bad_line(name: str, body: Sequence[str]) -> None:
         for cell in line.split():
             value = parse_number(cell)
             if value is None or not abs(value) < MAX_COUNT:
-                raise_line_error(name, len(_LABELS) + 1 + offset, lazy_gettext("expected counts, found {cell!r}", cell=cell))
+                raise line_error("expected counts, found {cell!r}", name, len(_LABELS) + 1 + offset, cell=cell)
 
 
 def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag, ...]:
     """Raise for a file shorter than its header duration; flag a longer file or an unreadable duration."""
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("header Duration Time {text!r} is not a number; number of samples not checked", text=text[:20])
-        return (QCFlag("header", message),)
+        return (qc_flag("header Duration Time {text!r} is not a number; number of samples not checked", "header", text=text[:20]),)
     promised_count = round(duration * rate)
     # a short file is truncated and cannot be trusted; a longer one is flagged
     if count < promised_count:
@@ -212,8 +205,7 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
             count=count,
         )
     if count > promised_count:
-        message = lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=count)
-        return (QCFlag("count", message),)
+        return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=count),)
     return ()
 
 
@@ -221,18 +213,26 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Return a flag if the largest deviation from the mean differs from the header maximum."""
     header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
     if header_maximum is None:
-        message = lazy_gettext(
-            "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked", component=code, text=text[:20]
+        return (
+            qc_flag(
+                "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked",
+                "header",
+                code,
+                component=code,
+                text=text[:20],
+            ),
         )
-        return (QCFlag("header", message, code),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
-        message = lazy_gettext(
-            "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal",
-            component=code,
-            told=header_maximum,
-            peak=peak,
+        return (
+            qc_flag(
+                "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal",
+                "header",
+                code,
+                component=code,
+                told=header_maximum,
+                peak=peak,
+            ),
         )
-        return (QCFlag("header", message, code),)
     return ()
 
 
@@ -243,10 +243,8 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
         return ()
     pairs = [(match["station"], station), (match["code"], code)]
     return tuple(
-        QCFlag(
-            "header",
-            lazy_gettext("{name}: file name ({named}) and header ({told}) disagree", name=basename, named=file_value, told=header_value),
-            code,
+        qc_flag(
+            "{name}: file name ({named}) and header ({told}) disagree", "header", code, name=basename, named=file_value, told=header_value
         )
         for file_value, header_value in pairs
         if file_value and header_value and file_value.upper() != header_value.upper()

@@ -10,13 +10,13 @@ from itertools import pairwise
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number, qc_flag
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
 from seisblock.readers.table.headers import TIME, component_code, normalize_unit, split_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
@@ -86,16 +86,10 @@ def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag,
     text = _line_after(header, "DurationTime(s)")
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("header DurationTime {text!r} is not a number; number of samples not checked", text=text[:20])
-        return (QCFlag("header", message),)
+        return (qc_flag("header DurationTime {text!r} is not a number; number of samples not checked", "header", text=text[:20]),)
     promised_count = round(duration * rate)
     if samples != promised_count:
-        return (
-            QCFlag(
-                "count",
-                lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=samples),
-            ),
-        )
+        return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=samples),)
     return ()
 
 
@@ -107,17 +101,19 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
             raise ValueError
         elapsed_s = (np.array(time_texts, dtype="datetime64[us]") - np.datetime64(time_texts[0], "us")) / np.timedelta64(1, "s")
     except ValueError:
-        return (QCFlag("clock", lazy_gettext("unreadable time of day in the first column")),)
+        return (qc_flag("unreadable time of day in the first column", "clock"),)
     # half an interval: larger differences are a shifted or missing line
     mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
     if not mismatches.size:
         return ()
-    text = lazy_gettext(
-        "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s",
-        count=mismatches.size,
-        seconds=float(relative_times[mismatches[0]]),
+    return (
+        qc_flag(
+            "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s",
+            "clock",
+            count=mismatches.size,
+            seconds=float(relative_times[mismatches[0]]),
+        ),
     )
-    return (QCFlag("clock", text),)
 
 
 def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
@@ -159,7 +155,7 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
     text = line.split(",")[0]
     time = parse_jst(text)
     if time is None:
-        raise_line_error(name, line_number, lazy_gettext("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
+        raise line_error("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", name, line_number, text=text)
     return time - timedelta(seconds=relative_time)
 
 

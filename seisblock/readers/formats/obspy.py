@@ -13,11 +13,12 @@ from typing import Any, NoReturn
 import numpy as np
 
 from seisblock.core.errors import ParameterError, RecordFormatError, UnitError
+from seisblock.core.format_names import format_names
 from seisblock.core.i18n import lazy_gettext
-from seisblock.readers._header import parse_number
+from seisblock.readers._header import parse_number, qc_flag
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import read_lines
-from seisblock.readers.registry import FALLBACK, Format, format_names, format_titles, list_formats, register
+from seisblock.readers.registry import FALLBACK, Format, format_titles, list_formats, register
 from seisblock.readers.source import MAX_QUOTED_LENGTH, RawFile
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.layout import MAX_PREAMBLE_LINES, preamble_error
@@ -141,7 +142,7 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
         raise ParameterError(
             "unknown format {waveform!r}: expected {known}, or OBSPY: followed by one of {usable}",
             waveform=waveform,
-            known=format_names(),
+            known=[name for name in format_names() if name != FALLBACK],
             usable=", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _UNSAFE_FORMATS)),
         )
     try:
@@ -174,12 +175,15 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
         )
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
-        text = lazy_gettext(
-            "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`",
-            channel=trace.id,
-            factor=stats.calib,
+        flags = (
+            *flags,
+            qc_flag(
+                "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`",
+                "calibration",
+                channel=trace.id,
+                factor=stats.calib,
+            ),
         )
-        flags = (*flags, QCFlag("calibration", text))
     direction = parse_direction(stats.channel)
     if direction is None or direction.is_bare_number:
         direction = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
@@ -211,8 +215,7 @@ def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_t
         Warnings of obspy: integrity checks of miniSEED, incomplete blocks at the end of the file.
     """
     obspy_flags = (
-        QCFlag("header", lazy_gettext("obspy warning: {warning}", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]))
-        for text in warning_texts
+        qc_flag("obspy warning: {warning}", "header", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]) for text in warning_texts
     )
     file_flags: Iterator[QCFlag] = iter(())
     if waveform in _COUNTED_FORMATS:
@@ -238,17 +241,17 @@ def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
         count = len(cells) // (2 if has_times else 1)
         total_count += count
         if stated_count is None or stated_count != count:
-            text = lazy_gettext(
+            yield qc_flag(
                 "{channel}: header states {stated} samples, file contains {count}",
+                "count",
                 channel=fields[0],
                 stated=words[0][:20] if words else "no",
                 count=count,
             )
-            yield QCFlag("count", text)
         if has_times and not _is_evenly_sampled(cells[::2]):
-            yield QCFlag("clock", lazy_gettext("{channel}: sample times are not evenly spaced", channel=fields[0]))
+            yield qc_flag("{channel}: sample times are not evenly spaced", "clock", channel=fields[0])
     if total_count != read_count:
-        yield QCFlag("count", lazy_gettext("obspy read {read} of {promised} samples in the file", promised=total_count, read=read_count))
+        yield qc_flag("obspy read {read} of {promised} samples in the file", "count", promised=total_count, read=read_count)
 
 
 def _is_evenly_sampled(times: Sequence[str]) -> bool:
@@ -267,7 +270,7 @@ def _flag_partial_block(size: int, traces: Sequence[Any]) -> Iterator[QCFlag]:
     """Yield a flag if a miniSEED file of `size` bytes ends inside a block, which obspy ignores."""
     length = min(int(trace.stats.mseed.record_length) for trace in traces)
     if size % length:
-        yield QCFlag("cut", lazy_gettext("file ends inside a block of {length} bytes: probably truncated", length=length))
+        yield qc_flag("file ends inside a block of {length} bytes: probably truncated", "cut", length=length)
 
 
 def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
@@ -279,14 +282,14 @@ def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
         for key, value in extremes.items():
             header_value = float(header.get(key, _SAC_UNDEFINED))
             if header_value != _SAC_UNDEFINED and not abs(header_value - value) <= slack:
-                text = lazy_gettext(
+                yield qc_flag(
                     "{channel}: header {key} {told:g} differs from the value of the samples, {value:g}",
+                    "header",
                     channel=trace.id,
                     key=key.upper(),
                     told=header_value,
                     value=float(value),
                 )
-                yield QCFlag("header", text)
 
 
 FORMAT = register(

@@ -14,13 +14,13 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import DOS_EOF, parse_fixed_width, parse_sample_count
-from seisblock.readers._header_check import flag_peak_mismatch
-from seisblock.readers._header_text import utc_datetime
+from seisblock.readers._header import flag_peak_mismatch, utc_datetime
 from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
+from seisblock.readers.lines import line_error
 from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 
 _TITLE_LINE = re.compile(
@@ -91,26 +91,22 @@ def read_smc(blob: RawFile) -> Record:
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
-            raise_line_error(
-                name, index + 1, lazy_gettext("expected one of {count} comment lines beginning with |", count=integers[COMMENTS])
-            )
+            raise line_error("expected one of {count} comment lines beginning with |", name, index + 1, count=integers[COMMENTS])
     rate = float(reals[RATE])
     if not 0.0 < rate < MISSING:
-        raise_line_error(
-            name,
-            TEXT + INTEGERS + 1,
-            lazy_gettext("expected the number of samples per second, found {rate:g}: samples may be uneven", rate=rate),
+        raise line_error(
+            "expected the number of samples per second, found {rate:g}: samples may be uneven", name, TEXT + INTEGERS + 1, rate=rate
         )
     count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
     gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
     end_line = first + -(-count // 8)
     if any(line.strip() for line in lines[end_line:]):
-        raise_line_error(
+        raise line_error(
+            "expected the end of the file after {count} samples, found {text!r}",
             name,
             end_line + 1,
-            lazy_gettext(
-                "expected the end of the file after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]
-            ),
+            count=count,
+            text=lines[end_line].strip()[:40],
         )
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from seisblock.core.i18n import lazy_gettext
-from seisblock.readers._header import parse_number
+from seisblock.readers._header import parse_number, qc_flag
 from seisblock.readers.table.columns import Column
 from seisblock.readers.table.headers import TIME, normalize_unit
 from seisblock.records import QCFlag
@@ -39,9 +38,7 @@ def flag_comment_mismatch(comments: Sequence[str], columns: Sequence[Column], sa
 def _flag_count(text: str, samples: int) -> Iterator[QCFlag]:
     for count in _COUNT.findall(text):
         if parse_number(count) not in (None, samples):
-            yield QCFlag(
-                "count", lazy_gettext("{promised} samples stated in a comment, file contains {count}", promised=count, count=samples)
-            )
+            yield qc_flag("{promised} samples stated in a comment, file contains {count}", "count", promised=count, count=samples)
 
 
 def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
@@ -49,11 +46,8 @@ def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
         for value_text in pattern.findall(text):
             value = parse_number(value_text)
             if value is not None and abs(value - actual) > _INTERVAL_TOLERANCE * actual:
-                yield QCFlag(
-                    "clock",
-                    lazy_gettext(
-                        "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", told=value_text, unit=unit, dt=dt
-                    ),
+                yield qc_flag(
+                    "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", "clock", told=value_text, unit=unit, dt=dt
                 )
 
 
@@ -62,5 +56,6 @@ def _flag_unit(text: str, columns: Sequence[Column]) -> Iterator[QCFlag]:
     for unit_text in _UNIT.findall(text):
         unit = normalize_unit(unit_text.rstrip(".)"))
         if unit is not None and unit not in units:
-            text = lazy_gettext("unit {told} in a comment differs from the unit of the columns, {units}", told=unit, units=sorted(units))
-            yield QCFlag("header", text)
+            yield qc_flag(
+                "unit {told} in a comment differs from the unit of the columns, {units}", "header", told=unit, units=sorted(units)
+            )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from seisblock.core.i18n import lazy_gettext
+from seisblock.readers._header import qc_flag
 from seisblock.records import QCFlag
 
 MIN_LINES = 10
@@ -48,15 +48,17 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
     if not cells_without_point:
         return ()
     line, cell, printed_decimals = min(cells_without_point)
-    text = lazy_gettext(
-        "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
-        "decimals: decimal point probably lost",
-        count=len(cells_without_point),
-        line=line,
-        cell=cell[:40],
-        decimals=printed_decimals,
+    return (
+        qc_flag(
+            "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
+            "decimals: decimal point probably lost",
+            "point",
+            count=len(cells_without_point),
+            line=line,
+            cell=cell[:40],
+            decimals=printed_decimals,
+        ),
     )
-    return (QCFlag("point", text),)
 
 
 def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCFlag, ...]:
@@ -72,7 +74,7 @@ def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCF
     *decimal_counts, last = [_count_decimals(line.split(separator)[-1]) for line in lines[-TAIL_LINES:] if line.strip()]
     if len(decimal_counts) < MIN_LINES or len(set(decimal_counts)) > 1 or last >= decimal_counts[0]:
         return ()
-    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
+    return (qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"),)
 
 
 def _count_decimals(cell: str) -> int:

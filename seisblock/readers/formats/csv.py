@@ -13,7 +13,7 @@ import numpy as np
 from seisblock.core.errors import InputError, ParameterError, RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import JST
+from seisblock.readers._header import JST, qc_flag
 from seisblock.readers.lines import map_lines, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
@@ -167,16 +167,16 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
     last = max(i for i, line in enumerate(lines) if is_data_line(line))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
-        text = lazy_gettext(
-            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
-            count=len(empty_lines),
-            line=empty_lines[0],
-        )
-        flags.append(QCFlag("line", text))
-    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
         flags.append(
-            QCFlag("cut", lazy_gettext("last line shortest and without line end: file probably truncated, last number incomplete"))
+            qc_flag(
+                "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
+                "line",
+                count=len(empty_lines),
+                line=empty_lines[0],
+            )
         )
+    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
+        flags.append(qc_flag("last line shortest and without line end: file probably truncated, last number incomplete", "cut"))
     return tuple(flags)
 
 
