@@ -56,26 +56,16 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
     per_line, width = layout
     field_lines = lines[first : first + ceil(count / per_line)]
     if count < 1 or len(field_lines) * per_line < count:
-        raise RecordFormatError(
-            "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again",
-            name=name,
-            count=count,
-            line=first + 1,
-        )
+        message = "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again"
+        raise RecordFormatError(message, name=name, count=count, line=first + 1)
     values = np.empty(count)
     for row, text in enumerate(field_lines):
         line_count = min(per_line, count - row * per_line)
         line = text.rstrip()
         # a lost or inserted character shifts all later fields of the line
         if len(line) != line_count * width:
-            raise line_error(
-                "expected {count} numbers of {width} characters each, found {text!r}",
-                name,
-                first + row + 1,
-                count=line_count,
-                width=width,
-                text=line.strip()[:80],
-            )
+            message = "expected {count} numbers of {width} characters each, found {text!r}"
+            raise line_error(message, name, first + row + 1, count=line_count, width=width, text=line.strip()[:80])
         for column in range(line_count):
             values[row * per_line + column] = _parse_field(name, first + row + 1, line[column * width : (column + 1) * width])
     return values

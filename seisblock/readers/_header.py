@@ -159,29 +159,13 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     """
     peak = parse_number(peak_text)
     if peak is None:
-        return (
-            qc_flag(
-                "{component}: header peak {text!r} is not a number; peak of the samples not checked",
-                "header",
-                code,
-                component=code,
-                text=peak_text[:20],
-            ),
-        )
+        message = "{component}: header peak {text!r} is not a number; peak of the samples not checked"
+        return (qc_flag(message, "header", code, component=code, text=peak_text[:20]),)
     extremes = np.array([values.max(), values.min()])
     # both extremes when their sizes agree within the rounding: the header may state either
     largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
     # 1e-6: rounding of the tolerance itself
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
-    return (
-        qc_flag(
-            "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}",
-            "header",
-            code,
-            component=code,
-            told=peak,
-            unit=unit,
-            peak=float(largest[0]),
-        ),
-    )
+    message = "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}"
+    return (qc_flag(message, "header", code, component=code, told=peak, unit=unit, peak=float(largest[0])),)

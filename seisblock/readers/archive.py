@@ -90,11 +90,8 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
         except InputError:
             raise
         except _DAMAGE_ERRORS as error:
-            raise RecordFormatError(
-                "{name}: archive damaged or encrypted ({error}); download it again or unpack it first",
-                name=blob.name,
-                error=str(error)[:200],
-            ) from error
+            message = "{name}: archive damaged or encrypted ({error}); download it again or unpack it first"
+            raise RecordFormatError(message, name=blob.name, error=str(error)[:200]) from error
         if member is None:
             return
         if not member.data:

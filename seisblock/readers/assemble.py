@@ -129,13 +129,8 @@ def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component],
         return list(components), []
     length_texts = [f"{c.code} {n}" for c, n in zip(components, lengths, strict=True)]
     trimmed_components = [replace(c, acceleration=c.acceleration[:min_length]) for c in components]
-    return trimmed_components, [
-        lazy_gettext(
-            "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})",
-            shortest=min_length,
-            lengths=length_texts,
-        )
-    ]
+    message = "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})"
+    return trimmed_components, [lazy_gettext(message, shortest=min_length, lengths=length_texts)]
 
 
 def _merge_metadata(parts: Sequence[Record]) -> dict[str, object]:

@@ -267,11 +267,9 @@ def unpack(blob: RawFile, options: ReadOptions) -> list[RawFile]:
     members = list(iter_members(blob, options.budget))
     records = [member for member in members if _may_be_member(member, options)]
     if not records:
+        message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
         raise RecordFormatError(
-            "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table",
-            name=blob.name,
-            held=[member.basename for member in members[:8]] or lazy_gettext("plots only"),
-            formats=format_titles(),
+            message, name=blob.name, held=[member.basename for member in members[:8]] or lazy_gettext("plots only"), formats=format_titles()
         )
     return records
 

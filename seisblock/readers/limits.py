@@ -56,12 +56,8 @@ class ReadBudget:
         """Count bytes read or unpacked."""
         self.bytes_read += count
         if self.remaining_bytes < 0:
-            raise RecordError(
-                "{name}: larger than the limit of {limit} MiB; set {variable} to read more",
-                name=name,
-                limit=self.limits["SEISBLOCK_READ_MIB"],
-                variable="SEISBLOCK_READ_MIB",
-            )
+            message = "{name}: larger than the limit of {limit} MiB; set {variable} to read more"
+            raise RecordError(message, name=name, limit=self.limits["SEISBLOCK_READ_MIB"], variable="SEISBLOCK_READ_MIB")
 
     def check_member(self, name: str) -> None:
         """Count one member of an archive."""
@@ -81,14 +77,8 @@ class ReadBudget:
             self._raise_exceeded(name, self.samples_read, "SEISBLOCK_READ_SAMPLES", N_("samples"))
 
     def _raise_exceeded(self, name: str, count: int, variable: str, quantity: str) -> None:
-        raise RecordError(
-            "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more",
-            name=name,
-            found=count,
-            what=lazy_gettext(quantity),
-            limit=self.limits[variable],
-            variable=variable,
-        )
+        message = "{name}: {found} {what}, more than the limit of {limit}; set {variable} to read more"
+        raise RecordError(message, name=name, found=count, what=lazy_gettext(quantity), limit=self.limits[variable], variable=variable)
 
 
 @dataclass(frozen=True)

@@ -62,12 +62,8 @@ class MemberBuffer:
             begin = self._file.seek(0, 2)
             self._file.write(blob.data)
         except OSError as error:
-            raise RecordError(
-                "{name}: cannot write a temporary file in {folder}: {reason}",
-                name=blob.name,
-                folder=tempfile.gettempdir(),
-                reason=os_error_text(error),
-            ) from error
+            message = "{name}: cannot write a temporary file in {folder}: {reason}"
+            raise RecordError(message, name=blob.name, folder=tempfile.gettempdir(), reason=os_error_text(error)) from error
         members.append(_BufferedMember(blob.name, begin, len(blob.content)))
         return len(members)
 

@@ -35,16 +35,8 @@ def _check_options(record: Record, options: ReadOptions) -> None:
         if option_unit is None:
             raise UnitError("unknown acceleration unit {units!r}: expected gal, m/s2 or g", units=options.units)
         if option_unit != header_unit:
-            raise UnitError(
-                "{source}: header unit {stated} contradicts `units` {units}; omit `units`",
-                source=record.source,
-                stated=header_unit,
-                units=options.units,
-            )
+            message = "{source}: header unit {stated} contradicts `units` {units}; omit `units`"
+            raise UnitError(message, source=record.source, stated=header_unit, units=options.units)
     if options.dt is not None and abs(options.dt - record.dt) > 1e-6:
-        raise ParameterError(
-            "{source}: header dt {dt:g} s contradicts `dt` {options_dt:g} s; omit `dt`",
-            source=record.source,
-            dt=record.dt,
-            options_dt=options.dt,
-        )
+        message = "{source}: header dt {dt:g} s contradicts `dt` {options_dt:g} s; omit `dt`"
+        raise ParameterError(message, source=record.source, dt=record.dt, options_dt=options.dt)

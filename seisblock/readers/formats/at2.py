@@ -53,12 +53,8 @@ def read_at2(blob: RawFile) -> Record:
         raise RecordFormatError("{name}: AT2 unit {found!r} in the header: expected acceleration in g", name=blob.name, found=unit_match[1])
     values = _parse_samples(blob.name, lines[sampling_line + 1 :], sampling_line + 2)
     if values.size != count:
-        raise RecordFormatError(
-            "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged",
-            name=blob.name,
-            count=count,
-            found=values.size,
-        )
+        message = "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged"
+        raise RecordFormatError(message, name=blob.name, count=count, found=values.size)
     event, station, direction = _parse_title(lines[1] if sampling_line > 1 else "", blob.basename)
     code, azimuth, sign = parse_orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
@@ -113,11 +109,8 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
             if not dt or dt < 0:
                 raise line_error("expected a sampling interval DT above 0, found {interval!r}", name, index + 1, interval=interval)
             return index, int(count), dt
-    raise RecordFormatError(
-        "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines",
-        name=name,
-        count=_HEADER_LINES,
-    )
+    message = "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines"
+    raise RecordFormatError(message, name=name, count=_HEADER_LINES)
 
 
 def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArray:

@@ -125,12 +125,8 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     line_index += 1 + count
     data, layout = _DATA.match(lines[line_index] if line_index < len(lines) else ""), parse_fortran_format(_line_text(lines, line_index))
     if data is None or layout is None:
-        raise line_error(
-            "expected a line with count, unit and format of the samples, found {text!r}",
-            name,
-            line_index + 1,
-            text=_line_text(lines, line_index),
-        )
+        message = "expected a line with count, unit and format of the samples, found {text!r}"
+        raise line_error(message, name, line_index + 1, text=_line_text(lines, line_index))
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
@@ -142,13 +138,8 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     if end < len(lines) and not re.match(r"/&|End-of-data", lines[end], re.IGNORECASE):
         raise line_error("expected the end of the channel, found {text!r}", name, end + 1, text=_line_text(lines, end))
     if int(data[4]) != integer_values[UNIT]:
-        raise line_error(
-            "sample unit {one} contradicts unit code {other} in the integer header",
-            name,
-            line_index + 1,
-            one=data[3].strip(),
-            other=integer_values[UNIT],
-        )
+        message = "sample unit {one} contradicts unit code {other} in the integer header"
+        raise line_error(message, name, line_index + 1, one=data[3].strip(), other=integer_values[UNIT])
     text = [*lines[begin : begin + int(title[2][:3])], *[""] * (PEAK + 1)]
     return _ChannelBlock(text, integer_values, reals, "\n".join(comments), samples, line_index, end + 1)
 
@@ -170,13 +161,8 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
     """Return the values of a header section, and the index of the line after them."""
     head, layout = _SECTION_HEAD.match(_line_text(lines, line_index)), parse_fortran_format(_line_text(lines, line_index))
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
-        raise line_error(
-            "expected number, lines and format of {kind}-header values, found {text!r}",
-            name,
-            line_index + 1,
-            kind=kind,
-            text=_line_text(lines, line_index),
-        )
+        message = "expected number, lines and format of {kind}-header values, found {text!r}"
+        raise line_error(message, name, line_index + 1, kind=kind, text=_line_text(lines, line_index))
     count = int(head[1][:6])
     return parse_fixed_width(name, lines, line_index + 1, count, layout), line_index + 1 + count_lines(count, layout)
 
@@ -266,15 +252,8 @@ def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     size, length = block.samples.size, float(block.reals[LENGTH])
     # 1.5 intervals and the printed decimals: the length may count samples or intervals
     if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
-        flags += (
-            qc_flag(
-                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                "count",
-                text=f"{length:g}",
-                count=size,
-                seconds=size * dt,
-            ),
-        )
+        message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+        flags += (qc_flag(message, "count", text=f"{length:g}", count=size, seconds=size * dt),)
     return flags
 
 

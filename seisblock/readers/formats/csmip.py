@@ -221,15 +221,8 @@ def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCF
     length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
     seconds = parse_number(length[1]) if length else None
     if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
-        flags += (
-            qc_flag(
-                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                "count",
-                text=length[1] if length else "-",
-                count=size,
-                seconds=size * dt,
-            ),
-        )
+        message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+        flags += (qc_flag(message, "count", text=length[1] if length else "-", count=size, seconds=size * dt),)
     return flags
 
 

@@ -167,14 +167,11 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
     last = max(i for i, line in enumerate(lines) if is_data_line(line))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
-        flags.append(
-            qc_flag(
-                "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
-                "line",
-                count=len(empty_lines),
-                line=empty_lines[0],
-            )
+        message = (
+            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, "
+            "all later samples are too early"
         )
+        flags.append(qc_flag(message, "line", count=len(empty_lines), line=empty_lines[0]))
     if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
         flags.append(qc_flag("last line shortest and without line end: file probably truncated, last number incomplete", "cut"))
     return tuple(flags)
@@ -194,11 +191,8 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
     if len(rows) - has_time == 1:
         names[-1] = "ACC"
     if units is None:
-        raise UnitError(
-            "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g",
-            name=name,
-            column=1 + has_time,
-        )
+        message = "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g"
+        raise UnitError(message, name=name, column=1 + has_time)
     columns = parse_header(name, names, units)
     return TableColumns(columns.columns, (lazy_gettext(_TIME_GUESSED_NOTE),) if has_time else ())
 
@@ -211,12 +205,8 @@ def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[
 
     interval = sampling_interval(name, row, printed_times, unit=column.seconds)
     if dt is not None and abs(dt - interval) > 1e-6:
-        raise ParameterError(
-            "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`",
-            name=name,
-            found=interval,
-            dt=dt,
-        )
+        message = "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`"
+        raise ParameterError(message, name=name, found=interval, dt=dt)
     return interval
 
 

@@ -173,13 +173,8 @@ def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterato
     # headers state the length as n or n - 1 intervals
     slack = min(half_last_digit(entry.value), 0.1 * dt)
     if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
-        yield qc_flag(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            "count",
-            text=entry.value[:20] or "-",
-            count=count,
-            seconds=count * dt,
-        )
+        message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+        yield qc_flag(message, "count", text=entry.value[:20] or "-", count=count, seconds=count * dt)
 
 
 def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[QCFlag]:

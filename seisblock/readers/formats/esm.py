@@ -59,12 +59,8 @@ def read_esm(blob: RawFile) -> Record:
     count = parse_sample_count(blob.name, *_get_value(blob.name, header, "NDATA"))
     (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
-        raise RecordFormatError(
-            "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged",
-            name=blob.name,
-            count=count,
-            found=values.size,
-        )
+        message = "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged"
+        raise RecordFormatError(message, name=blob.name, count=count, found=values.size)
     stream = _get_value(blob.name, header, "STREAM")[1]
     direction = parse_direction(stream) or Direction(stream.upper() or "H1")
     component, history = make_component(direction, to_si(values, unit), stream)
@@ -144,15 +140,8 @@ def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: floa
     text = header.get("DURATION_S", (0, ""))[1]
     duration = parse_number(text)
     if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
-        flags += (
-            qc_flag(
-                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                "count",
-                text=text[:20] or "-",
-                count=values.size,
-                seconds=values.size * dt,
-            ),
-        )
+        message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+        flags += (qc_flag(message, "count", text=text[:20] or "-", count=values.size, seconds=values.size * dt),)
     return flags
 
 

@@ -109,12 +109,8 @@ def _to_record(name: str, block: _ComponentBlock) -> Record:
     direction_name = words[1] if len(words) > 1 and words[0].lower() == "component" else ""
     direction = parse_direction(direction_name)
     if direction is None:
-        raise line_error(
-            "expected a component such as N10E or Up, found {text!r}",
-            name,
-            block.first_line + COMPONENT,
-            text=block.text[COMPONENT].strip()[:40],
-        )
+        message = "expected a component such as N10E or Up, found {text!r}"
+        raise line_error(message, name, block.first_line + COMPONENT, text=block.text[COMPONENT].strip()[:40])
     component, history = make_component(direction, to_si(scale * block.samples, _UNIT), direction_name)
     return Record(
         (component,),
@@ -170,15 +166,8 @@ def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: fl
     if count != size:
         flags += (qc_flag("header states {promised} samples, file contains {count}", "count", promised=count, count=size),)
     if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
-        flags += (
-            qc_flag(
-                "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                "count",
-                text=text[:20] or "-",
-                count=size,
-                seconds=size * dt,
-            ),
-        )
+        message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+        flags += (qc_flag(message, "count", text=text[:20] or "-", count=size, seconds=size * dt),)
     return flags
 
 

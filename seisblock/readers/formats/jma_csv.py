@@ -70,14 +70,8 @@ def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ..
         flags.append(qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
-        flags.append(
-            qc_flag(
-                "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
-                "count",
-                samples=samples,
-                seconds=seconds,
-            )
-        )
+        message = "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated"
+        flags.append(qc_flag(message, "count", samples=samples, seconds=seconds))
     return tuple(flags)
 
 

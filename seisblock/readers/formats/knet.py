@@ -127,13 +127,8 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
         if not line.startswith(label.split("|")[0]):
             expected_label = label.replace("|", "")
             actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("found the end of the file")
-            raise RecordFormatError(
-                "{name}, line {line}: expected {wanted!r}, {found}: K-NET header (17 lines) truncated or damaged",
-                name=name,
-                line=index + 1,
-                wanted=expected_label,
-                found=actual,
-            )
+            message = "{name}, line {line}: expected {wanted!r}, {found}: K-NET header (17 lines) truncated or damaged"
+            raise RecordFormatError(message, name=name, line=index + 1, wanted=expected_label, found=actual)
         values.append(line[18:].strip())
     return values
 
@@ -195,15 +190,11 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
     promised_count = round(duration * rate)
     # a short file is truncated and cannot be trusted; a longer one is flagged
     if count < promised_count:
-        raise RecordFormatError(
+        message = (
             "{name}: file truncated: header states {promised} samples ({duration:g} s at {rate:g} Hz), file contains {count}; "
-            "download it again",
-            name=name,
-            promised=promised_count,
-            duration=duration,
-            rate=rate,
-            count=count,
+            "download it again"
         )
+        raise RecordFormatError(message, name=name, promised=promised_count, duration=duration, rate=rate, count=count)
     if count > promised_count:
         return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=count),)
     return ()
@@ -213,26 +204,11 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Return a flag if the largest deviation from the mean differs from the header maximum."""
     header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
     if header_maximum is None:
-        return (
-            qc_flag(
-                "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked",
-                "header",
-                code,
-                component=code,
-                text=text[:20],
-            ),
-        )
+        message = "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked"
+        return (qc_flag(message, "header", code, component=code, text=text[:20]),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
-        return (
-            qc_flag(
-                "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal",
-                "header",
-                code,
-                component=code,
-                told=header_maximum,
-                peak=peak,
-            ),
-        )
+        message = "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal"
+        return (qc_flag(message, "header", code, component=code, told=header_maximum, peak=peak),)
     return ()
 
 

@@ -54,12 +54,8 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     dt = sampling_interval(blob.name, columns[time_index])
     rate = parse_number(_line_after(header, "SamplingFrequency(Hz)"))
     if rate and abs(1.0 / rate - dt) > 1e-6:
-        raise RecordFormatError(
-            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged",
-            name=blob.name,
-            rate=rate,
-            dt=dt,
-        )
+        message = "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged"
+        raise RecordFormatError(message, name=blob.name, rate=rate, dt=dt)
     start = _start_time(blob.name, lines[body], body + 1, float(columns[time_index][0]))
     flags = _qc_flags(header, columns[time_index].size, rate or 1.0 / dt) + _flag_clock(lines[body:], columns[time_index], dt)
     flags += flag_missing_points(lines[body:], body + 1, ",") + flag_truncated_end(lines[body:], ",")
@@ -106,14 +102,8 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
     mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
     if not mismatches.size:
         return ()
-    return (
-        qc_flag(
-            "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s",
-            "clock",
-            count=mismatches.size,
-            seconds=float(relative_times[mismatches[0]]),
-        ),
-    )
+    message = "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s"
+    return (qc_flag(message, "clock", count=mismatches.size, seconds=float(relative_times[mismatches[0]])),)
 
 
 def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
@@ -125,18 +115,11 @@ def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]
             continue
         unit = split_unit(column)[1]
         if unit and normalize_unit(unit) != "gal":
-            raise UnitError(
-                "{name}: unit {unit} in column {column!r}: expected gal in a K-NET CSV; file damaged",
-                name=name,
-                column=column,
-                unit=unit,
-            )
+            message = "{name}: unit {unit} in column {column!r}: expected gal in a K-NET CSV; file damaged"
+            raise UnitError(message, name=name, column=column, unit=unit)
         if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
-            raise RecordFormatError(
-                "{name}: column {column!r} unknown or duplicate: expected N-S, E-W, U-D (or 1 to 6) once each; file damaged",
-                name=name,
-                column=column,
-            )
+            message = "{name}: column {column!r} unknown or duplicate: expected N-S, E-W, U-D (or 1 to 6) once each; file damaged"
+            raise RecordFormatError(message, name=name, column=column)
         sensors.setdefault(level, {})[code] = index
     if not sensors:
         raise RecordFormatError("{name}: no acceleration column among {names}", name=name, names=names)

@@ -124,11 +124,8 @@ def _unrecognized_error(blob: RawFile) -> RecordFormatError:
 
 def _raise_unsupported(name: str, waveform: str) -> NoReturn:
     """Raise for a format whose decoder is unsafe."""
-    raise RecordFormatError(
-        "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC",
-        name=name,
-        format=waveform,
-    )
+    message = "{name}: format {format} not supported (the obspy decoder crashes on damaged files); convert the record to MSEED or SAC"
+    raise RecordFormatError(message, name=name, format=waveform)
 
 
 def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]:
@@ -166,23 +163,14 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
         raise RecordFormatError("{name}: channel {channel} contains text, not samples", name=name, channel=trace.id)
     values = np.require(trace.data, np.float64, ["C", "O", "W"])  # owned, so that they can be scaled in place
     if values.size < 2 or not stats.delta > 0:
-        raise RecordFormatError(
-            "{name}: channel {channel} is not a waveform ({count} samples, interval {dt} s)",
-            name=name,
-            channel=trace.id,
-            count=values.size,
-            dt=stats.delta,
-        )
+        message = "{name}: channel {channel} is not a waveform ({count} samples, interval {dt} s)"
+        raise RecordFormatError(message, name=name, channel=trace.id, count=values.size, dt=stats.delta)
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
+        message = "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`"
         flags = (
             *flags,
-            qc_flag(
-                "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`",
-                "calibration",
-                channel=trace.id,
-                factor=stats.calib,
-            ),
+            qc_flag(message, "calibration", channel=trace.id, factor=stats.calib),
         )
     direction = parse_direction(stats.channel)
     if direction is None or direction.is_bare_number:
@@ -241,13 +229,8 @@ def _flag_sample_lists(text: str, read_count: int) -> Iterator[QCFlag]:
         count = len(cells) // (2 if has_times else 1)
         total_count += count
         if stated_count is None or stated_count != count:
-            yield qc_flag(
-                "{channel}: header states {stated} samples, file contains {count}",
-                "count",
-                channel=fields[0],
-                stated=words[0][:20] if words else "no",
-                count=count,
-            )
+            message = "{channel}: header states {stated} samples, file contains {count}"
+            yield qc_flag(message, "count", channel=fields[0], stated=words[0][:20] if words else "no", count=count)
         if has_times and not _is_evenly_sampled(cells[::2]):
             yield qc_flag("{channel}: sample times are not evenly spaced", "clock", channel=fields[0])
     if total_count != read_count:
@@ -282,14 +265,8 @@ def _flag_extremes(traces: Sequence[Any]) -> Iterator[QCFlag]:
         for key, value in extremes.items():
             header_value = float(header.get(key, _SAC_UNDEFINED))
             if header_value != _SAC_UNDEFINED and not abs(header_value - value) <= slack:
-                yield qc_flag(
-                    "{channel}: header {key} {told:g} differs from the value of the samples, {value:g}",
-                    "header",
-                    channel=trace.id,
-                    key=key.upper(),
-                    told=header_value,
-                    value=float(value),
-                )
+                message = "{channel}: header {key} {told:g} differs from the value of the samples, {value:g}"
+                yield qc_flag(message, "header", channel=trace.id, key=key.upper(), told=header_value, value=float(value))
 
 
 FORMAT = register(

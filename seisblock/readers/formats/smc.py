@@ -101,13 +101,8 @@ def read_smc(blob: RawFile) -> Record:
     gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
     end_line = first + -(-count // 8)
     if any(line.strip() for line in lines[end_line:]):
-        raise line_error(
-            "expected the end of the file after {count} samples, found {text!r}",
-            name,
-            end_line + 1,
-            count=count,
-            text=lines[end_line].strip()[:40],
-        )
+        message = "expected the end of the file after {count} samples, found {text!r}"
+        raise line_error(message, name, end_line + 1, count=count, text=lines[end_line].strip()[:40])
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)
     return Record(

@@ -55,12 +55,9 @@ def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
     first = next((line.strip() for line in head if is_data_line(line)), "")
     if table_line is None or head[table_line].strip() == first:
         return None
+    message = "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #"
     return RecordFormatError(
-        "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #",
-        name=name,
-        line=table_line + 1,
-        header=head[table_line].strip()[:MAX_QUOTED_LENGTH],
-        first=first[:MAX_QUOTED_LENGTH],
+        message, name=name, line=table_line + 1, header=head[table_line].strip()[:MAX_QUOTED_LENGTH], first=first[:MAX_QUOTED_LENGTH]
     )
 
 

@@ -48,17 +48,11 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
     if not cells_without_point:
         return ()
     line, cell, printed_decimals = min(cells_without_point)
-    return (
-        qc_flag(
-            "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
-            "decimals: decimal point probably lost",
-            "point",
-            count=len(cells_without_point),
-            line=line,
-            cell=cell[:40],
-            decimals=printed_decimals,
-        ),
+    message = (
+        "{count} number(s) without a decimal point (first: {cell} in line {line}), all others of the column have {decimals} "
+        "decimals: decimal point probably lost"
     )
+    return (qc_flag(message, "point", count=len(cells_without_point), line=line, cell=cell[:40], decimals=printed_decimals),)
 
 
 def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCFlag, ...]:

@@ -70,27 +70,21 @@ def sampling_interval(
     steps = np.diff(seconds)
     repeat_count = int(np.count_nonzero(steps == 0.0))
     if steps.min() >= 0.0 and repeat_count > max(MIN_ROUNDED_STEPS, MIN_ROUNDED_SHARE * steps.size):
-        raise RecordFormatError(
+        message = (
             "{name}: too few digits in the time column: {repeats} of {count} times repeat the previous line (first: {first:g} s); "
-            "write more digits, or remove the column and give the sampling interval with `dt`, in s",
-            name=name,
-            repeats=repeat_count,
-            count=count,
-            first=seconds[int(np.argmin(steps))],
+            "write more digits, or remove the column and give the sampling interval with `dt`, in s"
         )
+        raise RecordFormatError(message, name=name, repeats=repeat_count, count=count, first=seconds[int(np.argmin(steps))])
     if not median_step > 0.0:
         raise RecordFormatError(
             "{name}: time column does not increase (usual step {usual:g} s): expected evenly increasing times", name=name, usual=median_step
         )
     row = int(np.argmax(np.abs(steps - median_step)))
-    raise RecordFormatError(
+    message = (
         "{name}: uneven time column: step from {first:.9g} to {second:.9g} s, usual step {usual:.9g} s (line missing or "
-        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits",
-        name=name,
-        first=seconds[row],
-        second=seconds[row + 1],
-        usual=median_step,
+        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits"
     )
+    raise RecordFormatError(message, name=name, first=seconds[row], second=seconds[row + 1], usual=median_step)
 
 
 def half_last_digits(texts: Sequence[str]) -> FloatArray:
