@@ -13,9 +13,6 @@ from seisblock.core.typing import FloatArray
 from seisblock.readers._header import MAX_COUNT
 from seisblock.readers.lines import line_error
 
-DOS_EOF = "\x1a"
-"""End-of-file character of DOS text files."""
-
 _FORTRAN_FORMAT = re.compile(r"\(\s*(\d*)[FEGI](\d+)(?:\.\d+)?\s*\)", re.IGNORECASE)
 
 
@@ -32,8 +29,8 @@ def parse_fortran_format(text: str) -> tuple[int, int] | None:
     return (per_line, width) if per_line and width else None
 
 
-def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> FloatArray:
-    """Return fixed-width numbers, (count,).
+def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> tuple[FloatArray, int]:
+    """Return fixed-width numbers, (count,), and the index of the line after them.
 
     Parameters
     ----------
@@ -68,18 +65,7 @@ def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, l
             raise line_error(message, name, first + row + 1, count=line_count, width=width, text=line.strip()[:80])
         for column in range(line_count):
             values[row * per_line + column] = _parse_field(name, first + row + 1, line[column * width : (column + 1) * width])
-    return values
-
-
-def count_lines(count: int, layout: tuple[int, int]) -> int:
-    """Return the number of lines occupied by `count` numbers.
-
-    Examples
-    --------
-    >>> count_lines(100, (16, 5)), count_lines(80, (8, 10))
-    (7, 10)
-    """
-    return ceil(count / layout[0])
+    return values, first + len(field_lines)
 
 
 def _parse_field(name: str, line: int, cell: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from math import isfinite
 
@@ -125,9 +126,20 @@ def parse_magnitude(text: str) -> dict[str, object]:
     return {} if magnitude is None else {"magnitude": magnitude}
 
 
+def search_group(pattern: str, text: str) -> str:
+    """Return the first group of a pattern found anywhere in a text, ignoring case; empty if there is none."""
+    match = re.search(pattern, text, re.IGNORECASE)
+    return match[1] if match else ""
+
+
+def drop_missing(values: Mapping[str, object]) -> dict[str, object]:
+    """Return header entries without those that are None or empty."""
+    return {key: value for key, value in values.items() if value not in (None, "")}
+
+
 def qc_flag(message: str, kind: str, component: str = "", /, **values: object) -> QCFlag:
     """Return a quality flag with a translatable message, the template first."""
-    return QCFlag(kind, lazy_gettext(message, **values), component)
+    return QCFlag(kind, lazy_gettext(message, **({"component": component} if component else {}), **values), component)
 
 
 def half_last_digit(text: str) -> float:
@@ -160,7 +172,7 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     peak = parse_number(peak_text)
     if peak is None:
         message = "{component}: header peak {text!r} is not a number; peak of the samples not checked"
-        return (qc_flag(message, "header", code, component=code, text=peak_text[:20]),)
+        return (qc_flag(message, "header", code, text=peak_text[:20]),)
     extremes = np.array([values.max(), values.min()])
     # both extremes when their sizes agree within the rounding: the header may state either
     largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
@@ -168,4 +180,34 @@ def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str,
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
     message = "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}"
-    return (qc_flag(message, "header", code, component=code, told=peak, unit=unit, peak=float(largest[0])),)
+    return (qc_flag(message, "header", code, told=peak, unit=unit, peak=float(largest[0])),)
+
+
+def flag_count(promised: int, count: int) -> tuple[QCFlag, ...]:
+    """Return a flag if the number of samples differs from the one in the header."""
+    if promised == count:
+        return ()
+    return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised, count=count),)
+
+
+def flag_duration(text: str, count: int, dt: float, slack: float | None = None, *, counts: Sequence[int] = ()) -> tuple[QCFlag, ...]:
+    """Return a flag if the duration printed in the header differs from the samples.
+
+    Parameters
+    ----------
+    text : str
+        Duration as printed, s.
+    count : int
+        Number of samples.
+    dt : float, s
+    slack : float or None, s
+        Tolerance; None for 1.5 intervals and half the last printed digit: the duration may count samples or intervals.
+    counts : sequence of int
+        Numbers of intervals that the duration may state (default: `count`).
+    """
+    seconds = parse_number(text)
+    slack = 1.5 * dt + half_last_digit(text) if slack is None else slack
+    if seconds is not None and any(abs(seconds - intervals * dt) <= slack for intervals in counts or (count,)):
+        return ()
+    message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+    return (qc_flag(message, "count", text=text[:20] or "-", count=count, seconds=count * dt),)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers.directions import Direction
 from seisblock.readers.registry import FileSet
 from seisblock.records import Component, Record
+
+_Block = TypeVar("_Block")
 
 MAX_CHANNELS = 3
 """Channels of one sensor: two horizontals and the vertical."""
@@ -67,6 +70,18 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
         metadata = {**part.metadata, "station_name": f"{site}, {location}" if site else location}
         result.append(replace(part, station=f"{part.station} {location}".strip(), metadata=metadata))
     return result
+
+
+def parse_blocks(lines: Sequence[str], parse_block: Callable[[int], tuple[_Block, int]]) -> list[_Block]:
+    """Return the results of ``parse_block(begin) -> (result, index after the block)`` for all blocks, without blank lines between."""
+    blocks, begin = [], 0
+    while begin < len(lines):
+        if lines[begin].strip():
+            block, begin = parse_block(begin)
+            blocks.append(block)
+        else:
+            begin += 1
+    return blocks
 
 
 def parse_location(text: str) -> str:

@@ -15,6 +15,9 @@ from seisblock.core.typing import IntArray
 from seisblock.readers import source
 from seisblock.readers.source import FileBytes, RawFile, decode_text, is_binary
 
+DOS_EOF = "\x1a"
+"""End-of-file character of DOS text files."""
+
 CHUNK_LINES = 2**16
 """Lines decoded at a time."""
 
@@ -103,6 +106,11 @@ def read_lines(blob: RawFile) -> Sequence[str]:
             continue
         return lines
     raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
+
+
+def read_trimmed_lines(blob: RawFile) -> list[str]:
+    """Return the lines of a text file without DOS end-of-file characters and blank lines at the end."""
+    return decode_text(blob).replace(DOS_EOF, "").rstrip().split("\n")
 
 
 def line_error(message: str, name: str, line: int, /, **values: object) -> RecordFormatError:

@@ -168,8 +168,7 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
         message = (
-            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, "
-            "all later samples are too early"
+            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early"
         )
         flags.append(qc_flag(message, "line", count=len(empty_lines), line=empty_lines[0]))
     if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):

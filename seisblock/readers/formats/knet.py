@@ -12,7 +12,7 @@ import numpy as np
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number, qc_flag
+from seisblock.readers._header import MAX_COUNT, drop_missing, flag_count, parse_jst, parse_number, qc_flag
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
@@ -24,44 +24,21 @@ TRIGGER_DELAY = timedelta(seconds=15)
 """Delay of the header's record time after the first sample."""
 
 # header labels as expected by obspy; the part after | may vary
-_LABELS = (
-    "Origin Time",
-    "Lat.",
-    "Long.",
-    "Depth.| (km)",
-    "Mag.",
-    "Station Code",
-    "Station Lat.",
-    "Station Lo|ng.",
-    "Station Height|(m)",
-    "Record Time",
-    "Sampling Freq|(Hz)",
-    "Duration Time|(s)",
-    "Dir.",
-    "Scale Factor",
-    "Max|. Acc. (gal)",
-    "Last Correction",
-    "Memo|.",
-)
-(
-    ORIGIN,
-    EVENT_LAT,
-    EVENT_LON,
-    DEPTH,
-    MAGNITUDE,
-    STATION,
-    LAT,
-    LON,
-    HEIGHT,
-    RECORD_TIME,
-    RATE,
-    DURATION,
-    DIRECTION,
-    SCALE,
-    MAXIMUM,
-    CORRECTION,
-    MEMO,
-) = range(17)
+_EVENT_LABELS = ("Origin Time", "Lat.", "Long.", "Depth.| (km)", "Mag.")
+_STATION_LABELS = ("Station Code", "Station Lat.", "Station Lo|ng.", "Station Height|(m)")
+_RECORD_LABELS = ("Record Time", "Sampling Freq|(Hz)", "Duration Time|(s)", "Dir.", "Scale Factor", "Max|. Acc. (gal)")
+_LABELS = (*_EVENT_LABELS, *_STATION_LABELS, *_RECORD_LABELS, "Last Correction", "Memo|.")
+ORIGIN, EVENT_LAT, EVENT_LON, DEPTH, MAGNITUDE, STATION, LAT, LON, HEIGHT = range(9)
+RECORD_TIME, RATE, DURATION, DIRECTION, SCALE, MAXIMUM, CORRECTION, MEMO = range(9, 17)
+_NUMBERS = {
+    "event_latitude_deg": EVENT_LAT,
+    "event_longitude_deg": EVENT_LON,
+    "event_depth_km": DEPTH,
+    "magnitude": MAGNITUDE,
+    "station_latitude_deg": LAT,
+    "station_longitude_deg": LON,
+    "station_height_m": HEIGHT,
+}
 _CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
 _SENSORS = {"": "", "1": "borehole", "2": "surface"}
 """Levels of KiK-net by the last digit of the file name."""
@@ -96,9 +73,8 @@ def read_knet(blob: RawFile) -> Record:
     if not rate or rate < 0:
         raise line_error("expected a sampling frequency such as 100Hz, found {text!r}", blob.name, RATE + 1, text=values[RATE])
     if start is None:
-        raise line_error(
-            "expected a time such as 2016/04/16 01:25:15, found {text!r}", blob.name, RECORD_TIME + 1, text=values[RECORD_TIME]
-        )
+        message = "expected a time such as 2016/04/16 01:25:15, found {text!r}"
+        raise line_error(message, blob.name, RECORD_TIME + 1, text=values[RECORD_TIME])
     if scale is None or not float(scale[2]):
         raise line_error("expected a scale factor such as 3920(gal)/6182761, found {text!r}", blob.name, SCALE + 1, text=values[SCALE])
     counts = _decode_counts(blob.name, values, lines)
@@ -107,16 +83,8 @@ def read_knet(blob: RawFile) -> Record:
     acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
     metadata = _metadata(values, code, level, 100.0 * acceleration)
     flags += _flag_maximum(code, values[MAXIMUM], 100.0 * acceleration) + _flag_name(blob.basename, code, values[STATION])
-    return Record(
-        (Component(code, acceleration),),
-        1.0 / rate,
-        station=values[STATION],
-        start=start - TRIGGER_DELAY,
-        source=blob.name,
-        format=KIK_FORMAT if level else FORMAT.name,
-        metadata=metadata,
-        doubts=flags,
-    )
+    name, kind, component = values[STATION], KIK_FORMAT if level else FORMAT.name, Component(code, acceleration)
+    return Record((component,), 1.0 / rate, name, start - TRIGGER_DELAY, source=blob.name, format=kind, metadata=metadata, doubts=flags)
 
 
 def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
@@ -195,9 +163,7 @@ def _flag_length(name: str, count: int, text: str, rate: float) -> tuple[QCFlag,
             "download it again"
         )
         raise RecordFormatError(message, name=name, promised=promised_count, duration=duration, rate=rate, count=count)
-    if count > promised_count:
-        return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=count),)
-    return ()
+    return flag_count(promised_count, count)
 
 
 def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
@@ -205,10 +171,10 @@ def _flag_maximum(code: str, text: str, gal: FloatArray) -> tuple[QCFlag, ...]:
     header_maximum, peak = parse_number(text), float(np.abs(gal - gal.mean()).max())
     if header_maximum is None:
         message = "{component}: header Max. Acc. {text!r} is not a number; peak of the samples not checked"
-        return (qc_flag(message, "header", code, component=code, text=text[:20]),)
+        return (qc_flag(message, "header", code, text=text[:20]),)
     if abs(peak - header_maximum) > _MAXIMUM_TOLERANCE:
         message = "{component}: header Max. Acc. {told:g} gal differs from the peak of the samples about their mean, {peak:.3f} gal"
-        return (qc_flag(message, "header", code, component=code, told=header_maximum, peak=peak),)
+        return (qc_flag(message, "header", code, told=header_maximum, peak=peak),)
     return ()
 
 
@@ -228,31 +194,22 @@ def _flag_name(basename: str, code: str, station: str) -> tuple[QCFlag, ...]:
 
 
 def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:
-    metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
-    if level:
-        metadata["level"] = level
-    labels = {
-        "event_latitude_deg": EVENT_LAT,
-        "event_longitude_deg": EVENT_LON,
-        "event_depth_km": DEPTH,
-        "magnitude": MAGNITUDE,
-        "station_latitude_deg": LAT,
-        "station_longitude_deg": LON,
-        "station_height_m": HEIGHT,
-    }
-    for label, index in labels.items():
-        value = parse_number(values[index])
-        if value is not None and not (index == HEIGHT and value == -9999):
-            metadata[label] = value
-    origin = parse_jst(values[ORIGIN])
-    if origin is not None:
-        metadata["origin_time"] = origin
-    if values[MEMO]:
-        metadata["memo"] = values[MEMO]
+    numbers = {label: parse_number(values[index]) for label, index in _NUMBERS.items()}
     header_maximum = parse_number(values[MAXIMUM])
-    if header_maximum is not None:
-        metadata["header_max_gal"] = {code: header_maximum}
-    return metadata
+    return drop_missing(
+        {
+            "unit": "gal",
+            "clock": "JST",
+            "carries_offset": True,
+            "offset_gal": {code: float(gal.mean())},
+            "level": level,
+            **numbers,
+            "station_height_m": None if numbers["station_height_m"] == -9999 else numbers["station_height_m"],
+            "origin_time": parse_jst(values[ORIGIN]),
+            "memo": values[MEMO],
+            "header_max_gal": None if header_maximum is None else {code: header_maximum},
+        }
+    )
 
 
 def knet_file_set(basename: str) -> FileSet | None:

@@ -168,10 +168,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
         message = "{channel}: calibration factor {factor:g} of the file not applied; samples taken in the unit given by `units`"
-        flags = (
-            *flags,
-            qc_flag(message, "calibration", channel=trace.id, factor=stats.calib),
-        )
+        flags = (*flags, qc_flag(message, "calibration", channel=trace.id, factor=stats.calib))
     direction = parse_direction(stats.channel)
     if direction is None or direction.is_bare_number:
         direction = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
