@@ -1,7 +1,7 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `gallery`, `glossary`, `literature` or `names` (one public name per line) is replaced by the
-generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature` or `names` (one public name per line) is replaced by
+the generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect
@@ -19,10 +19,11 @@ import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.command import SECTIONS
 from seisblock.cli.help import help_rows, paragraphs
+from seisblock.readers.registry import list_formats
 from seisblock.references import COMMAND_PAPERS, REFERENCES
 from seisblock.report.json.registry import DOCUMENTS, json_schema
 
-FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|formats|gallery|glossary|literature|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
@@ -105,6 +106,17 @@ def documents(_: str) -> str:
     return "\n".join((*parts, "## Types that several documents share\n", *(table(name, shared[name]) for name in sorted(shared))))
 
 
+def formats(_: str) -> str:
+    """Return the registered formats of records: names, files of a recording, name in ObsPy."""
+    rows = []
+    for file_format in sorted(list_formats(), key=lambda each: each.name):
+        summary = (inspect.getdoc(inspect.getmodule(file_format.parse)) or "").partition("\n")[0].replace("``", "`")
+        spellings = ", ".join(f"`{name}`" for name in (file_format.name, *file_format.aliases))
+        files = "one of the set" if file_format.file_set else "one file"
+        rows.append(f"| {spellings} | {summary} | {files} | {file_format.obspy_name if file_format.plugin else ''} |")
+    return "\n".join(("| `--format` | contents | give | ObsPy plug-in |", "|---|---|---|---|", *rows, ""))
+
+
 def gallery(_: str) -> str:
     """Return every figure of the pages, with the command that draws it."""
     parts = []
@@ -169,6 +181,7 @@ def glossary(language: str) -> str:
 GENERATORS = {
     "commands": commands,
     "documents": documents,
+    "formats": formats,
     "gallery": gallery,
     "glossary": glossary,
     "literature": literature,

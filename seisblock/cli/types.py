@@ -50,10 +50,9 @@ class Count(click.ParamType):  # type: ignore[type-arg]
         return count
 
 
-class FormatType(click.ParamType):  # type: ignore[type-arg]
+class FormatType(click.types.StringParamType):
     """Format of a record; help and completion list the names."""
 
-    name = "format"
     names = tuple("OBSPY:NAME" if name == "OBSPY" else name for name in format_names())
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
