@@ -9,6 +9,7 @@ from __future__ import annotations
 import glob
 import os
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -115,16 +116,13 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
         if not matches:
             raise RecordNotFoundError("no file matches the pattern {name}", name=name)
         yield from matches
+    elif exists:
+        yield name
     else:
-        yield name if exists else _sample_path(name)
-
-
-def _sample_path(name: str) -> str:
-    """Return the path of a bundled sample, else the name unchanged, which fails on reading."""
-    try:
-        return str(resolve_path(name))
-    except RecordNotFoundError:
-        return name
+        # an unknown name fails on reading
+        with suppress(RecordNotFoundError):
+            name = str(resolve_path(name))
+        yield name
 
 
 def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) -> Iterator[str]:
@@ -147,9 +145,8 @@ def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) 
 def _expand_folder(path: Path, options: ReadOptions) -> Iterator[str]:
     """Yield the files in a folder and its subfolders that may be records."""
     try:
-        files = sorted(
-            file for file in path.rglob("*") if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)
-        )
+        paths = sorted(path.rglob("*"))
+        files = [file for file in paths if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)]
     except OSError as error:
         raise RecordNotFoundError("{name}: cannot read the folder: {reason}", name=path, reason=os_error_text(error)) from error
     candidates = [str(file) for file in files if options.format is not None or _may_be_record(file)]
@@ -236,9 +233,8 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
             yield RecordSource(path.name, str(path), stamp, failure=error)
         else:
             if not member_count:
-                yield RecordSource(
-                    path.name, str(path), stamp, failure=RecordFormatError("{name}: no record found in this archive", name=path)
-                )
+                failure = RecordFormatError("{name}: no record found in this archive", name=path)
+                yield RecordSource(path.name, str(path), stamp, failure=failure)
         for incomplete_key in buffer.keys:
             yield _archive_source(buffer.pop(incomplete_key), stamp)
 
@@ -268,9 +264,8 @@ def unpack(blob: RawFile, options: ReadOptions) -> list[RawFile]:
     records = [member for member in members if _may_be_member(member, options)]
     if not records:
         message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
-        raise RecordFormatError(
-            message, name=blob.name, held=[member.basename for member in members[:8]] or lazy_gettext("plots only"), formats=format_titles()
-        )
+        contents = [member.basename for member in members[:8]] or lazy_gettext("plots only")
+        raise RecordFormatError(message, name=blob.name, held=contents, formats=format_titles())
     return records
 
 
@@ -286,20 +281,20 @@ def load_component_files(blob: RawFile, budget: ReadBudget, level: str | None = 
         If a component file cannot be read.
     """
     file_format = match_head(blob.content[:HEAD_BYTES])
-    own_set = file_format.file_set(blob.path.name) if file_format and file_format.file_set and blob.path else None
-    if file_format is None or own_set is None or blob.path is None:
+    if file_format is None or file_format.file_set is None or blob.path is None:
         return [blob]
-    own_key = _recording_key(file_format, blob)
+    own_set = file_format.file_set(blob.path.name)
+    if own_set is None:
+        return [blob]
     level = level if level and own_set.level else own_set.level
     files: dict[str, RawFile] = {}
     for path in _directory_files(blob.path):
-        file_set = file_format.file_set(path.name) if file_format.file_set else None
-        if file_set is None or (file_set.key, file_set.level) != (own_set.key, level):
-            continue
-        file = blob if path == blob.path else _load_file(path, blob, budget)
-        if _recording_key(file_format, file) == own_key:
-            # by component: of two files with one direction, the last
-            files[file_set.component] = file
+        file_set = file_format.file_set(path.name)
+        if file_set is not None and (file_set.key, file_set.level) == (own_set.key, level):
+            file = blob if path == blob.path else _load_file(path, blob, budget)
+            if _recording_key(file_format, file) == _recording_key(file_format, blob):
+                # by component: of two files with one direction, the last
+                files[file_set.component] = file
     if not files or (level == own_set.level and not any(file is blob for file in files.values())):
         return [blob]
     return [files[code] for code in sorted(files, key=lambda code: (_COMPONENT_ORDER.get(code, 1.5), code))]

@@ -95,16 +95,14 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
     """Return line index, NPTS and DT of the sampling line."""
     for index, line in enumerate(lines[:_HEADER_LINES]):
         old_match = _OLD_STYLE.match(line)
-        count, interval = (
-            (old_match[1], old_match[2]) if old_match else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
-        )
+        new_match = [(pattern.findall(line) or [""])[0] for pattern in (_COUNT, _INTERVAL)]
+        count, interval = old_match.groups() if old_match else new_match
         if count and interval:
             stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
             # contradicting values indicate concatenated or edited headers
             if any(len(values) > 1 for values in stated_values):
-                raise line_error(
-                    "expected one NPTS and one DT, found several in the header: {text!r}", name, index + 1, text=line.strip()[:80]
-                )
+                message = "expected one NPTS and one DT, found several in the header: {text!r}"
+                raise line_error(message, name, index + 1, text=line.strip()[:80])
             dt = parse_number(interval)
             if not dt or dt < 0:
                 raise line_error("expected a sampling interval DT above 0, found {interval!r}", name, index + 1, interval=interval)

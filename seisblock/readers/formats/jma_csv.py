@@ -8,7 +8,7 @@ from datetime import UTC, datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_
-from seisblock.readers._header import JST, parse_number, qc_flag
+from seisblock.readers._header import JST, drop_missing, parse_number, qc_flag, search_group
 from seisblock.readers.lines import line_error, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
@@ -47,20 +47,10 @@ def read_jma_csv(blob: RawFile) -> Record:
     components = tuple(Component(code, to_si_in_place(row, unit)) for code, row in zip(columns, rows, strict=True))
     station, metadata = _parse_site(_get_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
-        value = parse_number(header[key][1].split(",")[0]) if key in header else None
-        if value:  # 0.0000: unknown
-            metadata[label] = value
-    metadata |= {"unit": unit, "clock": "JST"}
-    return Record(
-        components,
-        dt,
-        station=station,
-        start=start,
-        source=blob.name,
-        format=FORMAT.name,
-        metadata=metadata,
-        doubts=_qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ","),
-    )
+        metadata[label] = parse_number(header.get(key, (0, ""))[1].split(",")[0]) or None  # 0.0000: unknown
+    metadata = drop_missing(metadata | {"unit": unit, "clock": "JST"})
+    flags = _qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ",")
+    return Record(components, dt, station, start, source=blob.name, format=FORMAT.name, metadata=metadata, doubts=flags)
 
 
 def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ...]:
@@ -86,9 +76,8 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int,
         elif len({component_code(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
-    raise RecordFormatError(
-        "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)", name=name, count=count
-    )
+    message = "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)"
+    raise RecordFormatError(message, name=name, count=count)
 
 
 def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]:
@@ -113,8 +102,7 @@ def _get_value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tup
 def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     """Return the sampling rate, Hz."""
     line, text = _get_value(name, header, "SAMPLING RATE", "SAMPLING FREQ", "SAMPLING FREQ.")
-    match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
-    rate = parse_number(match[1]) if match else None
+    rate = parse_number(search_group(r"\A([\d.]+)\s*(?:Hz)?\s*\Z", text))
     if not rate:
         raise line_error("expected a sampling rate such as 100Hz, found {text!r}", name, line, text=text)
     return rate

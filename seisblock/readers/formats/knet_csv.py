@@ -11,7 +11,7 @@ import numpy as np
 
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number, qc_flag
+from seisblock.readers._header import MAX_COUNT, drop_missing, flag_count, parse_jst, parse_number, qc_flag
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
@@ -43,9 +43,8 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     header = [line.lstrip("#").strip() for line in lines[:body]]
     names_line = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
     if names_line is None:
-        raise RecordFormatError(
-            "{name}: K-NET CSV header incomplete: no line with the column names (#Time,RelativeTime(s),...)", name=blob.name
-        )
+        message = "{name}: K-NET CSV header incomplete: no line with the column names (#Time,RelativeTime(s),...)"
+        raise RecordFormatError(message, name=blob.name)
     names = [cell.strip() for cell in header[names_line].split(",")]
     sensors = _sensor_columns(blob.name, names)
     time_index = next(i for i, name in enumerate(names) if name.startswith("RelativeTime"))
@@ -59,21 +58,12 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     start = _start_time(blob.name, lines[body], body + 1, float(columns[time_index][0]))
     flags = _qc_flags(header, columns[time_index].size, rate or 1.0 / dt) + _flag_clock(lines[body:], columns[time_index], dt)
     flags += flag_missing_points(lines[body:], body + 1, ",") + flag_truncated_end(lines[body:], ",")
-    records = []
+    dt, station, records = 1.0 / rate if rate else dt, _line_after(header, "Code,").split(",")[0], []
     for level, codes in sensors.items():
-        rows = {code: columns[i] for code, i in codes.items()}
-        records.append(
-            Record(
-                tuple(Component(code, to_si(row, "gal")) for code, row in rows.items()),
-                1.0 / rate if rate else dt,
-                station=_line_after(header, "Code,").split(",")[0],
-                start=start,
-                source=blob.name,
-                format=FORMAT.name,
-                metadata=_metadata(header, level) | {"offset_gal": {code: float(row.mean()) for code, row in rows.items()}},
-                doubts=flags,
-            )
-        )
+        components = tuple(Component(code, to_si(columns[i], "gal")) for code, i in codes.items())
+        metadata = _metadata(header, level) | {"offset_gal": {code: float(columns[i].mean()) for code, i in codes.items()}}
+        part = Record(components, dt, station, start, source=blob.name, format=FORMAT.name, metadata=metadata, doubts=flags)
+        records.append(part)
     return records
 
 
@@ -83,10 +73,7 @@ def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag,
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
         return (qc_flag("header DurationTime {text!r} is not a number; number of samples not checked", "header", text=text[:20]),)
-    promised_count = round(duration * rate)
-    if samples != promised_count:
-        return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised_count, count=samples),)
-    return ()
+    return flag_count(round(duration * rate), samples)
 
 
 def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> tuple[QCFlag, ...]:
@@ -143,16 +130,11 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
 
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
-    metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
-    if level:
-        metadata["level"] = level
     event, station = _line_after(header, "OriginTime").split(","), _line_after(header, "Code,").split(",")
-    origin = parse_jst(event[0])
-    if origin is not None:
-        metadata["origin_time"] = origin
     numbers = dict(zip(("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude"), event[1:], strict=False))
     numbers |= dict(zip(("station_latitude_deg", "station_longitude_deg"), station[1:], strict=False))
-    return metadata | {label: value for label, text in numbers.items() if (value := parse_number(text)) is not None}
+    constants = {"unit": "gal", "clock": "JST", "carries_offset": True, "level": level, "origin_time": parse_jst(event[0])}
+    return drop_missing(constants | {label: parse_number(text) for label, text in numbers.items()})
 
 
 FORMAT = register(Format(name="KNET-CSV", title="K-NET CSV", parse=read_knet_csv, matches=is_knet_csv, aliases=("KNETCSV",)))
