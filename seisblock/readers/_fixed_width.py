@@ -30,25 +30,10 @@ def parse_fortran_format(text: str) -> tuple[int, int] | None:
 
 
 def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> tuple[FloatArray, int]:
-    """Return fixed-width numbers, (count,), and the index of the line after them.
+    """Return `count` fixed-width numbers, (count,), and the index of the line after them.
 
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    lines : sequence of str
-        Lines of the whole file.
-    first : int
-        Index of the first line of numbers.
-    count : int
-        Number of values stated by the header.
-    layout : tuple of int
-        Numbers per line and field width.
-
-    Raises
-    ------
-    RecordFormatError
-        If the file is too short, a line has the wrong length, or a cell is not a number.
+    `layout` is numbers per line and field width, `first` the index of the first of `lines` with numbers. Raise RecordFormatError if the
+    file is too short, a line has the wrong length, or a cell is not a number.
     """
     per_line, width = layout
     field_lines = lines[first : first + ceil(count / per_line)]
@@ -79,13 +64,7 @@ def _parse_field(name: str, line: int, cell: str) -> float:
 
 
 def parse_sample_count(name: str, line: int, text: str) -> int:
-    """Return the number of samples stated by a header.
-
-    Raises
-    ------
-    RecordFormatError
-        If the text is not a whole number, or below 2.
-    """
+    """Return the number of samples stated by a header; raise RecordFormatError unless it is a whole number of at least 2."""
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
         raise line_error("expected the number of samples, found {text!r}", name, line, text=text.strip()[:40])
     return int(text)

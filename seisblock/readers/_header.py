@@ -156,18 +156,8 @@ def half_last_digit(text: str) -> float:
 def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str, slack: float) -> tuple[QCFlag, ...]:
     """Return a flag if the largest sample differs from the header peak.
 
-    Parameters
-    ----------
-    code : str
-        Component code.
-    peak_text : str
-        Peak as printed in the header, with sign.
-    values : (n,) array
-        Samples in the unit of the header.
-    unit : str
-        Name of the unit.
-    slack : float
-        Tolerance in this unit, from the printed digits of both.
+    `peak_text` is the peak as printed, with sign; `values`, (n,), and `slack`, the tolerance from the printed digits of both, are in
+    `unit`.
     """
     peak = parse_number(peak_text)
     if peak is None:
@@ -191,19 +181,10 @@ def flag_count(promised: int, count: int) -> tuple[QCFlag, ...]:
 
 
 def flag_duration(text: str, count: int, dt: float, slack: float | None = None, *, counts: Sequence[int] = ()) -> tuple[QCFlag, ...]:
-    """Return a flag if the duration printed in the header differs from the samples.
+    """Return a flag if the duration printed in the header, s, differs from that of `count` samples at intervals of `dt`, s.
 
-    Parameters
-    ----------
-    text : str
-        Duration as printed, s.
-    count : int
-        Number of samples.
-    dt : float, s
-    slack : float or None, s
-        Tolerance; None for 1.5 intervals and half the last printed digit: the duration may count samples or intervals.
-    counts : sequence of int
-        Numbers of intervals that the duration may state (default: `count`).
+    `slack`, s, is by default 1.5 intervals and half the last printed digit: the duration may count samples or intervals. `counts` are the
+    numbers of intervals that the duration may state (default: `count`).
     """
     seconds = parse_number(text)
     slack = 1.5 * dt + half_last_digit(text) if slack is None else slack

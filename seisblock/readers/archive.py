@@ -65,21 +65,8 @@ def list_members(blob: RawFile, budget: ReadBudget) -> list[RawFile]:
 def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[RawFile]:
     """Yield the files in an archive and in nested archives, without plots and sparse members.
 
-    Parameters
-    ----------
-    blob : RawFile
-        Archive.
-    budget : ReadBudget
-        Read limits; declared member sizes are checked before reading.
-    depth : int
-        Nesting depth, 1 for an archive that is not inside another.
-
-    Raises
-    ------
-    RecordFormatError
-        If the archive is damaged or encrypted.
-    RecordError
-        If it exceeds a limit.
+    Declared member sizes are checked against the budget before reading; `depth` is 1 for an archive that is not inside another. Raise
+    RecordFormatError if the archive is damaged or encrypted, RecordError if it exceeds a limit.
     """
     budget.check_nesting(blob.name, depth)
     members = _iter_archive(blob, budget)

@@ -19,18 +19,9 @@ TRIM_TOLERANCE = 0.05
 
 
 def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
-    """Return one record from parts with a common station, level, start and sampling interval.
+    """Return one record from parts, at least one, with a common station, level, start and sampling interval.
 
-    Parameters
-    ----------
-    name : str
-        Source name, for messages.
-    parts : sequence of Record
-        At least one part, with one or several components each.
-    station : str or None
-        Station to select if there are several.
-    level : {"surface", "borehole"} or None
-        Sensor of a KiK-net station; None selects the surface sensor if present.
+    `station` selects one of several. `level` is the sensor of a station with two; None selects the surface sensor if present.
 
     Raises
     ------
@@ -42,9 +33,8 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
-        raise RecordError(
-            "{name}: start times differ ({starts}), so the files are not one recording; read them separately", name=name, starts=starts
-        )
+        message = "{name}: start times differ ({starts}), so the files are not one recording; read them separately"
+        raise RecordError(message, name=name, starts=starts)
     intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
         interval_texts = [f"{dt:g} s" for dt in intervals]
@@ -91,9 +81,8 @@ def _select_station(name: str, parts: Sequence[Record], station: str | None) -> 
             raise ComponentError("{name}: no station {station!r}; available: {listed}", name=name, station=station, listed=station_names)
         return matching_parts
     if len(stations) > 1:
-        raise ComponentError(
-            "{name} contains {count} stations; select one with `station`: {listed}", name=name, count=len(stations), listed=station_names
-        )
+        message = "{name} contains {count} stations; select one with `station`: {listed}"
+        raise ComponentError(message, name=name, count=len(stations), listed=station_names)
     return parts
 
 
@@ -110,13 +99,8 @@ def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tupl
     matching_parts = [p for p in parts if p.metadata.get("level") == selected_level]
     if not matching_parts:
         raise ComponentError("{name}: no {taken} sensor; available: {levels}", name=name, taken=selected_level, levels=sorted(levels))
-    reason = (
-        lazy_gettext("selected by `level`")
-        if level
-        else lazy_gettext("default")
-        if len(levels) > 1
-        else lazy_gettext("only sensor in the files")
-    )
+    default_reason = lazy_gettext("default") if len(levels) > 1 else lazy_gettext("only sensor in the files")
+    reason = lazy_gettext("selected by `level`") if level else default_reason
     text = "KiK-net surface sensor used ({why})" if selected_level == "surface" else "KiK-net borehole sensor used ({why})"
     return matching_parts, (lazy_gettext(text, why=reason),)
 

@@ -25,15 +25,7 @@ _LABEL = re.compile(r"^(?:location)?[\s:,;-]*", re.IGNORECASE)
 
 
 def make_component(direction: Direction, values: FloatArray, name: str) -> tuple[Component, tuple[str, ...]]:
-    """Return a component, a vertical one positive up, and history entries.
-
-    Parameters
-    ----------
-    direction : Direction
-    values : (n,) array, m/s^2
-    name : str
-        Name of the direction in the file.
-    """
+    """Return a component of samples in m/s^2, (n,), a vertical one positive up, and history entries; `name` is its direction as written."""
     if direction.sign > 0:
         return Component(direction.code, values, direction.azimuth_deg), ()
     history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=name.strip()),)
@@ -44,14 +36,8 @@ def split_by_location(parts: Sequence[Record], *, structure: bool = False) -> li
     """Return one single-component record per channel; channels of a structure are named by their place.
 
     Up to three channels of different directions are one station. More channels, or two with one direction, are at several places: each
-    place becomes a station, named by the place and selected like a station of an archive.
-
-    Parameters
-    ----------
-    parts : sequence of Record
-        ``metadata["channels"]`` has the channel numbers, ``metadata["place"]`` the place.
-    structure : bool
-        True if the channels are known to be in a structure, possibly spread over several files.
+    place becomes a station, named by the place and selected like a station of an archive. ``metadata["channels"]`` has the channel numbers,
+    ``metadata["place"]`` the place. `structure` is True if the channels are known to be in a structure, possibly spread over several files.
     """
     codes = [part.codes[0] for part in parts]
     is_one_station = len(parts) <= MAX_CHANNELS and len(set(codes)) == len(parts)

@@ -37,20 +37,8 @@ _COMPONENT_ORDER = {"NS": 0.0, "EW": 1.0, "UD": 2.0}
 class RecordSource:
     """One recording to be read.
 
-    Parameters
-    ----------
-    name : str
-        File name of its first file.
-    path : str
-        Path of its first file; archive/member for a member of an archive.
-    stamp : str
-        Sizes and modification times of its files; identifies the content under this path.
-    files : tuple of str
-        Files of the recording; empty if `blobs` are given.
-    blobs : tuple of RawFile
-        Archive members of the recording.
-    failure : InputError or None
-        Error that prevents reading.
+    `name` and `path` are those of its first file (archive/member in an archive); `stamp`, the sizes and modification times of its files,
+    identifies the content under this path. The bytes are in `files` or, of an archive, in `blobs`; `failure` prevents reading.
     """
 
     name: str
@@ -251,12 +239,7 @@ def _may_be_member(blob: RawFile, options: ReadOptions) -> bool:
 def unpack(blob: RawFile, options: ReadOptions) -> list[RawFile]:
     """Return the records in an archive, nested archives included, or a file that is not an archive.
 
-    Raises
-    ------
-    RecordFormatError
-        If the archive is damaged, or no member is a record.
-    RecordError
-        If the archive exceeds a limit.
+    Raise RecordFormatError if the archive is damaged or no member is a record, RecordError if it exceeds a limit.
     """
     if not is_archive(blob.content[:512]):
         return [blob]

@@ -23,13 +23,7 @@ class Readable(Protocol):
 
 @dataclass
 class ReadBudget:
-    """Counters of bytes, members and samples read, and their limits.
-
-    Parameters
-    ----------
-    limits : mapping of str to int
-        Limits by the names of their environment variables.
-    """
+    """Counters of bytes, members and samples read, and their limits by the names of their environment variables."""
 
     limits: Mapping[str, int]
     bytes_read: int = field(default=0, init=False)
@@ -83,15 +77,7 @@ class ReadBudget:
 
 @dataclass(frozen=True)
 class LimitedReader:
-    """Stream that counts the bytes read against a budget.
-
-    Parameters
-    ----------
-    name : str
-        Source name, for messages.
-    stream : Readable
-    budget : ReadBudget
-    """
+    """Stream that counts the bytes read against a budget; `name` is the source in messages."""
 
     name: str
     stream: Readable
@@ -105,11 +91,5 @@ class LimitedReader:
 
 
 def new_budget() -> ReadBudget:
-    """Return a new budget with limits from the environment.
-
-    Raises
-    ------
-    ParameterError
-        If a variable is not a positive whole number.
-    """
+    """Return a new budget with limits from the environment; raise ParameterError if a variable is not a positive whole number."""
     return ReadBudget({variable: get_limit(variable) for variable in DEFAULT_LIMITS if variable.startswith(_PREFIX)})

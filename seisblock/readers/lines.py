@@ -26,17 +26,8 @@ CHUNK_LINES = 2**16
 class LazyLines(Sequence[str]):
     """Lines of a large text file, decoded on access.
 
-    Parameters
-    ----------
-    data : bytes or FileBytes
-        Bytes of the whole file.
-    encoding : str
-    offsets : (m,) array of int
-        Byte offsets of every ``CHUNK_LINES``-th line, and of the end of the data.
-    begin, stop : int
-        Range of the lines in the file.
-    transforms : tuple of callable
-        Functions applied to each line, in this order.
+    `offsets` are the byte offsets of every ``CHUNK_LINES``-th line, and of the end of the data; `begin` and `stop` the range of the lines
+    in the file; `transforms` functions applied to each line, in this order.
     """
 
     data: bytes | FileBytes
@@ -85,13 +76,7 @@ class LazyLines(Sequence[str]):
 
 
 def read_lines(blob: RawFile) -> Sequence[str]:
-    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode_text`.
-
-    Raises
-    ------
-    RecordFormatError
-        If the bytes are not text.
-    """
+    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode_text`; raise RecordFormatError if it is not text."""
     data = blob.content
     if len(data) < source.LARGE_FILE_BYTES or not _has_simple_line_ends(blob):
         return decode_text(blob).split("\n")
@@ -114,19 +99,7 @@ def read_trimmed_lines(blob: RawFile) -> list[str]:
 
 
 def line_error(message: str, name: str, line: int, /, **values: object) -> RecordFormatError:
-    """Return the error of a line of a file.
-
-    Parameters
-    ----------
-    message : str
-        Template: what was expected, and what was found.
-    name : str
-        File name.
-    line : int
-        Number of the line, counted from 1.
-    values
-        Values of the template's fields.
-    """
+    """Return the error of a line, counted from 1, of the file `name`; the template says what was expected, and what was found."""
     what = lazy_gettext(message, **values)
     return RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=what)
 

@@ -13,10 +13,7 @@ from seisblock.records import Record
 def parse_file(blob: RawFile, options: ReadOptions) -> list[Record]:
     """Return the records, or single components, in a file of the detected format or of the format in the options.
 
-    Raises
-    ------
-    InputError
-        If the file is malformed, exceeds the limit of samples, or contradicts the options.
+    Raise an InputError if the file is malformed, exceeds the limit of samples, or contradicts the options.
     """
     file_format = detect_format(blob) if options.format is None else find_format(options.format)
     result = file_format.parse(blob, **{key: getattr(options, key) for key in file_format.options})

@@ -17,15 +17,21 @@ from seisblock.readers._header import JST, qc_flag
 from seisblock.readers.lines import map_lines, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
+from seisblock.readers.table.checks import flag_comment_mismatch, flag_missing_points, flag_truncated_end
 from seisblock.readers.table.columns import Column, TableColumns, parse_header
-from seisblock.readers.table.comments import flag_comment_mismatch
-from seisblock.readers.table.header_rows import INSPECTED_LINES, TIME_HEADING, guess_first_name
 from seisblock.readers.table.headers import TIME, split_unit, zone_offset_s
-from seisblock.readers.table.layout import FORTRAN_EXPONENT, find_layout, is_data_line, looks_like_csv, preamble_error
+from seisblock.readers.table.layout import (
+    FORTRAN_EXPONENT,
+    INSPECTED_LINES,
+    TIME_HEADING,
+    find_layout,
+    guess_first_name,
+    is_data_line,
+    looks_like_csv,
+    preamble_error,
+)
 from seisblock.readers.table.parse import parse_columns, to_si_in_place
-from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
-from seisblock.readers.table.sampling import sampling_interval
-from seisblock.readers.table.timestamps import Timestamp, parse_timestamp, seconds_replacer
+from seisblock.readers.table.sampling import Timestamp, parse_timestamp, sampling_interval, seconds_replacer
 from seisblock.records import Component, QCFlag, Record
 
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
@@ -35,26 +41,18 @@ _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s"
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
     """Return the record in a plain table.
 
-    Parameters
-    ----------
-    blob : RawFile
-        Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name
-        the columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in
-        a line below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time
-        with a date (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time.
-    units : str or None
-        Unit of columns without a unit.
-    dt : float or None, s
-        Sampling interval of a table without a time column.
+    Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name the
+    columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in a line
+    below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time with a date
+    (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time. `units` is the unit of columns
+    without one, `dt` the sampling interval, s, of a table without a time column.
 
     Raises
     ------
     RecordFormatError
         If a column is unknown or a cell is not a number; the message has its name or line.
-    UnitError
-        If a unit is unknown or missing.
-    ParameterError
-        If the sampling interval is missing, or contradicts the time column.
+    UnitError, ParameterError
+        If a unit or the sampling interval is missing, or contradicts the file.
     """
     lines = read_lines(blob)
     layout = find_layout(blob.name, lines)

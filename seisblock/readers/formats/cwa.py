@@ -19,9 +19,9 @@ from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.checks import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.headers import normalize_unit
 from seisblock.readers.table.parse import parse_columns, to_si
-from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS

@@ -12,9 +12,9 @@ from seisblock.readers._header import JST, drop_missing, parse_number, qc_flag, 
 from seisblock.readers.lines import line_error, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
+from seisblock.readers.table.checks import flag_missing_points
 from seisblock.readers.table.headers import component_code, normalize_unit
 from seisblock.readers.table.parse import parse_columns, to_si_in_place
-from seisblock.readers.table.precision import flag_missing_points
 from seisblock.records import Component, QCFlag, Record
 
 _HEADER_LINES = 40  # 7 in all files examined

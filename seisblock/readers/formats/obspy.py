@@ -51,16 +51,10 @@ def is_gse(head: bytes) -> bool:
 
 
 def read_obspy(blob: RawFile, *, units: str | None, format: str | None = None) -> list[Record]:  # noqa: A002 - the read option
-    """Return the components in a file of a format known to obspy.
+    """Return the components in a file of any waveform format of obspy except PICKLE.
 
-    Parameters
-    ----------
-    blob : RawFile
-        File of any waveform format of obspy except PICKLE.
-    units : str or None
-        Unit of the samples as returned by obspy; the calibration factor ``stats.calib`` is not applied.
-    format : str or None
-        ``OBSPY:`` and a format name of obspy, or that name alone; None and ``OBSPY`` try all formats.
+    `units` is the unit of the samples as returned by obspy; the calibration factor ``stats.calib`` is not applied. `format` is ``OBSPY:``
+    and a format name of obspy, or that name alone; None and ``OBSPY`` try all formats.
 
     Raises
     ------
@@ -186,19 +180,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
 
 
 def flag_obspy_file(data: bytes, waveform: str, traces: Sequence[Any], warning_texts: Sequence[str]) -> tuple[QCFlag, ...]:
-    """Return the quality flags of a file.
-
-    Parameters
-    ----------
-    data : bytes
-        Content of the file.
-    waveform : str
-        Format name of obspy.
-    traces : sequence of obspy Trace
-        Traces read from the file.
-    warning_texts : sequence of str
-        Warnings of obspy: integrity checks of miniSEED, incomplete blocks at the end of the file.
-    """
+    """Return the quality flags of a file from its bytes, traces and the warnings of obspy (integrity checks, incomplete last blocks)."""
     obspy_flags = (
         qc_flag("obspy warning: {warning}", "header", warning=" ".join(text.split())[:MAX_QUOTED_LENGTH]) for text in warning_texts
     )

@@ -36,21 +36,8 @@ _RIGHT_ANGLE_TOLERANCE_DEG = 1.0
 class Column:
     """Column to be read.
 
-    Parameters
-    ----------
-    index : int
-        Index in the table.
-    label : str
-        Name for messages.
-    code : str
-        Component code, or ``TIME``.
-    unit : str
-        Normalised acceleration unit; empty for time.
-    azimuth_deg : float or None
-    sign : float
-        -1 if the samples are converted to positive up.
-    seconds : float
-        Unit of a time column, s.
+    `label` is its name in messages, `code` the component or ``TIME``, `unit` the normalised acceleration unit (empty for time), `seconds`
+    the unit of a time column, s. `sign` is -1 if the samples are converted to positive up.
     """
 
     index: int
@@ -71,16 +58,7 @@ class TableColumns:
 
 
 def parse_header(name: str, names: Sequence[str], units: str | None = None) -> TableColumns:
-    """Return the columns of a table from the names in its header.
-
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    names : sequence of str
-        Column names as written, at least one not empty.
-    units : str or None
-        Unit of columns without a unit.
+    """Return the columns of a table from the names in its header, at least one not empty; `units` is the unit of columns without one.
 
     Raises
     ------

@@ -87,13 +87,7 @@ def normalize_unit(text: str) -> str | None:
 
 
 def require_unit(name: str, line: int, text: str) -> str:
-    """Return the normalised acceleration unit in a line of a file.
-
-    Raises
-    ------
-    UnitError
-        If the text is none.
-    """
+    """Return the normalised acceleration unit in a line of a file; raise UnitError if there is none."""
     unit = normalize_unit(text)
     if unit is None:
         raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=line, text=text)

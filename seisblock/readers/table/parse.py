@@ -57,20 +57,8 @@ def parse_columns(
 ) -> list[FloatArray]:
     """Return selected columns of a table, one array of shape (lines,) each.
 
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    lines : sequence of str
-        Lines of the table; blank lines are skipped.
-    first_line : int
-        Number of ``lines[0]`` in the file, counted from 1.
-    columns : mapping of str to int
-        Label (for messages) and index of each selected column.
-    width : int
-        Number of columns in the header; further cells must be blank.
-    separator : str or None
-        Cell separator; None for any run of blanks.
+    `first_line` is the number of ``lines[0]`` in the file, from 1; blank lines are skipped. `columns` are labels (for messages) and
+    indices, `width` is the number of columns in the header: further cells must be blank. A `separator` of None is any run of blanks.
 
     Raises
     ------

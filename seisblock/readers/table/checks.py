@@ -1,11 +1,13 @@
-"""Lost decimal points and truncated last numbers, detected from the printed decimals of a column."""
+"""Checks of the text of a table: lost decimal points, truncated ends, comments that contradict the numbers."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from seisblock.readers._header import qc_flag
+from seisblock.readers._header import parse_number, qc_flag
+from seisblock.readers.table.columns import Column
+from seisblock.readers.table.headers import TIME, normalize_unit
 from seisblock.records import QCFlag
 
 MIN_LINES = 10
@@ -24,14 +26,7 @@ _INTEGER = re.compile(r"[-+]?\d+")
 def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | None) -> tuple[QCFlag, ...]:
     """Return a flag if numbers lack the decimal point while all others of the column have equal decimals.
 
-    Parameters
-    ----------
-    lines : sequence of str
-        Lines of the table; blank lines are skipped.
-    first_line : int
-        Number of ``lines[0]`` in the file, counted from 1.
-    separator : str or None
-        Cell separator; None for any run of blanks.
+    `first_line` is the number of ``lines[0]`` in the file, from 1; blank lines are skipped. A `separator` of None is any run of blanks.
     """
     count = sum(1 for line in lines if line.strip())
     # the prefilter avoids splitting every line of a large table
@@ -58,10 +53,7 @@ def flag_missing_points(lines: Sequence[str], first_line: int, separator: str | 
 def flag_truncated_end(lines: Sequence[str], separator: str | None) -> tuple[QCFlag, ...]:
     """Return a flag if the last line has no line end and its last number fewer decimals than its column.
 
-    Parameters
-    ----------
-    lines, separator
-        As in :func:`flag_missing_points`; a text with a final line end has an empty last line.
+    A text with a final line end has an empty last line.
     """
     if not lines or not lines[-1].strip():
         return ()
@@ -80,3 +72,44 @@ def _may_miss_points(lines: Sequence[str], row_count: int) -> bool:
     """Return whether the total of points is slightly below a multiple of the rows, a cheap prefilter."""
     missing_count = -sum(line.count(".") for line in lines) % row_count
     return 0 < missing_count <= max(1.0, MAX_MISSING_SHARE * row_count) * 8
+
+
+_NUMBER = r"\s*[=:]\s*([\d.]++(?:e[-+]?\d++)?+)"
+_COUNT = re.compile(r"\b(?:npts|(?:number|no\.?) of (?:samples|points))" + _NUMBER, re.IGNORECASE)
+_INTERVAL = re.compile(r"\b(?:dt|(?:sampling|time) (?:interval|step))(?:\s*\(s\))?" + _NUMBER + r"(?!\s*ms)", re.IGNORECASE)
+_RATE = re.compile(r"\b(?:fs|(?:sampling|sample) (?:rate|frequency))(?:\s*\(Hz\))?" + _NUMBER + r"(?!\s*kHz)", re.IGNORECASE)
+_UNIT = re.compile(r"\bunits?\s*[=:]\s*([^\s,;]+)", re.IGNORECASE)
+_INTERVAL_TOLERANCE = 1e-3
+"""Relative tolerance of an interval against a comment, which is rounded."""
+
+
+def flag_comment_mismatch(comments: Sequence[str], columns: Sequence[Column], samples: int, dt: float) -> tuple[QCFlag, ...]:
+    """Return flags for `comments`, the lines above the numbers, that contradict columns, number of samples or sampling interval, s."""
+    text = "\n".join(line for line in comments if line.lstrip("\ufeff ").startswith("#"))
+    return (*_flag_count(text, samples), *_flag_interval(text, dt), *_flag_unit(text, columns))
+
+
+def _flag_count(text: str, samples: int) -> Iterator[QCFlag]:
+    for count in _COUNT.findall(text):
+        if parse_number(count) not in (None, samples):
+            yield qc_flag("{promised} samples stated in a comment, file contains {count}", "count", promised=count, count=samples)
+
+
+def _flag_interval(text: str, dt: float) -> Iterator[QCFlag]:
+    for pattern, actual, unit in ((_INTERVAL, dt, "s"), (_RATE, 1.0 / dt, "Hz")):
+        for value_text in pattern.findall(text):
+            value = parse_number(value_text)
+            if value is not None and abs(value - actual) > _INTERVAL_TOLERANCE * actual:
+                yield qc_flag(
+                    "{told} {unit} in a comment differs from the sampling interval, {dt:g} s", "clock", told=value_text, unit=unit, dt=dt
+                )
+
+
+def _flag_unit(text: str, columns: Sequence[Column]) -> Iterator[QCFlag]:
+    units = {column.unit for column in columns if column.code != TIME}
+    for unit_text in _UNIT.findall(text):
+        unit = normalize_unit(unit_text.rstrip(".)"))
+        if unit is not None and unit not in units:
+            yield qc_flag(
+                "unit {told} in a comment differs from the unit of the columns, {units}", "header", told=unit, units=sorted(units)
+            )
