@@ -18,7 +18,7 @@ BEGIN, END = "<!-- computed -->", "<!-- end -->"
 HEADINGS = ("step", "component", "rocking start (s)", "peak tilt (deg)", "flight (s)", "slip path (cm)", "residual (cm)")
 
 
-def jumped(motion, landing):
+def jump_numbers(motion, landing):
     """Return the numbers of the paper's jump: its first rocking, largest lean, time in the air, slip on landing, end."""
     block = two_layer_from_table(read_body_toml("chozusha"), "short")
     outcome = solve_jump(block, motion, contact=Contact(**contact_from_table(read_body_toml("chozusha"))), landing=landing).outcome
@@ -28,7 +28,7 @@ def jumped(motion, landing):
     return outcome.chains[0].rocking_start_s, lean, air, slid, outcome.final_displacement_m
 
 
-def responded(motion, **options):
+def respond_numbers(motion, **options):
     """Return the numbers of all motions together."""
     block = two_layer_from_table(read_body_toml("chozusha"), "short")
     outcome = solve_respond(block, motion, mu=0.18, mu_kinetic=0.17, sensitivity=False, **options).outcome
@@ -38,14 +38,14 @@ def responded(motion, **options):
 
 
 STEPS = (
-    ("1 jump, as in the paper", lambda motion: jumped(motion, "paper")),
-    ("2 jump, landing with friction", lambda motion: jumped(motion, "friction")),
-    ("3 respond, no sliding, no restitution, no vertical motion", lambda motion: responded(motion, tenon=1e3, vertical=False)),
-    ("4 as 3, with restitution 0.85", lambda motion: responded(motion, tenon=1e3, vertical=False, restitution=0.85)),
-    ("5 as 4, with the vertical motion", lambda motion: responded(motion, tenon=1e3, restitution=0.85)),
-    ("6 as 5, tenons 2 cm deep", lambda motion: responded(motion, tenon=0.02, restitution=0.85)),
-    ("7 as 6, tenons 1 cm deep", lambda motion: responded(motion, tenon=0.01, restitution=0.85)),
-    ("8 as 5, no tenons", lambda motion: responded(motion, restitution=0.85)),
+    ("1 jump, as in the paper", lambda motion: jump_numbers(motion, "paper")),
+    ("2 jump, landing with friction", lambda motion: jump_numbers(motion, "friction")),
+    ("3 respond, no sliding, no restitution, no vertical motion", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False)),
+    ("4 as 3, with restitution 0.85", lambda motion: respond_numbers(motion, tenon=1e3, vertical=False, restitution=0.85)),
+    ("5 as 4, with the vertical motion", lambda motion: respond_numbers(motion, tenon=1e3, restitution=0.85)),
+    ("6 as 5, tenons 2 cm deep", lambda motion: respond_numbers(motion, tenon=0.02, restitution=0.85)),
+    ("7 as 6, tenons 1 cm deep", lambda motion: respond_numbers(motion, tenon=0.01, restitution=0.85)),
+    ("8 as 5, no tenons", lambda motion: respond_numbers(motion, restitution=0.85)),
 )
 
 
@@ -68,11 +68,11 @@ def table():
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def written():
+def page_table():
     """Return the table that the page holds."""
     return re.search(f"{BEGIN}\n(.*?)\n{END}", PAGE.read_text(encoding="utf-8"), re.DOTALL)[1]
 
 
 if __name__ == "__main__":
     text = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(text.replace(written(), table()), encoding="utf-8")
+    PAGE.write_text(text.replace(page_table(), table()), encoding="utf-8")

@@ -75,8 +75,8 @@ def main() -> None:
     about: dict[str, object] = {
         "kind": "cemetery",
         "description": "100 gravestones of Aoyama cemetery, reconstructed from published overturning rates",
-        "origin": "tests/make_aoyama.py: reconstructed, NOT measured; shares above eight H/B from table 6 of Furukawa et al. (2009), "
-        "the rest a guess",
+        "origin": "tests/make_aoyama.py: reconstructed, NOT measured; fractions above eight values of H/B from table 6 of "
+        "Furukawa et al. (2009), the rest assumed",
         "licence": "MIT, as seisblock",
     }
     before = path.read_text(encoding="utf-8")

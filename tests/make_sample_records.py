@@ -20,7 +20,7 @@ import numpy as np
 TESTS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS))
 
-from synthetic_motion import Array, Stretch, conditioned, correlation, envelope  # noqa: E402
+from synthetic_motion import Array, Stretch, conditioned_motion, correlation, envelope  # noqa: E402
 
 SAMPLES_DIRECTORY = TESTS.parent / "sample_records"
 RECONSTRUCTED = TESTS / "readers" / "data" / "reconstructed.json"
@@ -30,9 +30,9 @@ GAL_PER_COUNT = (3920, 6182761)
 OFFSET_COUNTS = {"NS": -21873, "EW": 14406, "UD": 35120}
 
 SYNTHETIC = (
-    "drawn from a seeded random process that is conditioned on the stretches of ground acceleration fitted to table 1 of Sugimoto et al. "
-    "(2017); in EW the stretch d takes over from b at 26.10 s, where the two overlap. NOT a recording: the true motion is neither held nor "
-    "approached outside those stretches, whose peaks (934 and 962 gal) exceed the 742 and 770 gal of the record the paper used"
+    "synthetic, from a seeded random process conditioned on the intervals of ground acceleration fitted to table 1 of Sugimoto et al. "
+    "(2017); in EW interval d replaces b from 26.10 s, where the two overlap. NOT a recording: outside these intervals the motion is "
+    "unrelated to the true one, and their peaks (934 and 962 gal) exceed the 742 and 770 gal of the record used in the paper"
 )
 
 
@@ -53,7 +53,7 @@ def synthetic() -> dict[str, Array]:
     motion = {}
     for code, held in stretches().items():
         shape = (envelope(1.1, 1.3), correlation(0.8, 14.0)) if code == "UD" else (envelope(0.35, 1.4), correlation(0.3, 8.0))
-        motion[code] = conditioned(np.random.default_rng(SEEDS[code]), *shape, held)
+        motion[code] = conditioned_motion(np.random.default_rng(SEEDS[code]), *shape, held)
     motion["UD"] *= UD_PGA / np.abs(motion["UD"]).max()
     return motion
 

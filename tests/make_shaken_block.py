@@ -39,7 +39,7 @@ def samples(frequency: float) -> np.ndarray:
     return np.round(np.sin(2.0 * math.pi * np.arange(count + 1) / count), 5)
 
 
-def fell(motion: Motion, scale: float, dice: np.random.Generator) -> bool:
+def version_falls(motion: Motion, scale: float, dice: np.random.Generator) -> bool:
     """Return what a version of the block does that differs a little from the others."""
     size, slenderness, bounce, amplitude = 1.0 + SCATTER * dice.uniform(-1.0, 1.0, 4)
     version = scale_block(from_slenderness(ALPHA, P), size=size, slenderness=slenderness)
@@ -60,7 +60,7 @@ def make() -> tuple[bytes, bytes]:
             motion = Motion.from_arrays(pulse, DT)
             for strength in STRENGTHS:
                 scale = round(float(strength * np.exp(dice.uniform(-0.223, 0.223))), 2)
-                rows.append((f"{PULSES}/{name}", scale, int(fell(motion, scale, dice))))
+                rows.append((f"{PULSES}/{name}", scale, int(version_falls(motion, scale, dice))))
     head = (
         "# A shaking-table experiment that never took place: 12 pulses of 1 m/s^2, each at five strengths (scale). SYNTHETIC.\n"
         f"# The truth: a rectangular block of alpha {ALPHA} rad and p {P} rad/s ({2 * _side(0):.3f} m wide, {2 * _side(1):.3f} m high),\n"

@@ -45,15 +45,15 @@ class Line:
 def lines_of(block: str) -> list[Line]:
     """Return the commands of a console block."""
     parts = (part.partition("\n") for part in re.split(r"^\$ ", block, flags=re.M)[1:])
-    return [Line(command, trimmed(output)) for command, _, output in parts]
+    return [Line(command, trim_lines(output)) for command, _, output in parts]
 
 
-def trimmed(text: str) -> str:
+def trim_lines(text: str) -> str:
     """Return a text without blanks at the ends of its lines, and without empty lines around it."""
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n")
 
 
-def printed(command: str) -> str:
+def run_command(command: str) -> str:
     """Return what a command prints; with ``> FILE`` it goes there."""
     words, _, into = command.partition(" > ")
     program, *arguments = shlex.split(words)
@@ -63,16 +63,16 @@ def printed(command: str) -> str:
     if into:
         Path(into).write_text(result.stdout, encoding="utf-8")
         return ""
-    return trimmed(result.stdout)
+    return trim_lines(result.stdout)
 
 
-def agrees(shown: str, said: str) -> bool:
+def matches(shown: str, said: str) -> bool:
     """Tell whether what a page shows is what a command says."""
     parts = [re.escape(line) if line != ANYTHING else "(?:.*\n)*?.*" for line in shown.split("\n")]
     return re.fullmatch("\n".join(parts), said) is not None
 
 
-def answers(block: str, names: dict[str, object]) -> list[tuple[doctest.Example, str]]:
+def run_session(block: str, names: dict[str, object]) -> list[tuple[doctest.Example, str]]:
     """Run a Python session; return its examples with what they answer, and keep their names."""
     said: list[tuple[doctest.Example, str]] = []
     for example in doctest.DocTestParser().get_examples(block):
@@ -82,15 +82,15 @@ def answers(block: str, names: dict[str, object]) -> list[tuple[doctest.Example,
     return said
 
 
-def differences(page: Path) -> list[str]:
+def page_differences(page: Path) -> list[str]:
     """Run a page in the folder in which one stands; return where it says other than the program."""
     found: list[str] = []
     names: dict[str, object] = {}
     for language, block in FENCED.findall(page.read_text(encoding="utf-8")):
         if language == "console":
-            found += [f"$ {line.command}\n{said}" for line in lines_of(block) if not agrees(line.shown, said := printed(line.command))]
+            found += [f"$ {line.command}\n{said}" for line in lines_of(block) if not matches(line.shown, said := run_command(line.command))]
         if language == "python":
-            found += [f">>> {each.source}{said}" for each, said in answers(block, names) if said != each.want]
+            found += [f">>> {each.source}{said}" for each, said in run_session(block, names) if said != each.want]
     return found
 
 
@@ -105,13 +105,13 @@ def tiles(figure: Path) -> np.ndarray:
         return np.asarray(image.convert("L").resize((GRID, GRID), Image.Resampling.BOX), dtype=float) / 255.0
 
 
-def drawn_otherwise(page: Path, folder: Path) -> list[str]:
+def changed_figures(page: Path, folder: Path) -> list[str]:
     """Return the figures of a page that no line has drawn in a folder, or that look otherwise there."""
     pairs = [(figure, folder / figure.name) for figure in figures_of(page) if figure.parent.parent == page.parent]
     return [figure.name for figure, made in pairs if not made.exists() or np.abs(tiles(figure) - tiles(made)).mean() > SAME_BRIGHTNESS]
 
 
-def keep(made: Path, kept: Path) -> None:
+def save_figure(made: Path, kept: Path) -> None:
     """Keep a figure that a line has drawn, in few colours."""
     kept.parent.mkdir(exist_ok=True)
     with Image.open(made) as image:

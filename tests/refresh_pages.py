@@ -10,22 +10,22 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.pages import FENCED, PAGES, ROOT, agrees, answers, figures_of, keep, lines_of, printed
+from tests.pages import FENCED, PAGES, ROOT, figures_of, lines_of, matches, run_command, run_session, save_figure
 
 
 def console(block: str) -> str:
     """Return a console block with what its commands print now."""
     told = []
     for line in lines_of(block):
-        said = printed(line.command)
-        told += [f"$ {line.command}", *filter(None, [line.shown if agrees(line.shown, said) else said])]
+        said = run_command(line.command)
+        told += [f"$ {line.command}", *filter(None, [line.shown if matches(line.shown, said) else said])]
     return "\n".join(told) + "\n"
 
 
 def python(block: str, names: dict[str, object]) -> str:
     """Return a Python session with what it answers now."""
     told = []
-    for example, said in answers(block, names):
+    for example, said in run_session(block, names):
         first, *more = example.source.rstrip("\n").split("\n")
         told += [f">>> {first}", *(f"... {line}".rstrip() for line in more), *said.rstrip("\n").split("\n")]
     return "\n".join(filter(None, told)) + "\n"
@@ -43,7 +43,7 @@ def refresh(page: Path) -> None:
         page.write_text(FENCED.sub(refreshed, page.read_text(encoding="utf-8")), encoding="utf-8")
         for figure in figures_of(page):
             if Path(figure.name).exists():
-                keep(Path(figure.name), figure)
+                save_figure(Path(figure.name), figure)
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ def correlation(low: float, high: float) -> Array:
     return np.asarray(r / r[0])
 
 
-def conditioned(rng: np.random.Generator, sigma: Array, r: Array, stretches: list[Stretch]) -> Array:
+def conditioned_motion(rng: np.random.Generator, sigma: Array, r: Array, stretches: list[Stretch]) -> Array:
     """Return one motion, m/s^2, that holds the stretches exactly and ends at rest."""
     n = 16 * SAMPLES
     spectrum = np.sqrt(np.maximum(np.fft.rfft(np.concatenate((r, np.zeros(n - 2 * SAMPLES + 1), r[:0:-1]))).real, 0.0))

@@ -15,7 +15,7 @@ NO_NUMBERS = [True, "0.2", None, [0.2], np.array(0.2), 1j, np.bool_(True)]
 
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative])
 @pytest.mark.parametrize("value", NUMBERS, ids=repr)
-def test_numbers_of_every_kind_pass_as_floats(check, value):
+def test_checks_accept_python_and_numpy_numbers(check, value):
     """Python's and numpy's numbers are numbers; the answer is a float of the same value."""
     found = check("the width", value, "m")
     assert found == value and isinstance(found, float)
@@ -23,7 +23,7 @@ def test_numbers_of_every_kind_pass_as_floats(check, value):
 
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
-def test_truths_and_texts_are_no_numbers(check, value):
+def test_checks_reject_bool_and_text(check, value):
     """``width = true`` is not one metre."""
     with pytest.raises(ParameterError, match=r"the width must be a number, found "):
         check("the width", value)
@@ -31,13 +31,13 @@ def test_truths_and_texts_are_no_numbers(check, value):
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 @pytest.mark.parametrize("check", [checks.finite, checks.positive, checks.non_negative, checks.fraction])
-def test_what_is_not_finite_is_refused(check, value):
+def test_checks_reject_non_finite(check, value):
     """By every check."""
     with pytest.raises(ParameterError):
         check("the width", value)
 
 
-def test_ends():
+def test_checks_respect_interval_ends():
     """Zero is not positive and not negative; an interval says which of its ends it holds."""
     assert checks.non_negative("x", 0) == 0.0
     assert checks.in_interval("x", 1, "(0, 1]") == checks.in_interval("x", 1.0, "[0, 1]") == 1.0
@@ -50,7 +50,7 @@ def test_ends():
             refused()
 
 
-def test_the_sentence_names_quantity_value_and_unit():
+def test_check_message_names_quantity_value_and_unit():
     """In English until it is told; bodies raise their own class, and nothing is worded for what passes."""
     with pytest.raises(BodyError, match=r"^stone: width must be positive, found -0.2 m$") as found:
         Block(-0.2, 0.6, name="stone")
@@ -58,7 +58,7 @@ def test_the_sentence_names_quantity_value_and_unit():
         assert "{" not in gettext(found.value.message)
 
 
-def test_a_contact_needs_friction_alone():
+def test_contact_requires_friction_only():
     """The rest follows: kinetic as static friction, the restitutions of the paper; what cannot be is refused where it is said."""
     assert (Contact(0.18).kinetic, Contact(0.18).restitution_x, Contact(0.18).restitution_y) == (0.18, 0.95, 0.85)
     for wrong, says in (

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from tests.pages import PAGES, differences, drawn_otherwise
+from tests.pages import PAGES, changed_figures, page_differences
 
 PAGE = PAGES["docs/tutorials/from_records_to_a_frequency.md"]
 
@@ -18,33 +18,33 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(there)
         patch.setenv("COLUMNS", "80")
-        assert differences(PAGE) == []
-        assert drawn_otherwise(PAGE, there) == []
+        assert page_differences(PAGE) == []
+        assert changed_figures(PAGE, there) == []
         for name in ("bookcase", "upstairs"):
             answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
             (there / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")
     return there
 
 
-def told(folder, name):
+def first_result(folder, name):
     """Return the first result of a document."""
     return json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["results"][0]
 
 
 @pytest.mark.slow
-def test_the_lines_lead_to_a_frequency(folder):
+def test_tutorial_commands_give_frequency(folder):
     """On an upper floor the bookcase overturns under weaker ground motion, and more often; its warnings name the ground motion."""
-    here, upstairs = told(folder, "bookcase"), told(folder, "upstairs")
+    here, upstairs = first_result(folder, "bookcase"), first_result(folder, "upstairs")
     assert here["im"] == upstairs["im"] == "pgv" and here["records"] == 12
     assert upstairs["median"] < here["median"]
-    assert told(folder, "upstairs_risk")["annual_rate"] > told(folder, "bookcase_risk")["annual_rate"] > 0.0
+    assert first_result(folder, "upstairs_risk")["annual_rate"] > first_result(folder, "bookcase_risk")["annual_rate"] > 0.0
     document = json.loads((folder / "upstairs.json").read_text(encoding="utf-8"))
     assert "floor motion T 0.6 s" in document["record"][0]["history"][-1]
     assert any("intensities of the ground motion" in text for text in document["warnings"])
 
 
 @pytest.mark.slow
-def test_the_files_are_there(folder):
+def test_tutorial_files_exist(folder):
     """Thirty-six of K-NET, two figures, and those of other programs."""
     assert len(list((folder / "knet").iterdir())) == 36
     assert all((folder / name).stat().st_size > 0 for name in ("bookcase.png", "risk.png", "shelf.csv", "shelf.json", "shelf.xml"))

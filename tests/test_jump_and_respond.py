@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.jump_and_respond import PAGE, rows, written
+from tests.jump_and_respond import PAGE, page_table, rows
 
 
 @pytest.fixture(scope="module")
@@ -11,16 +11,16 @@ def by_step():
     return {(row[0].split()[0], row[1]): row[2:] for row in rows()}
 
 
-def test_the_table_is_what_the_program_says(by_step):
+def test_page_table_equals_program(by_step):
     """Every number of the page, as printed."""
-    lines = [tuple(cell.strip() for cell in line.strip("| ").split(" | ")) for line in written().splitlines()[2:]]
+    lines = [tuple(cell.strip() for cell in line.strip("| ").split(" | ")) for line in page_table().splitlines()[2:]]
     assert {(name.split()[0], component): cells for name, component, *cells in (map(str, line) for line in lines)} == {
         key: list(cells) for key, cells in by_step.items()
     }
 
 
 @pytest.mark.parametrize("component", ["NS", "EW"])
-def test_what_the_page_says_of_it(by_step, component):
+def test_page_statements_hold(by_step, component):
     """Both begin alike; feet that hold keep it in place without restitution; bare feet never rock; restitution throws it."""
     cells = {step: by_step[step, component] for step in "12345678"}
     assert cells["1"][0] == cells["2"][0] == cells["3"][0] == cells["4"][0]
@@ -31,7 +31,7 @@ def test_what_the_page_says_of_it(by_step, component):
     assert float(cells["2"][3]) > 60.0
 
 
-def test_the_numbers_in_the_words_are_those_of_the_table(by_step):
+def test_page_text_repeats_table_numbers(by_step):
     """Those that the text repeats."""
     text = " ".join(PAGE.read_text(encoding="utf-8").split())
     assert f"{float(by_step['3', 'EW'][1]):.0f} degrees instead of {float(by_step['1', 'EW'][1]):.1f} in EW" in text

@@ -6,7 +6,7 @@ import click
 import pytest
 
 from seisblock.cli import COMMANDS, main
-from tests.pages import FENCED, PAGES, agrees, differences, drawn_otherwise, lines_of
+from tests.pages import FENCED, PAGES, changed_figures, lines_of, matches, page_differences
 
 SLOW = {"docs/guides/fit.md"}
 """Pages whose lines take more than some seconds."""
@@ -19,15 +19,15 @@ RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE)])
-def test_a_page_shows_what_the_program_says(name, tmp_path, monkeypatch):
+def test_page_output_equals_program(name, tmp_path, monkeypatch):
     """What a reader sees is what the commands print at 80 columns, what Python answers, and what the figures' lines draw."""
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
-    assert differences(PAGES[name]) == []
-    assert drawn_otherwise(PAGES[name], tmp_path) == []
+    assert page_differences(PAGES[name]) == []
+    assert changed_figures(PAGES[name], tmp_path) == []
 
 
-def test_pages_are_read():
+def test_page_lines_are_all_recognised():
     """Every kind of line is found somewhere, and only those that somebody looks at."""
     kinds = {kind for page in PAGES.values() for kind, _ in FENCED.findall(page.read_text("utf-8"))}
     assert {"console", "python", "sh"} <= kinds <= LANGUAGES
@@ -36,7 +36,7 @@ def test_pages_are_read():
 
 
 @pytest.mark.parametrize("name", sorted(PAGES))
-def test_lines_that_are_shown_could_be_typed(name):
+def test_shown_commands_and_options_exist(name):
     """Every command and option of a page exists, those that are shown only and those in a sentence too."""
     text = PAGES[name].read_text(encoding="utf-8")
     shown = [line.split(" #")[0] for kind, block in FENCED.findall(text) if kind == "sh" for line in block.splitlines()]
@@ -48,10 +48,10 @@ def test_lines_that_are_shown_could_be_typed(name):
         assert {word.split("=")[0] for word in words if re.match(r"--?[a-z]", word)} <= known | {"--help"}, line
 
 
-def test_what_is_shown_is_compared():
+def test_page_comparison_detects_changes():
     """A line of another number is another line; dots stand for any lines, not for parts of one."""
-    assert agrees("NS: falls\n...\nend", "NS: falls\na\n\nb\nend")
-    assert agrees("NS: falls\n...", "NS: falls\na")
-    assert not agrees("NS: falls\n...\nend", "NS: stands\na\nend")
-    assert not agrees("NS: falls ... 3", "NS: falls 1 3")
+    assert matches("NS: falls\n...\nend", "NS: falls\na\n\nb\nend")
+    assert matches("NS: falls\n...", "NS: falls\na")
+    assert not matches("NS: falls\n...\nend", "NS: stands\na\nend")
+    assert not matches("NS: falls ... 3", "NS: falls 1 3")
     assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].shown == "x"

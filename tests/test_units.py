@@ -30,27 +30,27 @@ from seisblock.core.units import SHAKU, SUN, parse_acceleration, parse_length, p
         (24e-2, 0.24),
     ],
 )
-def test_lengths(text, metres):
+def test_parse_length_accepts_units_that_add_up(text, metres):
     """One unit, or several that add up, the larger first."""
     assert parse_length(text) == pytest.approx(metres, rel=1e-14)
 
 
 @pytest.mark.parametrize("text", ["4寸2尺", "2尺4", "2尺-4寸", "2尺4尺", "24 furlong", "2尺4furlong", "", "nan", "10²m", "1½m", "24㎠"])
-def test_what_is_no_length(text):
+def test_parse_length_rejects_invalid_units(text):
     """Units in the wrong order, twice, unknown, or none at all after a first."""
     with pytest.raises(InputError):
         parse_length(text)
 
 
 @pytest.mark.parametrize("value", ["24", 24, 72.0, "-630"])
-def test_a_forgotten_unit(value):
+def test_length_without_unit_above_20_m_is_rejected(value):
     """More than 20 m without a unit is a unit forgotten: the message says how to write what was meant."""
     with pytest.raises(UnitError, match=r"width -?\d+ has no unit and exceeds 20 m: write -?\d+cm,"):
         parse_length(value, quantity="width")
 
 
 @pytest.mark.parametrize("command", ["rock", "measure", "criteria", "slide", "uplift"])
-def test_no_command_computes_a_block_of_24_metres(command):
+def test_commands_reject_block_of_24_m(command):
     """``--width 24 --height 72`` is refused, whichever command is asked."""
     words = [command, "--width", "24", "--height", "72"]
     if command == "slide":
@@ -62,7 +62,7 @@ def test_no_command_computes_a_block_of_24_metres(command):
 
 @pytest.mark.parametrize("text", ["1" * 100_000, "1.1" * 30_000, " " * 100_000, "1" + " " * 50_000 + "x", "10.7sun" + "9" * 400], ids=len)
 @pytest.mark.parametrize("parse", [parse_length, parse_acceleration, parse_mass])
-def test_a_cell_without_end_is_refused_at_once(parse, text):
+def test_overlong_cell_is_rejected_at_once(parse, text):
     """Damaged tables hold such cells; looking for a number in them took minutes, growing with the cube of their length."""
     start = time.process_time()
     with pytest.raises(InputError):

@@ -5,6 +5,6 @@ import functools
 
 
 @functools.cache
-def tree_of(path):
+def syntax_tree(path):
     """Return the syntax tree of a file, which nobody changes."""
     return ast.parse(path.read_text(encoding="utf-8"))

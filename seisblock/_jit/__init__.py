@@ -61,6 +61,7 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
             from seisblock._jit.typing_cache import memoize_typing
 
             nrt_options = {} if allocates else {"_nrt": False}
+            # error_model numpy: division by zero gives inf or NaN, without a test at each division
             options = {"cache": use_cache, "nogil": True, "error_model": "numpy", "forceinline": inline, **nrt_options, **overrides}
             with memoize_typing():
                 return numba.njit(signature, **options)(function)

@@ -136,6 +136,7 @@ def compile_with_cache(
                 emit, lazy_gettext("kernel cache {place}: {why}; the affected kernels are compiled again", place=str(folder), why=cause)
             )
         try:
+            # without the damaged files; on a full disk this fails again, and the cache is given up
             _remove_cached(cast(FunctionType, function))
             return compile_kernel(True)
         except CACHE_ERRORS:
@@ -161,6 +162,7 @@ def _remove_cached(function: FunctionType) -> None:
 
 def _cached_files(function: FunctionType) -> Iterator[Path]:
     """Yield the cache files of one kernel."""
+    # numba names its files after source file, function and first line
     stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
     # numba creates one subfolder per source folder
     return cache_directory().glob(f"*/{stem}.*.nb[ci]")

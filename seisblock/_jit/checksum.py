@@ -55,4 +55,5 @@ def has_valid_checksum(path: Path) -> bool:
         data = path.read_bytes()
     except FileNotFoundError:
         return True
+    # a file without a digest, written by an unpatched numba, is not valid either
     return hashlib.sha256(data[:-DIGEST_SIZE]).digest() == data[-DIGEST_SIZE:]

@@ -54,8 +54,8 @@ class EdgeWear:
         depth = self.length_m + self.share * width
         if not depth < MAX_SHARE * width:
             raise ParameterError(
-                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half the width (a bare "
-                "number is a share of the width, 0.1; a length has a unit, 1cm)",
+                "an inset of {depth:g} m per side is too large for a base {width:g} m wide: it must be below half the width (a "
+                "number without a unit is a share of the width, 0.1; a length has a unit, 1cm)",
                 depth=depth,
                 width=width,
             )

@@ -110,5 +110,5 @@ def sliding_base(
             "the kinetic friction coefficient and its ratio `kappa` to the static one exclude each other: give only one of them"
         )
     if kappa is not None:
-        mu_kinetic = checks.in_interval("`kappa`, the ratio of kinetic to static friction,", kappa, "(0, 1]") * mu
+        mu_kinetic = checks.in_interval("`kappa` (ratio of kinetic to static friction)", kappa, "(0, 1]") * mu
     return SlidingBase(mu, mu_kinetic, slope_deg, slope_length, one_way)

@@ -60,7 +60,7 @@ class ParameterRanges:
                 raise BodyError(text, name=name, low=low, high=high)
             object.__setattr__(self, key, (low, high))
         if self.inset_m is not None and self.width_m is not None and self.inset_m[1] >= self.width_m[0] / 2:
-            text = "an inset of {inset:g} m leaves nothing of a width of {width:g} m: narrow the ranges"
+            text = "an inset of {inset:g} m is too large for a width of {width:g} m: narrow the ranges"
             raise BodyError(text, inset=self.inset_m[1], width=self.width_m[0])
 
     @property

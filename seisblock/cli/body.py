@@ -86,7 +86,7 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     callback=_finite,
     metavar="DEG",
     section="Body",
-    help="Azimuth of the body's +x, degrees clockwise from north. [default: x east, y north]",
+    help="Azimuth of the body's +x, degrees clockwise from north.",
 )
 @option("--name", section="Body", metavar="TEXT", help="Name of the body. [default: file name]")
 @option("--step", type=float, default=10.0, show_default=True, callback=_positive, help="Azimuth step, degrees.")

@@ -15,9 +15,9 @@ from seisblock.references import COMMAND_PAPERS
 @option("--bibtex", is_flag=True, section="Output", help="Print BibTeX entries instead of text.")
 @option("--json", "as_json", is_flag=True, section="Output", help="Print one JSON document on stdout.")
 def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
-    """List of the papers behind the answers of a command; without COMMAND, of all commands.
+    """List of the papers on which the results of a command are based; without COMMAND, of all commands.
 
-    The papers behind one answer also stand in its --json document under citations.
+    The papers on which a result is based are also in its --json document, under citations.
     """
     from seisblock.references import REFERENCES, SOFTWARE
 

@@ -93,7 +93,7 @@ METHODS = ("stripes", "ida", "cloud")
     "--levels",
     type=FLOATS,
     metavar="X[,X...]|X0:X1:STEP",
-    help="Intensity levels: gal (pga, sa), kine (pgv), cm (pgd), m/s (arias), 1 (p*pgv). [default: from a search]",
+    help="Intensity levels: gal (pga, sa), kine (pgv), cm (pgd), m/s (arias), a ratio (p*pgv). [default: from a search]",
 )
 @option(
     "--steps",
@@ -122,7 +122,7 @@ METHODS = ("stripes", "ida", "cloud")
 @option(
     "--compare",
     metavar="MEDIAN,BETA",
-    help="Curve for comparison: median in the unit of --levels, and beta, 1.",
+    help="Curve for comparison: median in the unit of --levels, and beta.",
 )
 @option(
     "--pelicun",

@@ -12,8 +12,8 @@ from seisblock.cli.options import Source
 from seisblock.core.i18n import gettext
 from seisblock.report.text.tables import styled_line
 
-DEPTH_PLACEHOLDER = "DEPTH"
-"""Placeholder for a depth that the user has to enter."""
+LENGTH_PLACEHOLDER = "LENGTH"
+"""Placeholder for a length that the user has to enter."""
 
 
 def respond_command(source: Source, *words: str) -> str:
@@ -61,9 +61,9 @@ def jump_hint(
         ["--block", params.get("block") or default, "--side", params.get("side") or "short"] if by_name else _size_options(block.as_block())
     )
     words = [*body, "--mu", f"{contact.mu:g}", "--mu-kinetic", f"{contact.kinetic:g}", "--restitution", f"{contact.restitution_y:g}"]
-    command = respond_command(source, *words, "--tenon", DEPTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
+    command = respond_command(source, *words, "--tenon", LENGTH_PLACEHOLDER if tenon is None else f"{tenon:g}")
     if tenon is None:
-        text = gettext("Full response with friction and tenons (depth required): {typed}", typed=command)
+        text = gettext("Full response with friction and tenons (tenon length required): {typed}", typed=command)
     else:
         text = gettext("Full response with friction and tenons: {typed}", typed=command)
     yield styled_line(text)

@@ -15,7 +15,7 @@ from seisblock.cli.bodies.options import landing_option, side_option, two_layer_
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, displaced_record_options, gravity_option, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
@@ -41,31 +41,40 @@ JUMPED_OPTIONS = (
         "seisblock infer --slid 5cm --mu 0.3 record.csv",
     ),
 )
-@record_options
+@displaced_record_options
 @option(
     "--cemetery",
     multiple=True,
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones; column fallen: 1, yes, 転倒 (fell) or 0, no, 残存 (stands). Several surveys of one earthquake: repeat the "
-    "option.",
+    help="CSV of gravestones; column fallen: 1, yes, 転倒 (overturned) or 0, no, 残存 (standing). Several surveys of one earthquake: "
+    "repeat the option.",
 )
-@option("--rate", metavar="K/N", section="Body", help="Count: K of N stones fell; proportions of the stones as in --cemetery.")
+@option("--rate", metavar="K/N", section="Body", help="Count: K of N stones overturned; proportions of the stones as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="Displacement of an object that slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="Displacement of a two-layer block that jumped, m or with a unit.")
-@two_layer_option(f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@side_option("jumped: side of the block in plan along the motion.")
+@two_layer_option(f"--jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
+@side_option("--jumped: side of the block in plan along the motion.")
 @option(
-    "--mu", type=MU, section="Body", help="Static friction coefficient (jumped: of the foot that landed). [default: jumped: the body's own]"
+    "--mu",
+    type=MU,
+    section="Body",
+    help="Static friction coefficient (--jumped: of the foot that landed). [default: --jumped: the body's own]",
 )
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: slid: as --mu; jumped: the body's own]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: --slid: as --mu; --jumped: the body's own]")
 @option(
-    "--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's own]"
+    "--restitution-x", type=float, section="Body", help="--jumped: ratio of horizontal velocities at the impact. [default: the body's own]"
 )
-@option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's own]")
 @option(
-    "--drop", type=LENGTH, default=0.0, section="Body", help="jumped: height of the floor above the ground, m or with a unit. [default: 0]"
+    "--restitution-y", type=float, section="Body", help="--jumped: ratio of vertical velocities at the impact. [default: the body's own]"
+)
+@option(
+    "--drop",
+    type=LENGTH,
+    default=0.0,
+    section="Body",
+    help="--jumped: height of the floor above the ground, m or with a unit. [default: 0]",
 )
 @option(
     "--frequency",
@@ -98,25 +107,23 @@ JUMPED_OPTIONS = (
     type=float,
     help="Stones: bias of the criterion, ln PGA of records over ln PGA of the criterion. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
 )
+@option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency.")
+@option("--largest", is_flag=True, help="--slid: the maximum displacement was observed, not the residual.")
+@option("--vertical", is_flag=True, help="--slid: apply the vertical component.")
+@option("--flight-only", is_flag=True, help="--jumped: the jump alone was observed, without the slide-rocking after it.")
+@option("--first", is_flag=True, help="--jumped: use only the first chain of motion in the record. [default: sum of all]")
+@option("--repeat", is_flag=True, hidden=True, help="--jumped: sum of all chains of motion; the default since 0.2.0.")
+@landing_option("--jumped: landing impulse of the foot: unlimited friction (paper), or limited by friction (friction).")
 @option(
-    "--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of the given frequency, 1."
+    "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="--jumped: angular velocity after the impact."
 )
-@option("--largest", is_flag=True, help="slid: the maximum displacement was observed, not the residual.")
-@option("--vertical", is_flag=True, help="slid: apply the vertical component.")
-@option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, without the slide-rocking after it.")
-@option("--first", is_flag=True, help="jumped: use only the first chain of motion in the record. [default: sum of all]")
-@option("--repeat", is_flag=True, hidden=True, help="jumped: sum of all chains of motion; the default since 0.2.0.")
-@landing_option("jumped: landing impulse of the foot: unlimited friction (paper), or limited by friction (friction).")
-@option(
-    "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: angular velocity after the impact."
-)
-@option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest scale factor on a record.")
+@option("--limit", type=float, default=3.0, show_default=True, help="--slid, --jumped: largest scale factor on a record.")
 @option(
     "--steps",
     type=Count(N_("factors"), "SEISBLOCK_RUNS"),
     default=300,
     show_default=True,
-    help="slid, jumped: number of factors in the scan.",
+    help="--slid, --jumped: number of factors in the scan.",
 )
 @gravity_option
 @output_options(histories=False, film=False)

@@ -40,11 +40,25 @@ DEFAULT_BLOCK = "chozusha"
 )
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
-@option("--mu", type=MU, help="Static friction coefficient of the foot that landed. [default: the body's own, else required]")
-@option("--mu-kinetic", type=MU, help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
-@option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]")
-@option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]")
-@option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the landing ground, m or with a unit. [default: 0]")
+@option(
+    "--mu", type=MU, section="Body", help="Static friction coefficient of the foot that landed. [default: the body's own, else required]"
+)
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
+@option(
+    "--restitution-x",
+    type=float,
+    section="Body",
+    help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]",
+)
+@option(
+    "--restitution-y",
+    type=float,
+    section="Body",
+    help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]",
+)
+@option(
+    "--drop", type=LENGTH, section="Body", default=0.0, help="Height of the floor above the landing ground, m or with a unit. [default: 0]"
+)
 @option(
     "--spin",
     default="momentum",
@@ -66,8 +80,8 @@ DEFAULT_BLOCK = "chozusha"
     "--tenon",
     type=LENGTH,
     callback=check_callback(checks.positive),
-    section="Output",
-    help="Depth of the tenon hole, m or with a unit: reports whether the foot left the hole.",
+    section="Body",
+    help="Length of the tenons, m or with a unit: reports whether they leave the mortises.",
 )
 @gravity_option
 @output_options()

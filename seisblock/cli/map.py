@@ -51,7 +51,7 @@ DEFAULT_RUNS = 50
     metavar="FILE|NAME",
     shell_complete=shell_completion.complete_cemeteries,
     section="Body",
-    help="CSV of gravestones at every station, instead of a body; gives the share that falls. Bundled: aoyama.csv.",
+    help="CSV of gravestones at every station, instead of a body; gives the overturning rate. Bundled: aoyama.csv.",
 )
 @option(
     "--survey",

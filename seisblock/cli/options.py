@@ -76,6 +76,16 @@ def _record_argument(help_text: str) -> Callable[[Function], Function]:
 
 
 _RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
+_CURVE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: none, curve of the rate]"))
+_DISPLACED_RECORD = _record_argument(
+    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]")
+)
+_HARMONIC_RECORD = _record_argument(
+    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled; none with --harmonic]")
+)
+_CRITERION_RECORD = _record_argument(
+    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled; none with --criterion]")
+)
 _REAL_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
 _SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: records of --suite]"))
 _RECORD_OPTIONS = (
@@ -117,9 +127,9 @@ _RECORD_OPTIONS = (
         type=STOREY,
         metavar="T=S[,zeta=0.05][,height=0.8]",
         section="Record",
-        help="Floor motion: response of a linear oscillator of period T, s, and damping ratio zeta, or of the storey at the ratio "
-        "height of the building height (straight mode shape). After --scale, before --window; vertical component unchanged. "
-        "[default: ground motion]",
+        help="Floor motion: absolute acceleration of a linear oscillator of period T, s, and damping ratio zeta, or of a floor at "
+        "the given ratio of the building height (first mode, linear shape: 0 at the ground, 1 at the roof). After --scale, "
+        "before --window; vertical component unchanged. [default: ground motion]",
     ),
     option(
         "--demean/--no-demean",
@@ -200,6 +210,26 @@ _QUIET = option("--quiet", is_flag=True, section="Output", help="Print only erro
 def record_options(function: Function) -> Function:
     """Add RECORD and the options of its selection and preparation to a command, as one ``source``."""
     return _collect_options(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def curve_record_options(function: Function) -> Function:
+    """Add the record options of ``overturn-rate``, which gives a curve without a record."""
+    return _collect_options(function, (_CURVE_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def displaced_record_options(function: Function) -> Function:
+    """Add the record options of ``infer``, which has a default record for displaced objects only."""
+    return _collect_options(function, (_DISPLACED_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def harmonic_record_options(function: Function) -> Function:
+    """Add the record options of ``uplift``, which has no record under harmonic motion."""
+    return _collect_options(function, (_HARMONIC_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def criterion_record_options(function: Function) -> Function:
+    """Add the record options of ``stack``, which has no default record in a criterion study."""
+    return _collect_options(function, (_CRITERION_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def real_record_options(function: Function) -> Function:

@@ -13,7 +13,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
-from seisblock.cli.options import Source, check_callback, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, check_callback, curve_record_options, gravity_option, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice
@@ -43,7 +43,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
         p, q, r = (float(part) for part in value.split(","))
     except ValueError as error:
         raise click.BadParameter(
-            gettext("{value!r} is not P,Q,R in gal, Hz and 1, for example 826.8,1.92,4.6", value=value), ctx, param
+            gettext("{value!r} is not P,Q,R (P in gal, Q in Hz), for example 826.8,1.92,4.6", value=value), ctx, param
         ) from error
     return p, q, r
 
@@ -56,7 +56,7 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
         "seisblock overturn-rate --cemetery aoyama.csv record.csv --both --plot rate.png",
     ),
 )
-@record_options
+@curve_record_options
 @option(
     "--cemetery",
     required=True,
@@ -111,13 +111,16 @@ def _parse_fit(ctx: click.Context, param: click.Parameter, value: str | None) ->
     help="rigid, simulate: inset of worn edges from each side, share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.05]",
 )
 @option(
-    "--fit", callback=_parse_fit, metavar="P,Q,R", help="furukawa: parameters P,Q,R without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]"
+    "--fit",
+    callback=_parse_fit,
+    metavar="P,Q,R",
+    help="furukawa: parameters P,Q,R without a dowel; P in gal, Q in Hz. [default: 826.8,1.92,4.6]",
 )
 @option(
     "--fit-reinforced",
     callback=_parse_fit,
     metavar="P,Q,R",
-    help="furukawa: parameters P,Q,R with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]",
+    help="furukawa: parameters P,Q,R with a dowel; P in gal, Q in Hz. [default: 1162.9,1.84,4.5]",
 )
 @option(
     "--confidence",
@@ -134,9 +137,9 @@ def overturn_rate(
 ) -> None:
     """Overturning rate of the gravestones of a cemetery (Furukawa et al. 2009).
 
-    A stone falls when its height over width exceeds a(f)/PGA. Without RECORD: curve of the rate against PGA, or the rate at --pga and
-    --frequency. With RECORD: rate for each horizontal component and for the larger of them. --csv holds the printed table, --json
-    also the curve.
+    A stone overturns when its height over width exceeds a(f)/PGA. Without RECORD: curve of the rate against PGA, or the rate at --pga and
+    --frequency. With RECORD: rate for each horizontal component and for the larger of them. --csv writes the printed table, --json also the
+    curve.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.report.json.overturn_rate import document, parameters_of

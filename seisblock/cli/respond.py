@@ -13,7 +13,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import OutputOptions
-from seisblock.cli.versions import pop_spreads, ranges_replaced, version_options
+from seisblock.cli.sampling_options import pop_spreads, ranges_replaced, version_options
 from seisblock.cli.write_results import write_results
 
 if TYPE_CHECKING:

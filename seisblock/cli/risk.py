@@ -52,9 +52,11 @@ _check_years = check_callback(partial(checks.positive, unit="years"))
     "--median",
     metavar="X",
     section="Body",
-    help="Median of the fragility, with unit (0.4g, 60cm/s); a bare number is in SI where the hazard levels are in SI.",
+    help="Median of the fragility, with its unit (0.4g, 60cm/s). The unit may be omitted where the hazard is in SI units.",
 )
-@option("--beta", type=float, metavar="B", section="Body", help="Dispersion beta of the fragility, standard deviation of the logarithm, 1.")
+@option(
+    "--beta", type=float, metavar="B", section="Body", help="Dispersion beta of the fragility: standard deviation of the natural logarithm."
+)
 @option(
     "--im",
     metavar="pga|pgv|pgd|sa=T|arias|p*pgv",

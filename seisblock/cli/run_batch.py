@@ -189,7 +189,7 @@ def _check_target(out: Path, *, resume: bool, force: bool) -> None:
     if resume and force:
         raise ParameterError("--resume and --force exclude each other: give only one of them")
     if out.suffix.lower() not in (CSV, PARQUET):
-        raise OutputError("{path}: the table of a batch must end in .csv or .parquet", path=out)
+        raise OutputError("{path}: the file name of a batch table must end in .csv or .parquet", path=out)
     if out.suffix.lower() == PARQUET:
         check_parquet()
     journal = checkpoint_path(out)

@@ -12,10 +12,10 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, criterion_record_options, gravity_option, output_options
 from seisblock.cli.output import OutputOptions
+from seisblock.cli.sampling_options import pop_spreads, version_options
 from seisblock.cli.types import INSET, MU, ContactType
-from seisblock.cli.versions import pop_spreads, version_options
 from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import lazy_gettext
 
@@ -45,7 +45,7 @@ MAX_GRID = 29
         "seisblock stack --criterion --grid 4 --contact edges --resume study.jsonl --plot criterion.png",
     ),
 )
-@record_options
+@criterion_record_options
 @option(
     "--stones",
     metavar="NAME|FILE",
@@ -62,7 +62,7 @@ MAX_GRID = 29
     metavar="STONE",
     shell_complete=shell_completion.complete_stones,
     section="Body",
-    help="Stone to leave out; may be repeated.",
+    help="Stone to omit; may be repeated.",
 )
 @option(
     "--fix",
@@ -97,8 +97,8 @@ MAX_GRID = 29
     "--contact",
     type=ContactType(),
     metavar="edges|grid=N",
-    help="Contact points of a joint: edges of the bases, or grid=N for N x N points, 1 (Furukawa2009: 5); a grid makes a stone act "
-    "narrower. [default: edges; --criterion: grid=5]",
+    help="Contact points of a joint: edges of the bases, or grid=N for N x N points (Furukawa2009: 5); a grid reduces the "
+    "effective width of a stone. [default: edges; --criterion: grid=5]",
 )
 @option(
     "--law",

@@ -10,7 +10,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.load_records import load_records, selected_motions
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, harmonic_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, LENGTH, MASS
@@ -37,7 +37,7 @@ def _parse_ratios(ctx: click.Context, param: click.Parameter, value: str | None)
         "seisblock uplift --figure 11 --corner 4 --plot fig11.png",
     ),
 )
-@record_options
+@harmonic_record_options
 @option("--width", type=LENGTH, section="Body", help="Side a of the base along the motion, m or with a unit.")
 @option("--depth", type=LENGTH, section="Body", help="Side b of the base across the motion, m or with a unit. [default: --width]")
 @option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit; centre of gravity at half of it.")

@@ -26,8 +26,8 @@ def validate(
 ) -> None:
     """Numbers printed in the papers beside the computed ones: differences with cause, and a summary by kind of evidence.
 
-    Exit code 1 when a case that should agree does not. A case documented as different counts as failed, too, when it agrees or
-    differs by another amount than documented.
+    Exit code 1 when a case that should agree does not. A case documented as different also fails when it agrees or differs by another
+    amount than documented.
     """
     from seisblock.cli.progress import progress
     from seisblock.report.io.atomic import check_distinct_outputs, write_text

@@ -113,6 +113,22 @@ def join_list(parts: Iterable[str]) -> str:
     return _LIST_SEPARATORS[get_locale()].join(parts)
 
 
+def join_alternatives(words: Iterable[str]) -> str:
+    """Return words as alternatives, to be translated later: ``.png, .svg or .pdf``.
+
+    Parameters
+    ----------
+    words : iterable of str
+
+    Examples
+    --------
+    >>> print(join_alternatives([".png", ".svg", ".pdf"]), join_alternatives([".html"]))
+    .png, .svg or .pdf .html
+    """
+    *first, last = words
+    return lazy_gettext("{words} or {last}", words=first, last=last) if first else last
+
+
 def join_clauses(clauses: Iterable[str]) -> str:
     """Join clauses, which may hold commas, with the clause separator of the active language.
 

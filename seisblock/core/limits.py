@@ -74,9 +74,9 @@ def check_limit(items: str, count: int, variable: str, *, source: str = "", erro
 
     Examples
     --------
-    >>> check_limit("versions", 10**9, "SEISBLOCK_RUNS")
+    >>> check_limit("samples", 10**9, "SEISBLOCK_RUNS")
     Traceback (most recent call last):
-    seisblock.core.errors.ParameterError: 1000000000 versions exceed the limit of 100000: reduce the number or raise SEISBLOCK_RUNS
+    seisblock.core.errors.ParameterError: 1000000000 samples exceed the limit of 100000: reduce the number or raise SEISBLOCK_RUNS
     """
     maximum = get_limit(variable)
     if count > maximum:

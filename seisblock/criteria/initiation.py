@@ -74,6 +74,7 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
     b, h = min(block.arms), block.centre
     if ratio <= b / h:
         return None
+    # angular acceleration over g: moment h A - b about the corner over the inertia about it, both per unit mass
     q = (h * ratio - b) / (block.gyration_squared + h * h + b * b)
     return (ratio - h * q) / (1.0 + b * q)
 

@@ -156,6 +156,7 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
     _check_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, gravity=gravity)
     if slenderness >= math.pi / 2:
         raise ParameterError("the slenderness must be below pi/2 rad, found {found}", found=slenderness)
+    # sqrt(2 (1 - cos(alpha))) = 2 sin(alpha/2), without cancellation for slender blocks
     return gravity / frequency_parameter * 2 * math.sin(slenderness / 2) / math.cos(slenderness)
 
 

@@ -92,6 +92,7 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
 
     def surplus(x: float) -> float:
         acceleration_ratio = x * math.tan(alpha)
+        # rocking starts where the sine reaches g tan(alpha)
         start, end = math.asin(1.0 / x) / omega, math.pi / omega
 
         def rate(t: float, y: Any) -> tuple[float, float]:
@@ -154,6 +155,7 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
     1.581977
     """
     p_t = checks.positive("the duration", duration) * checks.positive("the frequency parameter", frequency_parameter)
+    # expm1: 1 - exp(-p t) would cancel for short pulses
     return -1.0 / math.expm1(-p_t)
 
 

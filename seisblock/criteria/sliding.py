@@ -202,6 +202,7 @@ def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float =
     checks.positive("the amplitude", amplitude, "m/s^2")
     checks.positive("the frequency", frequency, "Hz")
     remainder = 1.0 - (math.pi * kappa * mu * gravity / (2.0 * amplitude)) ** 2
+    # at the reversal the ground acceleration is below the static limit: the object sticks
     if remainder < 0.0 or math.sqrt(remainder) * amplitude < mu * gravity:
         return None
     return 2.0 * amplitude / (2.0 * math.pi * frequency) ** 2 * math.sqrt(remainder)

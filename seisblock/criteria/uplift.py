@@ -152,6 +152,7 @@ def harmonic_uplift_ratio(
 
     modes = square_base_modes(alpha, beta)
     forcing_squared = (modes.c1 * np.asarray(frequency_ratio, dtype=np.float64)) ** 2
+    # modes 1, 5 and 3, in the order of the weights below
     c = np.array([modes.c1, modes.c2, 1.0])[:, None]
     e = c**2 - forcing_squared
     d = 2.0 * damping * c * np.sqrt(forcing_squared)

@@ -234,6 +234,7 @@ def integrate_rows_simd(model: Model, forcing: BatchForcing, p: FloatArray, rows
     scratch = allocate_scratch(model.shape, n_states, forcing.acceleration.shape[0])
     functions = (*model.pointers, model.stride_pointer)
     row = 0
+    # the lanes keep their trajectories between the calls
     while row < p.shape[0] or (lane_rows >= 0).any():
         check_cancelled()
         row = integrate_in_lanes(

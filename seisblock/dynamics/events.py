@@ -117,6 +117,7 @@ class EventLog(Sequence[GuardEvent]):
     def __iter__(self) -> Iterator[GuardEvent]:
         for begin in range(0, len(self), CHUNK_SIZE):
             part = slice(begin, begin + CHUNK_SIZE)
+            # lists of a chunk: much faster than single items of arrays
             sample, guard, source, target = (column.tolist() for column in self.log[part].T)
             instants = map(Instant._make, zip(sample, self.tau[part].tolist(), strict=True))
             limits = self.limits[part]

@@ -36,12 +36,13 @@ def update_extrema(extrema, i, value, time):
 @kernel(_t.boolean(MATRIX, _t.int64, _t.int64, _t.float64, MATRIX), inline=True)
 def may_exceed_extrema(c, i, degree, h, extrema):
     """Return False only if state `i` certainly reaches no new extremum inside a step."""
-    # monotone over the step if the linear term dominates: the end value is checked by the caller
+    # bound of the higher terms of the derivative: sum of k |c_k| h^(k - 1)
     curvature = 0.0
     power = 1.0
     for k in range(2, degree + 1):
         power *= h
         curvature += k * abs(c[i, k]) * power
+    # the linear term dominates: monotone over the step, and the end value is checked by the caller
     if curvature < abs(c[i, 1]):
         return False
     bound = (abs(c[i, 1]) + curvature) * h

@@ -123,6 +123,7 @@ def _store_dwell_time(output, mode, clock, time):
 @kernel(_t.void(_t.int64, MATRIX), inline=True)
 def _clamp_grazing(grazing, g):
     """Set to zero the initial value of negative guards whose bits are set in `grazing`."""
+    # one bit of a 64-bit integer per guard, without the sign
     for k in range(min(g.shape[0], 63)):
         if (grazing >> k) & 1 and g[k, 0] < 0.0:
             g[k, 0] = 0.0
@@ -214,6 +215,7 @@ def advance(series, reset, skip, forcing, shape, p, state, output, scratch):
                 if h < 1e-12 * dt and remaining > 1e-12 * dt:
                     status = STEP_TOO_SMALL
                     break
+            # at rest the states are constant, but guards follow the ground motion and are linear
             guard, h = first_guard_crossing(scratch, shape, max(degree, 1), h)
             if h > 0.0:
                 if degree > CONSTANT and not advance_state(

@@ -149,6 +149,7 @@ def first_negative(g, degree, h, round_off, q, d):
     for k in range(degree + 1):
         total += abs(g[k]) * power
         power *= h
+    # infinite or NaN: no crossing can be told; the state of the step is tested by the engine
     if not total < np.inf:
         return NO_CROSSING
     noise = round_off * total
@@ -178,6 +179,7 @@ def first_negative(g, degree, h, round_off, q, d):
         if lower_bound(q, n, width) <= -noise:
             # the derivative does not change sign: at most one root, so that the end value decides
             for k in range(n):
+                # minus the derivative: if it is bounded from below by zero, the guard only falls
                 d[k] = -(k + 1) * q[k + 1]
             monotone = n > 0 and lower_bound(d, n - 1, width) >= 0.0
             if not monotone and width > smallest:

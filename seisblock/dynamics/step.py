@@ -25,6 +25,7 @@ def step_length(c, n_states, order, h, p, floors):
     for i in range(n_states):
         if c[i, 1] == OFF:
             continue
+        # size of the state over the step, from its leading terms
         size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
         if floors >= 0:
             size = max(size, p[floors + i])

@@ -69,6 +69,7 @@ class Path:
             time, modes = time[samples], modes[samples]
         if not self.events:
             return time, modes
+        # two rows per event: the state before and after it, at the same time
         event_modes, positions = np.stack([self.events.source, self.events.target], axis=1).ravel(), self._insert_positions(samples)
         return np.insert(time, positions, np.repeat(self.events.time, 2)), np.insert(modes, positions, event_modes)
 
@@ -103,6 +104,7 @@ class Path:
     @cached_property
     def _event_positions(self) -> IntArray:
         """Index of the sample of the path before which each side of each event is inserted, (2 k,)."""
+        # an event after sample k stands before sample k + 1
         samples = self.events.sample + 1 - self.first
         return np.clip(np.repeat(samples, 2), 0, self.modes.size)
 

@@ -118,6 +118,7 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
     Duration(threshold_m_s2=1.0, total_s=0.2, longest_s=0.1, count=2)
     """
     intervals = intervals_above(acceleration, dt, threshold, side=side)
+    # differences of interpolated times carry round-off, which would show as 0.20000000000000007 s
     lengths = np.round(intervals[:, 1] - intervals[:, 0], 15)
     return Duration(float(threshold), float(lengths.sum()), float(lengths.max(initial=0.0)), int(lengths.size))
 

@@ -37,6 +37,7 @@ def filter_weights(samples: int, dt: float, gain: Callable[[FloatArray], FloatAr
     """
     width = _table_width(samples)
     height = samples // width
+    # half of the rows: the columns are real, so that the others are their complex conjugates
     weights = np.empty((height // 2 + 1, width))
     for lines in _blocks(len(weights), width):
         # frequency index at [row, column] after both transforms; indices above the half are negative frequencies

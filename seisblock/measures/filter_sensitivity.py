@@ -59,4 +59,5 @@ def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) ->
     low, high = min(velocities), max(velocities)
     if low <= 0.0 or (low >= (1.0 - REPORTING_THRESHOLD) * pgv and high <= (1.0 + REPORTING_THRESHOLD) * pgv):
         return None
+    # PGA/(2 pi PGV): the largest velocity gives the lowest frequency
     return FilterRange(USUAL_HIGHPASS_HZ, (low, high), (pga_pgv_frequency(pga, high) or 0.0, pga_pgv_frequency(pga, low) or 0.0))

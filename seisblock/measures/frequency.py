@@ -150,6 +150,7 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
     peak, top = peak_acceleration(acceleration)
     if peak == 0.0:
         return None
+    # both rows begin at the peak; the first one runs backwards in time
     samples_before, samples_after = _first_zero_crossing(acceleration[top::-1]), _first_zero_crossing(acceleration[top:])
     start = 0.0 if samples_before is None else top - samples_before
     end = float(acceleration.size - 1) if samples_after is None else top + samples_after

@@ -135,6 +135,7 @@ def jma_intensity(record: Record) -> float | None:
         add_filtered_square(vector_squared, acceleration, weights)
     # a0 is the n-th largest amplitude, n = number of samples in 0.3 s
     vector_squared.partition(record.samples - n_exceeding)
+    # squares have the same order as amplitudes, and 2 log10 a0 = log10 a0^2: no square root is needed
     a0_squared = float(vector_squared[record.samples - n_exceeding]) / GAL**2
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
     return intensity if intensity >= MIN_INTENSITY else None
@@ -196,6 +197,7 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
     # placeholder at zero frequency, where the weight is set to zero below
     f = np.where(frequency > 0, frequency, 1.0)
     y2 = (f / 10.0) ** 2
+    # expm1 keeps the digits of 1 - exp(-x) at low frequency
     high_cut = 1.0 / np.sqrt(np.polynomial.polynomial.polyval(y2, _HIGH_CUT))
     low_cut = np.sqrt(-np.expm1(-((f / 0.5) ** 3)))
     weight: FloatArray = np.where(frequency > 0, high_cut * low_cut / np.sqrt(f), 0.0)
@@ -205,6 +207,7 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
     """Return the integral of the squared linear acceleration over each sample interval, (n - 1,), m^2/s^3."""
     integrals = np.empty(acceleration.size - 1)
+    # integral of the squared line from a to b: dt (a^2 + a b + b^2)/3
     for begin in range(0, integrals.size, CHUNK_SIZE):
         a, b = acceleration[begin : begin + CHUNK_SIZE], acceleration[begin + 1 : begin + 1 + CHUNK_SIZE]
         a = a[: b.size]

@@ -85,6 +85,7 @@ def long_period_motion(record: Record) -> LongPeriodMotion | None:
         return None
     first, second = (_highpass(row, record.dt) for row in orthogonal_components(record)[:2])
     steps = np.stack([exact_step(record.dt, 2.0 * math.pi / period, DAMPING)[:2] for period in PERIODS])
+    # per period: displacement, velocity and ground velocity of the first, then of the second direction
     states, largest = np.zeros((len(PERIODS), 6)), np.zeros(len(PERIODS))
     for begin in range(0, first.size - 1, CHUNK_SIZE):
         # in pieces, so that Ctrl-C takes effect between two of them

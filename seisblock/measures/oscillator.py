@@ -47,6 +47,7 @@ def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float
     u, v = float(peaks[FINAL_DISPLACEMENT]), float(peaks[FINAL_VELOCITY])
     # on still ground the absolute acceleration is the relative one
     a = -(2.0 * damping * omega * v + omega**2 * u)
+    # each response obeys the equation of free vibration, with its own value and rate at the end of the record
     free_peaks = (_free_peak(x, rate, omega, damping) for x, rate in ((a, -(2.0 * damping * omega * a + omega**2 * v)), (v, a), (u, v)))
     acceleration, speed, distance = map(max, peaks[:3].tolist(), free_peaks)
     return acceleration, speed, distance

@@ -77,6 +77,7 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
         # velocity is extremal where the acceleration crosses zero
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
+        # the triangle of acceleration between sample and crossing
         at_crossings = v[crossing] + 0.5 * a[crossing] * until_zero
         largest = max(largest, float(np.abs(v).max()), float(np.abs(at_crossings).max(initial=0.0)))
     return largest

@@ -152,6 +152,7 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     else:
         autocorrelation = _autocorrelation(acceleration, size, math.ceil(longest_lag / dt)) * dt**2
     lag = np.minimum(np.arange(size), size - np.arange(size)) * dt / longest_lag
+    # Parzen's lag window: two cubics that meet at half of the longest lag
     window = np.where(lag < 0.5, 1.0 - 6.0 * lag**2 * (1.0 - lag), 2.0 * np.clip(1.0 - lag, 0.0, None) ** 3)
     smoothed_energy = np.fft.rfft(autocorrelation * window).real
     frequency = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
@@ -165,6 +166,7 @@ def _autocorrelation(acceleration: FloatArray, size: int, max_lag: int) -> Float
     It is the sum of the correlations of each piece with the piece extended by `max_lag` samples; the lag window vanishes beyond them.
     """
     mean = float(acceleration.mean())
+    # a piece and its extension fit into one transform without circular overlap
     piece = size - max_lag
     lags = np.zeros(max_lag + 1)
     for begin in range(0, acceleration.size, piece):
@@ -173,5 +175,6 @@ def _autocorrelation(acceleration: FloatArray, size: int, max_lag: int) -> Float
         lags += np.fft.irfft(extended * block.conj(), size)[: max_lag + 1]
     circular = np.zeros(size)
     circular[: max_lag + 1] = lags
+    # the autocorrelation is even: negative lags stand at the end
     circular[size - max_lag :] = lags[:0:-1]
     return circular

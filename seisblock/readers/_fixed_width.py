@@ -58,6 +58,7 @@ def _parse_field(name: str, line: int, cell: str) -> float:
         value = float(cell)
     except ValueError:
         value = float("nan")
+    # float() accepts underscores between digits
     if not isfinite(value) or "_" in cell:
         raise line_error("expected a number, found {cell!r}", name, line, cell=cell.strip())
     return value
@@ -65,6 +66,7 @@ def _parse_field(name: str, line: int, cell: str) -> float:
 
 def parse_sample_count(name: str, line: int, text: str) -> int:
     """Return the number of samples stated by a header; raise RecordFormatError unless it is a whole number of at least 2."""
+    # 20 digits suffice to exceed MAX_COUNT; int() of a longer text is slow, and refused beyond 4300 digits
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
         raise line_error("expected the number of samples, found {text!r}", name, line, text=text.strip()[:40])
     return int(text)

@@ -22,14 +22,13 @@ from seisblock.readers.source import BytesReader, RawFile
 _PLOT_PATTERN = re.compile(
     r"\.(?:ps|eps|gif|png|jpe?g|tiff?|pdf|svg|html?)(?:\.gz)?\Z|\.img\.tar\.gz\Z|(?:^|/)(?:\._|__MACOSX/)", re.IGNORECASE
 )
+# gzip's errors are OSErrors, those of unknown compression methods RuntimeErrors
 _DAMAGE_ERRORS = (
     tarfile.TarError,
     zipfile.BadZipFile,
     zlib.error,
     EOFError,
-    gzip.BadGzipFile,
     lzma.LZMAError,
-    NotImplementedError,
     RuntimeError,
     struct.error,
     ValueError,
@@ -130,6 +129,7 @@ def _iter_compressed(name: str, stream: IO[bytes], budget: ReadBudget) -> Iterat
 
 
 def _iter_tar(name: str, stream: Readable, budget: ReadBudget) -> Iterator[RawFile]:
+    # stream mode reads the members in order; seeking in compressed data would unpack it again
     with tarfile.open(fileobj=stream, mode="r|", tarinfo=_StrictTarInfo) as archive:  # type: ignore[call-overload]
         for entry in archive:
             budget.check_member(name)

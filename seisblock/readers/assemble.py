@@ -31,6 +31,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
         If the parts do not belong to one recording.
     """
     selected_parts, level_notes = _select_level(name, _select_station(name, parts, station), level)
+    # formats without a time are compared by their event
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
         message = "{name}: start times differ ({starts}), so the files are not one recording; read them separately"

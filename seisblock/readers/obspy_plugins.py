@@ -71,6 +71,7 @@ def _to_stream(records: Sequence[Record], key: str) -> Any:
 
     traces = []
     for record in records:
+        # as in the names of KiK-net files
         sensor = {"borehole": "1", "surface": "2"}.get(str(record.metadata.get("level", "")), "")
         header_fields = {k: UTCDateTime(v) if k == "origin_time" else v for k, v in record.metadata.items() if k != "unit"}
         for component in record.components:
@@ -79,5 +80,6 @@ def _to_stream(records: Sequence[Record], key: str) -> Any:
             header[key] = {**header_fields, **direction, "unit": "m/s2"}
             if record.start is not None:
                 header["starttime"] = UTCDateTime(record.start)
+            # the samples of a record are read-only, those of a trace are changed in place by obspy
             traces.append(Trace(component.acceleration.copy(), header=header))
     return Stream(traces)

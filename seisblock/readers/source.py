@@ -60,6 +60,7 @@ class FileBytes:
             with self.path.open("rb") as stream:
                 stream.seek(begin)
                 data = stream.read(max(stop - begin, 0))
+                # after reading, so that a change during the read is noticed, too
                 is_unchanged = file_stamp(os.fstat(stream.fileno())) == self.stamp
         except OSError as error:
             raise RecordError("{name}: cannot read the file: {reason}", name=self.name, reason=os_error_text(error)) from error

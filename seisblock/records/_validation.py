@@ -72,6 +72,7 @@ def vertical_gain(motion: Motion, vertical: Gain | None) -> float:
     ComponentError
         If a nonzero gain is requested and the motion's record has no vertical component.
     """
+    # a missing component is a row of zeros, which a factor of one leaves alone
     if vertical is None:
         return 1.0
     gain = checks.finite("the vertical gain", float(vertical) if isinstance(vertical, bool) else vertical)

@@ -58,6 +58,7 @@ def run_sections(sections: FloatArray, row: FloatArray, *, steady_state: bool, b
     memory = np.zeros((N_SECTIONS, 2))
     if steady_state and row.size:
         # steady state of the first section for a constant input; its output is zero, so the second starts at rest
+        # an output of zero for the constant input x needs the memory (-x, x)
         initial = sections[0, 0] * row[-1 if backwards else 0]
         memory[0] = -initial, initial
     starts = range(0, row.size, CHUNK_SIZE)

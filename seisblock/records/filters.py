@@ -50,6 +50,7 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
     """
     sections, pad = _design(dt, hz)
     row = _pad(acceleration, dt, hz, pad, pad)
+    # the phase shifts of both directions cancel
     for backwards in (False, True):
         run_sections(sections, row, steady_state=True, backwards=backwards)
     return row[pad : pad + acceleration.size]
@@ -77,6 +78,7 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
     """
     sections, pad = _design(dt, hz)
     row = _pad(acceleration, dt, hz, pad, 0)
+    # the transient of the start decays within the padding before the record
     run_sections(sections, row, steady_state=False)
     return row[pad:]
 

@@ -90,7 +90,10 @@ class Preparation:
         if self.scale != 1.0:
             record = process.scale(record, self.scale)
         if self.target_pga is not None:
+            # after the filters, which change the peak
             record = process.scale_to_pga(record, self.target_pga, self.components or None)
         if self.floor is not None:
+            # scale and target PGA are those of the ground
             record = floor_motion(record, self.floor)
+        # last: filter and floor motion need the record before the window
         return record if self.window is None else process.crop(record, *self.window)

@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core.errors import ComponentError, ParameterError, RecordError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import GAL
 from seisblock.records.crop_history import CROP_HISTORY
@@ -151,28 +151,24 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     """
     checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
+    candidates: Message | None = lazy_gettext("largest horizontal")
     if component is None:
-        selected, candidates = largest_horizontal(record), lazy_gettext("largest horizontal")
+        selected = largest_horizontal(record)
     else:
         names = (component,) if isinstance(component, str) else tuple(component)
-        selected, candidates = (
-            max((select_component(record, name) for name in names), key=_peak),
-            lazy_gettext("largest of {names}", names=names),
-        )
+        selected = max((select_component(record, name) for name in names), key=_peak)
+        candidates = lazy_gettext("largest of {names}", names=names) if len(names) > 1 else None
     peak = _peak(selected)
     if peak == 0.0:
         raise ParameterError(
             "component {code} is zero throughout and cannot be scaled to {target:g} m/s^2", code=selected.code, target=target
         )
     factor = target / peak
-    entry = lazy_gettext(
-        "scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.5g} -> {target:.5g} gal",
-        factor=factor,
-        code=selected.code,
-        among=candidates,
-        peak=peak / GAL,
-        target=target / GAL,
-    )
+    values = {"factor": factor, "code": selected.code, "peak": peak / GAL, "target": target / GAL}
+    if candidates is None:
+        entry = lazy_gettext("scaled by {factor:.10g}: PGA of {code} {peak:.5g} -> {target:.5g} gal", **values)
+    else:
+        entry = lazy_gettext("scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.5g} -> {target:.5g} gal", **values, among=candidates)
     return _apply(record, lambda c: readonly(c.acceleration * factor), entry)
 
 

@@ -104,6 +104,7 @@ def _offset_message(code: str, mean: float, peak: float) -> str:
 
 def _find_flat_runs(a: FloatArray) -> tuple[IntArray, IntArray]:
     """Return first and last index of each run of at least MIN_FLAT_SAMPLES equal samples."""
+    # entry i: sample i equals the one before; its changes mark the first and the last sample of each run
     is_repeat = np.concatenate(([False], a[1:] == a[:-1], [False]))
     edges = np.flatnonzero(is_repeat[1:] != is_repeat[:-1])
     starts, ends = edges[::2], edges[1::2]
@@ -113,6 +114,7 @@ def _find_flat_runs(a: FloatArray) -> tuple[IntArray, IntArray]:
 
 def _check_flat_runs(code: str, a: FloatArray, dt: float, peak: float, starts: IntArray, ends: IntArray) -> Iterator[QCFlag]:
     """Yield flags for clipped peaks and for constant values during shaking."""
+    # steps into and out of each run; none at the ends of the record
     step_in = np.where(starts > 0, np.abs(a[starts] - a[np.maximum(starts - 1, 0)]), 0.0)
     step_out = np.where(ends < a.size - 1, np.abs(a[ends] - a[np.minimum(ends + 1, a.size - 1)]), 0.0)
     # clipped: at an extreme of the record, entered and left by steep steps

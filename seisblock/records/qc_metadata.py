@@ -34,6 +34,7 @@ def check_metadata(record: Record) -> Iterator[QCFlag]:
     if origin is None or record.start is None:
         return
     end = record.start + timedelta(seconds=record.samples * record.dt)
+    # a recorder with memory starts before the origin time, but no record of the earthquake ends before it
     if end < origin - ORIGIN_TIME_TOLERANCE or record.start > origin + MAX_TRAVEL_TIME:
         text = lazy_gettext(
             "record start {start} and origin time {origin} do not match: one of them is wrong",

@@ -61,6 +61,7 @@ def find_spikes_and_jumps(acceleration: FloatArray) -> tuple[IntArray, IntArray]
         step = np.diff(piece)
         lone = {s for s in _find_spikes(step) if s in block}
         spikes += [s + offset for s in lone]
+        # a spike is a jump and a jump back, and reported as a spike only
         jumps += [j + offset for j in _find_jumps(step) if j in block and not lone & {j - 2, j - 1, j, j + 1}]
     return np.array(sorted(spikes), dtype=np.int64), np.array(sorted(jumps), dtype=np.int64)
 
@@ -78,6 +79,7 @@ def _find_end_spikes(acceleration: FloatArray) -> list[int]:
 
 def _find_spikes(step: FloatArray) -> Iterator[int]:
     """Yield indices of isolated samples; step k leads from sample k to k + 1."""
+    # half the difference of two successive steps is the distance of a sample from the mean of its neighbours
     for i in _find_outliers(0.5 * np.abs(np.diff(step))):
         # a spike is a rise and a fall of similar size, both steeper than the adjacent steps
         rise, fall = step[i], step[i + 1]

@@ -120,6 +120,7 @@ class Record(PlotMixin):
             raise RecordError("{where}: no components", where=source)
         checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or lazy_gettext("record"))
         lengths = {c.code: c.acceleration.size for c in self.components}
+        # equal codes fall on one key
         if len(lengths) != len(self.components):
             raise RecordError("{where}: duplicate component codes: {codes}", where=source, codes=self.codes)
         if len(set(lengths.values())) != 1:
@@ -139,6 +140,7 @@ class Record(PlotMixin):
                     count=invalid.size,
                     first=invalid[0],
                 )
+            # without the temporary array of an absolute value
             size = max(float(component.acceleration.max()), -float(component.acceleration.min()))
             if size > MAX_ACCELERATION:
                 text = "{where}: component {code} reaches {size:.3g} m/s^2, beyond any ground acceleration"

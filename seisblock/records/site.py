@@ -193,6 +193,7 @@ def format_local_time(record: Record, moment: datetime | None) -> str:
     if moment is None:
         return ""
     clock = str(record.metadata.get("clock", "UTC"))
+    # strftime truncates: half a second more rounds to the nearest second
     return f"{moment + UTC_OFFSETS.get(clock, timedelta(0)) + HALF_A_SECOND:%Y-%m-%d %H:%M:%S} {clock}"
 
 

@@ -6,7 +6,7 @@ import math
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.records import Motion
-from seisblock.report.units_display import format_size
+from seisblock.report.units_display import Unit, format_size
 
 PHASES = {
     "rocks to +x": (N_("rocking to {side}"), 1),
@@ -60,15 +60,15 @@ def with_direction(length: str, name: str, sign: float) -> str:
     return length if is_zero else gettext("{path} to {towards}", path=length, towards=direction_label(name, sign))
 
 
-def format_displacement(length: float, name: str, *, gal: bool = True) -> str:
-    """Return a displacement, m, as size, unit and direction.
+def format_displacement(length: float, name: str, unit: Unit | None = None) -> str:
+    """Return a displacement, m, as size, unit and direction; `unit` is that of the other lengths of the text.
 
     Examples
     --------
     >>> format_displacement(-0.448, "NS"), format_displacement(0.0, "NS"), format_displacement(1e-6, "NS")
     ('44.8 cm to -NS', '0.0 cm', 'less than 0.01 mm to +NS')
     """
-    return with_direction(format_size(length, gal=gal), name, length)
+    return with_direction(format_size(length, unit), name, length)
 
 
 def direction_in_plane(degrees: float, motion: Motion) -> str:

@@ -52,11 +52,11 @@ def sweep_azimuths(body: object, step_deg: float = STEP_DEG) -> FloatArray:
     >>> sweep_azimuths(Block(0.24, 0.72), 45.0).tolist()
     [0.0, 45.0, 90.0, 135.0]
     """
-    checks.positive("the step between directions", step_deg, "degrees")
+    checks.positive("the azimuth step", step_deg, "degrees")
     is_asymmetric = isinstance(body, Block) and body.centroid_offset != 0.0
     is_one_way = isinstance(body, SlidingBase) and (body.one_way or body.slope_deg != 0.0)
     full_range_deg = 360.0 if is_asymmetric or is_one_way else 180.0
-    check_limit(N_("directions"), math.ceil(full_range_deg / step_deg), "SEISBLOCK_RUNS")
+    check_limit(N_("azimuths"), math.ceil(full_range_deg / step_deg), "SEISBLOCK_RUNS")
     return np.arange(0.0, full_range_deg, step_deg)
 
 

@@ -54,7 +54,7 @@ HEAD = "import seisblock\nfrom seisblock import Block, Motion\nmotion = Motion.f
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
+def mypy_output(tmp_path_factory):
     """What mypy --strict says of a right script and of one line after another that is wrong, by script and line."""
     folder = tmp_path_factory.mktemp("user")
     (folder / "right.py").write_text(SCRIPT, encoding="utf-8")
@@ -81,11 +81,11 @@ def told(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_a_right_script_has_true_types(told):
+def test_correct_script_passes_mypy(mypy_output):
     """Nothing is refused, and no public name is Any."""
     lines = SCRIPT.splitlines()
     asked = {number: line.rpartition("  # ")[2] for number, line in enumerate(lines, 1) if "reveal_type" in line}
-    said = {line: texts for (script, line), texts in told.items() if script == "right"}
+    said = {line: texts for (script, line), texts in mypy_output.items() if script == "right"}
     assert set(said) == set(asked), [texts for line, texts in said.items() if line not in asked]
     for number, kind in asked.items():
         (text,) = said[number]
@@ -94,15 +94,15 @@ def test_a_right_script_has_true_types(told):
 
 
 @pytest.mark.slow
-def test_what_is_wrong_is_refused(told):
+def test_mypy_rejects_wrong_names_and_types(mypy_output):
     """A misspelt name, option or field, the wrong order and a record for a motion are found before the script runs."""
     first = HEAD.count("\n") + 1
     for number, (line, expected) in enumerate(WRONG.items(), first):
-        assert any(expected in text for text in told.get(("wrong", number), [])), (line, told.get(("wrong", number)))
+        assert any(expected in text for text in mypy_output.get(("wrong", number), [])), (line, mypy_output.get(("wrong", number)))
 
 
 @pytest.mark.parametrize("stub", STUBS, ids=lambda path: path.parent.relative_to(ROOT).as_posix())
-def test_stubs_are_true(stub):
+def test_stubs_match_the_package(stub):
     """What a stub promises can be imported, is listed once in its order, and is what the package lists."""
     tree = ast.parse(stub.read_text(encoding="utf-8"))
     names = [alias.name for node in tree.body if isinstance(node, ast.ImportFrom) for alias in node.names]

@@ -15,7 +15,7 @@ import pytest
 
 import seisblock
 from seisblock.references import REFERENCES
-from tests.trees import tree_of
+from tests.trees import syntax_tree
 
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
@@ -52,7 +52,7 @@ def sources(*folders):
 
 def public_functions(path):
     """Return the public functions at the top of a file as (name, docstring)."""
-    tree = tree_of(path)
+    tree = syntax_tree(path)
     nodes = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
     return [(node.name, ast.get_docstring(node) or "") for node in nodes]
 
@@ -60,7 +60,7 @@ def public_functions(path):
 def docstrings(folder):
     """Yield (place, docstring) of every module, class and function of a folder."""
     for path in sources(folder):
-        for node in ast.walk(tree_of(path)):
+        for node in ast.walk(syntax_tree(path)):
             if isinstance(node, (ast.FunctionDef, ast.ClassDef, ast.Module)) and ast.get_docstring(node):
                 yield f"{path.relative_to(PACKAGE).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
 
@@ -144,7 +144,7 @@ def test_references_are_unique_and_used():
 
 def test_citation_keys_are_written_in_one_table():
     """A bare key is written in the table of references only."""
-    trees = {path: tree_of(path) for path in sources() if path.parent.name != "references"}
+    trees = {path: syntax_tree(path) for path in sources() if path.parent.name != "references"}
     constants = [(path.name, node.value) for path, tree in trees.items() for node in ast.walk(tree) if isinstance(node, ast.Constant)]
     assert [(name, value) for name, value in constants if isinstance(value, str) and value in REFERENCES] == []
 
@@ -207,7 +207,7 @@ def test_commands_import_large_packages_inside_functions():
     """Files of the command line import large packages inside functions only."""
     found = []
     for path in sources("cli"):
-        for node in tree_of(path).body:
+        for node in syntax_tree(path).body:
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
             found += [f"{path.name}: {name}" for name in names if name.split(".")[0] in HEAVY]
@@ -229,7 +229,7 @@ def test_no_statement_follows_a_return():
     """No statement follows return, raise, break or continue in its block."""
     ends = (ast.Return, ast.Raise, ast.Break, ast.Continue)
     for path in sources():
-        for node in ast.walk(tree_of(path)):
+        for node in ast.walk(syntax_tree(path)):
             for name in ("body", "orelse", "finalbody"):
                 block = getattr(node, name, [])
                 for statement in block[:-1] if isinstance(block, list) else []:
@@ -257,7 +257,7 @@ def test_public_class_names_are_unique():
     """No two public classes share a name."""
     found = {}
     for path in sources():
-        for node in tree_of(path).body:
+        for node in syntax_tree(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 found.setdefault(node.name, []).append(path.relative_to(PACKAGE).as_posix())
     assert {name: files for name, files in found.items() if len(files) > 1} == {}
@@ -271,6 +271,6 @@ def test_messages_below_the_command_line_name_parameters():
     found = []
     for path in PACKAGE.rglob("*.py"):
         if path.relative_to(PACKAGE).parts[0] not in {"cli", "report", "validation"}:
-            texts = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.Constant)]
+            texts = [node for node in ast.walk(syntax_tree(path)) if isinstance(node, ast.Constant)]
             found += [f"{path.name}: {node.value}" for node in texts if isinstance(node.value, str) and FLAG.search(node.value)]
     assert found == []

@@ -26,14 +26,14 @@ def test_versions_agree():
     assert seisblock.__version__ == citation == newest
 
 
-def test_the_release_is_of_one_day():
+def test_release_dates_agree():
     """The citation and the newest entry of the changelog have one date."""
     released = re.search(r'^date-released: "(.+)"$', (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M)[1]
     newest = re.search(r"^## [\d.]+ \((.+)\)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)[1]
     assert newest in (released, "unreleased")
 
 
-def test_the_recipe_for_conda_asks_for_what_the_project_needs():
+def test_conda_recipe_matches_project():
     """Version, Python, dependencies and the entry point of the recipe are those of the project."""
     recipe = (ROOT / "docs" / "developers" / "release.md").read_text(encoding="utf-8")
     project = PROJECT["project"]
@@ -44,7 +44,7 @@ def test_the_recipe_for_conda_asks_for_what_the_project_needs():
     assert f"seisblock = {project['scripts']['seisblock']}" in recipe
 
 
-def test_the_source_archive_is_whole():
+def test_source_archive_contains_all_top_level_files():
     """What git keeps at the top of the repository is in the source archive, so that the tests pass from there too."""
     included = set(PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
     looked_for = set(re.findall(r'ROOT / "([\w.-]+)"', Path(__file__).read_text(encoding="utf-8"))) - {"pyproject.toml"}
@@ -69,7 +69,7 @@ def test_layer_table_of_the_architecture_page_matches_the_import_contract():
 def test_benchmarks_can_be_measured_alone():
     """As CONTRIBUTING says it, without workers: pytest-benchmark refuses where tests are shared out."""
     words = re.search(r"python -m (pytest tests/benchmarks \S+)", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))[1].split()
-    words[1] = "tests/benchmarks/test_film_speed.py"
+    words[1] = "tests/benchmarks/test_animation_speed.py"
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
     found = subprocess.run(
         [sys.executable, "-m", *words, "--collect-only", "-p", "no:cacheprovider"],
@@ -82,7 +82,7 @@ def test_benchmarks_can_be_measured_alone():
     assert found.returncode == 0, found.stdout + found.stderr
 
 
-def test_what_the_suite_leaves_out_is_run():
+def test_ci_runs_suite_and_slow_tests():
     """The one definition of green runs the suite as the README says, and what is marked slow after it."""
     readme, definition = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", ".ci/run"))
     told = re.search(r"python -m (pytest .+)", readme)[1]
@@ -91,7 +91,7 @@ def test_what_the_suite_leaves_out_is_run():
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_files_that_are_named_exist(page):
+def test_paths_in_pages_exist(page):
     """Every path in a page leads to a file or folder of the repository."""
     named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
     named -= {name for name in named if any(word in name for word in PLACEHOLDERS)}
@@ -102,13 +102,13 @@ def test_files_that_are_named_exist(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_somewhere(page):
+def test_links_in_pages_exist(page):
     """Every picture and every link to a file is there."""
     links = [link for link in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")) if "://" not in link]
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
-def test_drawings_are_what_their_scripts_draw():
+def test_drawings_equal_script_output():
     """The drawings were made by the scripts beside them as they stand."""
     folder = ROOT / "docs" / "figures"
     drawn = {name: runpy.run_path(str(folder / f"{name}.py")) for name in ("draw", "models")}
@@ -119,7 +119,7 @@ def test_drawings_are_what_their_scripts_draw():
         assert (folder / f"{name}.svg").read_text(encoding="utf-8") == draw(), name
 
 
-def test_every_public_name_is_in_the_reference():
+def test_reference_lists_every_public_name():
     """Each public name stands on one page of the library's reference; commands, documents and papers are taken from the program."""
     pages = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "reference").rglob("*.md")}
     listed = [name for text in pages.values() for block in re.findall(r"```\{names\}\n(.*?)```", text, re.S) for name in block.split()]
@@ -128,7 +128,7 @@ def test_every_public_name_is_in_the_reference():
         assert f"```{{{kind}}}" in pages[kind]
 
 
-def test_every_page_is_in_a_table_of_contents():
+def test_tables_of_contents_list_every_page():
     """A page of docs/ stands in the table of contents of one index, which is how a reader of the site comes to it."""
     docs = ROOT / "docs"
     pages = {path.relative_to(docs).with_suffix("").as_posix() for path in docs.rglob("*.md")} - {"index"}
@@ -140,7 +140,7 @@ def test_every_page_is_in_a_table_of_contents():
     assert sorted(listed) == sorted(pages)
 
 
-def test_the_first_commands_of_a_newcomer_exist():
+def test_commands_named_in_pages_exist():
     """Commands that the pages name are commands."""
     said = {name for page in PAGES for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}
     assert said <= set(COMMANDS)

@@ -19,7 +19,7 @@ DIMENSION = re.compile(
     rf"(?:(?:,|\)|\bin|\bor|\band)\s|\(){UNIT}(?![\w^/])"  # "Height H, m or with a unit", "(n,) array, m/s^2"
     r"|\b0\sto\s1\b|\bbetween\s0\sand\s1\b|\[0,\s1|\bunits\b|in\s`unit`"
     r"|\b[Ss]hares?\b|\b[Rr]atios?\b|\b[Ff]actors?\b|\b[Cc]oefficients?\b|\btimes\sslower\b|\bln\s(?:PGA|f)\b|[A-Za-z]/[A-Z]\b"
-    r"|\b[Dd]egrees\b|\b[Pp]er\scent\b",
+    r"|\b[Dd]egrees\b|\b[Pp]er\scent\b|\blogarithm\b|\bpoints\b",
 )
 """A unit where the house writes units, or the word for a number that has none."""
 
@@ -42,7 +42,7 @@ def every_option():
     return pairs
 
 
-def test_every_option_is_described():
+def test_every_option_has_help():
     """Each has a help text that ends like a sentence."""
     assert [f"{name} {option.opts[0]}" for name, option in every_option() if not option.help] == []
 
@@ -60,12 +60,12 @@ def test_every_option_is_described():
         ("Largest step; 1 step is enough.", False),
     ],
 )
-def test_what_says_a_unit(text, says):
+def test_unit_rule_recognises_units(text, says):
     """A unit after a comma or a word for a pure number says it; a default, a count of words or a lone figure does not."""
     assert dimension_of_help(text) is says
 
 
-def test_numbers_have_a_unit():
+def test_numeric_options_state_their_unit():
     """The help of each option that takes other numbers than counts names their unit."""
     numbers = [
         (name, option)
@@ -92,13 +92,13 @@ def numbers_described(text):
 
 
 @pytest.mark.parametrize("name", seisblock.__all__)
-def test_the_public_api_says_its_units(name):
+def test_public_api_states_units(name):
     """Every number that goes in or comes out has its unit in its name or in its docstring."""
     described = list(numbers_described(inspect.getdoc(getattr(seisblock, name)) or ""))
     silent = [each for names, text in described for each in names if not (named_dimension(each) or DIMENSION.search(text))]
     assert silent == []
 
 
-def test_the_public_api_has_numbers():
+def test_unit_rule_has_numbers_to_check():
     """The rule above has something to judge."""
     assert sum(len(list(numbers_described(inspect.getdoc(getattr(seisblock, name)) or ""))) for name in seisblock.__all__) > 150

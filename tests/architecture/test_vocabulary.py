@@ -8,7 +8,7 @@ import pytest
 
 import seisblock
 from tests.catalogue import message_key, read_catalogue
-from tests.trees import tree_of
+from tests.trees import syntax_tree
 
 PACKAGE = Path(seisblock.__file__).parent
 ROOT = PACKAGE.parent
@@ -186,7 +186,7 @@ USER_PHRASES = re.compile(
 def documented_nodes():
     """Yield (place, docstring) of each module, class and function of the package."""
     for path in SOURCES:
-        for node in ast.walk(tree_of(path)):
+        for node in ast.walk(syntax_tree(path)):
             if isinstance(node, (ast.Module, ast.FunctionDef, ast.ClassDef)) and ast.get_docstring(node):
                 yield f"{path.relative_to(PACKAGE).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
 
@@ -194,7 +194,7 @@ def documented_nodes():
 def bound_names():
     """Yield every name that the package binds: variables, parameters, functions and classes."""
     for path in SOURCES:
-        for node in ast.walk(tree_of(path)):
+        for node in ast.walk(syntax_tree(path)):
             if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
                 yield node.id
             elif isinstance(node, ast.arg):

@@ -15,7 +15,7 @@ from seisblock.records import Component, Record, motion_of
 from seisblock.studies.batch import cluster
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.parallel import cpu_count
-from tests.batch.conftest import shaking, write_record
+from tests.studies.batch.conftest import shaking, write_record
 
 BODIES = {f"block {number}": Block(0.15 + 0.01 * number, 1.0) for number in range(20)}
 FRICTIONS = {f"mu {number}": 0.05 + 0.02 * number for number in range(20)}
@@ -36,7 +36,7 @@ def minute(seed, peak=3.0):
     ],
     ids=["rock", "respond", "slide"],
 )
-def test_a_row(benchmark, solver, bodies, options, single):
+def test_batch_row(benchmark, solver, bodies, options, single):
     """At most 0.3 ms more than the solver's own call, on one thread."""
     record = minute(3)
     motion = motion_of(record, "NS")
@@ -56,7 +56,7 @@ def test_a_row(benchmark, solver, bodies, options, single):
         assert together < alone + 0.3e-3
 
 
-def test_two_processes(benchmark, tmp_path):
+def test_batch_on_two_dask_processes(benchmark, tmp_path):
     """Two of a local cluster against one; what client and scheduler take of a record is told beside, which no load changes."""
     pytest.importorskip("distributed")
     if benchmark.disabled or cpu_count() < 2 or os.getloadavg()[0] > 0.5:

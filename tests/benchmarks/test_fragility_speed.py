@@ -12,7 +12,7 @@ BODIES = {f"shelf {number}": Block(0.32, 0.7 + 0.17 * number) for number in rang
 
 
 @pytest.mark.slow
-def test_nine_shelves(benchmark):
+def test_fragility_of_nine_blocks(benchmark):
     """44 records of 40 s x 60 levels x 9 blocks, 23 760 runs with fits and intervals: at most 8 s of this process on all its cores."""
     records = synthetic_suite(44, seconds=40.0, dt=0.01)
     ask = {"im": "pgv", "levels": np.geomspace(0.05, 5.0, 60)}
@@ -21,7 +21,7 @@ def test_nine_shelves(benchmark):
     assert benchmark.stats is None or benchmark.stats.stats.min < 8.0
 
 
-def test_a_thousand_fits(benchmark):
+def test_bootstrap_of_1000_samples(benchmark):
     """The bootstrap of one curve, 1000 samples at 60 levels: at most 0.2 s."""
     levels = np.geomspace(0.1, 5.0, 60)
     dice = np.random.default_rng(0)

@@ -9,7 +9,7 @@ from seisblock.models.jump import flight as flying
 from seisblock.models.jump import jump_many, modes, rocking, solve_jump
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import best
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
@@ -28,7 +28,7 @@ def flight():
     return integrate(flying.FLIGHT_MODEL, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0, *[0.0] * 4], modes.FLIGHT, keep_path=False)
 
 
-def rest():
+def integrate_at_rest():
     return integrate(rocking.ROCKING_MODEL, QUIET, parameters(), [0.0, 0.0], rocking.REST, keep_path=False)
 
 
@@ -37,11 +37,11 @@ def rocks():
     return integrate(rocking.ROCKING_MODEL, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
 
 
-MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}
+MODES = {"rest": (integrate_at_rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}
 
 
 @pytest.mark.parametrize(("run", "mode"), MODES.values(), ids=MODES)
-def test_cost_per_sample(benchmark, run, mode):
+def test_jump_cost_per_sample(benchmark, run, mode):
     """The whole motion is spent in one mode; the cost per sample is in extra_info."""
     assert run().final_mode == mode
     benchmark(run)
@@ -49,7 +49,7 @@ def test_cost_per_sample(benchmark, run, mode):
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / N * 1e9
 
 
-def test_a_hundred_factors_side_by_side(benchmark):
+def test_jump_many_100_factors(benchmark):
     """A hundred factors on 60 s, chain after chain, take a fifth of the time of single answers at the most (a thirtieth, measured)."""
     block, contact = load_two_layer("chozusha"), load_contact("chozusha")
     motion = shaking(60.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=1)

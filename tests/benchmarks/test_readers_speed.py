@@ -26,14 +26,14 @@ def long_jma(tmp_path):
     return path
 
 
-def test_a_jma_file_of_36000_samples(benchmark, long_jma):
+def test_read_jma_file_of_36000_samples(benchmark, long_jma):
     """Six minutes at 100 Hz, as JMA published for 2011-03-11, in under 0.15 s."""
     record = benchmark(read, long_jma)
     assert record.samples == 36000
     assert benchmark.stats is None or benchmark.stats.stats.median < BUDGET_S
 
 
-def test_a_plain_table_of_20_minutes(benchmark, tmp_path):
+def test_read_table_of_20_minutes(benchmark, tmp_path):
     """120 000 rows of time and three components with units, in under 0.6 s."""
     path = tmp_path / "long.csv"
     body = "".join(f"{i / 100:.2f},{a:.3f},{b:.3f},{c:.3f}\n" for i, (a, b, c) in enumerate(rows(120000)))
@@ -43,7 +43,7 @@ def test_a_plain_table_of_20_minutes(benchmark, tmp_path):
     assert benchmark.stats is None or benchmark.stats.stats.median < 4 * BUDGET_S
 
 
-def test_a_knet_set_of_five_minutes(benchmark, tmp_path):
+def test_read_knet_set_of_5_minutes(benchmark, tmp_path):
     """Three files of 30 000 counts through obspy, in under 0.3 s."""
     counts = [int(x) for x in 1e5 * rows(30000)[:, 0]]
     for code, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
@@ -53,7 +53,7 @@ def test_a_knet_set_of_five_minutes(benchmark, tmp_path):
     assert benchmark.stats is None or benchmark.stats.stats.median < 2 * BUDGET_S
 
 
-def test_text_formats_load_nothing_heavy():
+def test_text_readers_import_no_large_package():
     """JMA CSV, AT2 and plain tables are read without obspy, scipy, pandas or matplotlib."""
     code = (
         "import sys, seisblock; seisblock.read('synthetic_jma.csv'); seisblock.read('elcentro_1940_ns'); "

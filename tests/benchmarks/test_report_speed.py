@@ -12,7 +12,7 @@ from seisblock.report.html.report import report
 from seisblock.report.io.atomic import write_records
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
-from tests.present.long_record import record
+from tests.report.long_record import record
 
 THREE = ("gravestone", "chozusha", "24cmx72cm")
 
@@ -34,7 +34,7 @@ def test_report_of_one_body(benchmark):
 @pytest.mark.slow
 @pytest.mark.parametrize("bodies", [THREE[:1], THREE], ids=["one", "three"])
 @pytest.mark.benchmark(timer=cpu_of_children)
-def test_report_as_a_command(benchmark, bodies, tmp_path):
+def test_report_command(benchmark, bodies, tmp_path):
     """The whole command on 300 s of three components, processor time: below 5 s for one body and 10 s for three on one core of 2024."""
     (path,) = write_records(tmp_path, [replace(record(), source="long")])
     named = [word for body in bodies for word in ("--body", body)]

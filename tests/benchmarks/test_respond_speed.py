@@ -17,7 +17,7 @@ from seisblock.models.respond import constants, respond_many, respond_params, so
 from seisblock.models.respond.model import RESPOND
 from seisblock.records import Motion
 from tests.benchmarks.test_slide_speed import strong_motion
-from tests.solvers.respond.cases import leaning
+from tests.models.respond.cases import at_lean
 
 SAMPLES = 10_000
 WEAK = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01, vertical=0.2 * np.sin(0.11 * np.arange(SAMPLES)))
@@ -29,7 +29,7 @@ def strong_minute():
     return Motion(2.0 * motion.acceleration, motion.dt)
 
 
-def bound(benchmark, seconds):
+def assert_faster_than(benchmark, seconds):
     """Hold the fastest round against a bound, when rounds are timed at all."""
     assert benchmark.stats is None or benchmark.stats.stats.min < seconds
 
@@ -50,33 +50,33 @@ def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
     benchmark(work)
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / samples * 1e9
-    bound(benchmark, nanoseconds * 1e-9 * samples)
+    assert_faster_than(benchmark, nanoseconds * 1e-9 * samples)
 
 
-def test_a_sample_of_rocking(benchmark):
+def test_respond_rocking_per_sample(benchmark):
     """At most 400 ns per sample, with vertical motion, energies and friction's limits."""
     block = from_slenderness(0.25, 2.14)
-    one_mode(benchmark, block, WEAK, leaning(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
+    one_mode(benchmark, block, WEAK, at_lean(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
 
 
-def test_a_sample_of_sliding_while_rocking(benchmark):
+def test_respond_slide_rocking_per_sample(benchmark):
     """At most 400 ns per sample; the block is so large that one swing lasts half a minute."""
     block = Block(240.0, 2400.0)
-    one_mode(benchmark, block, WEAK, leaning(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
+    one_mode(benchmark, block, WEAK, at_lean(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
 
 
-def test_a_sample_of_sliding(benchmark):
+def test_respond_sliding_per_sample(benchmark):
     """At most 200 ns per sample, energies and path included."""
     motion = Motion.from_arrays(2.0 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
     one_mode(benchmark, Block(1.0, 1.0), motion, None, "slide", 200.0, mu=0.05)
 
 
-def test_a_sample_of_flight(benchmark):
+def test_respond_flight_per_sample(benchmark):
     """At most 400 ns per sample, spinning."""
     one_mode(benchmark, Block(1.0, 1.0), WEAK, (0.0, 60_000.0, 0.0, 0.0, 0.0, 0.01), "flight", 400.0, mu=0.05)
 
 
-def test_a_sample_at_rest(benchmark):
+def test_respond_rest_per_sample(benchmark):
     """At most 10 ns per sample, as the other models pass over them."""
     one_mode(benchmark, Block(1.0, 1.0), WEAK, None, "rest", 10.0, mu=0.5)
 
@@ -92,7 +92,7 @@ def versions(block, n=200):
     ]
 
 
-def test_a_probability(benchmark):
+def test_respond_probability_of_200_samples(benchmark):
     """200 versions of a cabinet under 60 s of strong motion at 100 Hz, on to their rest: at most 1.5 s on two threads."""
     motion = strong_minute()
     settings = versions(Block(0.45, 1.4))
@@ -100,18 +100,18 @@ def test_a_probability(benchmark):
     assert found.overturned.size == 200
     assert (found.impacts > 10).sum() > 100
     assert (found.slip_path_m > 0.0).sum() > 100
-    bound(benchmark, 1.5)
+    assert_faster_than(benchmark, 1.5)
 
 
-def test_a_whole_answer(benchmark):
+def test_solve_respond_of_60_s(benchmark):
     """Channels, events, outcome and sensitivity of one block under 60 s of strong motion: at most 0.1 s."""
     motion = strong_minute()
     response = benchmark(solve_respond, Block(0.45, 1.4), motion, mu=0.4)
     assert len(response.outcome.events) > 3
-    bound(benchmark, 0.1)
+    assert_faster_than(benchmark, 0.1)
 
 
-def warm(*words):
+def run_command(*words):
     """Run a command in a process of its own; return its answer and the processor time it took, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([sys.executable, "-m", "seisblock", *words, "--quiet", "--json"], capture_output=True, check=True)
@@ -120,26 +120,26 @@ def warm(*words):
 
 
 @pytest.mark.slow
-def test_a_warm_command(benchmark):
+def test_respond_command_with_warm_cache(benchmark):
     """From the shell, kernels compiled before, `respond` with 200 versions of two components costs less than twice what `slide` does."""
     words = ("respond", "--width", "45cm", "--height", "180cm", "--mu", "0.3")
     spent = []
 
     def run():
-        answer, took = warm(*words)
+        answer, took = run_command(*words)
         spent.append(took)
         return answer
 
     answer = benchmark.pedantic(run, rounds=5, warmup_rounds=1)
     assert [result["probability"]["runs"] for result in answer["results"]] == [200, 200]
     if benchmark.stats is not None:
-        base = min(warm("slide", "--mu", "0.3")[1] for _ in range(5))
+        base = min(run_command("slide", "--mu", "0.3")[1] for _ in range(5))
         benchmark.extra_info |= {"processor_s": min(spent), "over_slide": min(spent) / base}
         print(f"respond: {min(spent):.2f} s of processor time for a warm command, slide: {base:.2f} s")
         assert min(spent) < 2.0 * base
 
 
-def test_faster_than_mujoco(benchmark):
+def test_respond_is_faster_than_mujoco(benchmark):
     """At least 50 times faster than MuJoCo at its 1 ms step, one block, measured in one run."""
     mujoco = pytest.importorskip("mujoco")
     motion = strong_minute()

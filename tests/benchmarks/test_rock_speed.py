@@ -25,7 +25,7 @@ def bound(benchmark, seconds):
     assert benchmark.stats is None or benchmark.stats.stats.min < seconds
 
 
-def test_a_sample_of_rocking(benchmark):
+def test_rock_per_sample(benchmark):
     """At most 500 ns per sample while rocking, at round-off accuracy."""
     block = from_slenderness(0.25, 2.14)
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
@@ -35,7 +35,7 @@ def test_a_sample_of_rocking(benchmark):
     bound(benchmark, 500e-9 * SAMPLES)
 
 
-def test_a_sample_of_many_that_rock(benchmark):
+def test_rock_simd_per_sample(benchmark):
     """At most 60 ns per sample of each of 64 blocks side by side on one core, impacts included: the same bits as alone."""
     blocks = rectangular_blocks(np.linspace(0.9, 1.1, 64), np.linspace(3.4, 4.4, 64))
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
@@ -51,7 +51,7 @@ def test_a_sample_of_many_that_rock(benchmark):
     bound(benchmark, 60e-9 * SAMPLES * 64)
 
 
-def test_a_sample_at_rest(benchmark):
+def test_rock_rest_per_sample(benchmark):
     """At most 10 ns per sample at rest."""
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(10 * SAMPLES)), 0.01)
     verdict = benchmark(rock_verdict, Block(0.3, 1.0), motion)
@@ -59,7 +59,7 @@ def test_a_sample_at_rest(benchmark):
     bound(benchmark, 10e-9 * 10 * SAMPLES)
 
 
-def test_whole_answer_of_a_rocking_block(benchmark):
+def test_solve_rock_per_sample(benchmark):
     """Channels, phases, forces and outcome included: at most 1 microsecond per sample."""
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
     response = benchmark(solve_rock, from_slenderness(0.25, 2.14), motion, restitution=0.9999, initial=(0.15, 0.0))
@@ -67,7 +67,7 @@ def test_whole_answer_of_a_rocking_block(benchmark):
     bound(benchmark, 1e-6 * SAMPLES)
 
 
-def test_spectrum_of_a_hundred_seconds(benchmark):
+def test_rocking_spectrum_of_100_s(benchmark):
     """10 x 10 blocks under 100 s at 100 Hz take less than a hundredth of the minute that 100 x 100 may take."""
     rng = np.random.default_rng(0)
     t = np.arange(SAMPLES) * 0.01
@@ -78,7 +78,7 @@ def test_spectrum_of_a_hundred_seconds(benchmark):
     bound(benchmark, 0.6)
 
 
-def test_python_before_the_first_sample(benchmark):
+def test_solve_rock_overhead(benchmark):
     """A verdict on a record of three samples: at most 100 microseconds, where 0.1.0 took 335 to 460 (H11)."""
     still = Motion.from_arrays(np.zeros(3), 0.01)
     verdict = benchmark(rock_verdict, Block(0.3, 1.0), still)
@@ -86,7 +86,7 @@ def test_python_before_the_first_sample(benchmark):
     bound(benchmark, 100e-6)
 
 
-def test_python_around_a_run_of_many(benchmark):
+def test_rock_many_overhead_per_run(benchmark):
     """10 000 blocks, made, followed through two samples and judged: at most 5 microseconds each (40 before)."""
     still = Motion.from_arrays(np.zeros(2), 0.01)
     found = benchmark(rocking_spectrum, default_sizes(100), default_slendernesses(100), still)
@@ -94,7 +94,7 @@ def test_python_around_a_run_of_many(benchmark):
     bound(benchmark, 5e-6 * 10_000)
 
 
-def test_a_single_answer_is_faster_than_pyslammer(benchmark):
+def test_solve_rock_is_faster_than_pyslammer(benchmark):
     """One `solve_rock` of 300 s, with its channels and outcome, takes a twentieth of pySLAMMER's rigid analysis of the same record."""
     from pyslammer.ground_motion import GroundMotion
     from pyslammer.rigid_analysis import RigidAnalysis

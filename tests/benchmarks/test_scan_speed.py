@@ -13,7 +13,7 @@ SIDES = 250_000
 
 
 @pytest.fixture(scope="module")
-def scanned(tmp_path_factory):
+def million_triangles(tmp_path_factory):
     """Return the file of a frustum of a million triangles, rough to a tenth of a millimetre."""
     vertices, faces = frustum(SIDES, 0.3, 0.25, 0.9)
     return write_stl(
@@ -22,13 +22,13 @@ def scanned(tmp_path_factory):
 
 
 @pytest.mark.slow
-def test_a_million_triangles_are_read(benchmark, scanned):
+def test_read_mesh_of_a_million_triangles(benchmark, million_triangles):
     """From the file to shared vertices."""
-    mesh = benchmark.pedantic(read_mesh, (scanned,), rounds=1, warmup_rounds=0)
+    mesh = benchmark.pedantic(read_mesh, (million_triangles,), rounds=1, warmup_rounds=0)
     assert len(mesh.faces) > 0.9e6
 
 
-def test_a_million_triangles_become_a_body(benchmark):
+def test_scan_body_of_a_million_triangles(benchmark):
     """Closed or not, volume, inertia, resting plane and base."""
     mesh = Mesh(*frustum(SIDES, 0.3, 0.25, 0.9))
 

@@ -49,7 +49,7 @@ def share(benchmark):
     return 1.0 if benchmark.stats is not None else SHARED
 
 
-def test_kernel_speed(benchmark):
+def test_slide_kernel_per_sample(benchmark):
     """The kernel needs at most 20 ns per sample and parameter set, over the friction coefficients of a study, with vertical motion."""
     motion = strong_motion()
     mus = np.linspace(0.02, 0.30, 57)
@@ -66,7 +66,7 @@ def test_kernel_speed(benchmark):
 
 
 @pytest.mark.slow
-def test_study_of_ten_thousand_points(benchmark):
+def test_slide_study_of_10000_points(benchmark):
     """10 000 combinations of friction, ratio and vertical motion over a 100 s record take about a second."""
     motion = strong_motion()
 
@@ -81,7 +81,7 @@ def test_study_of_ten_thousand_points(benchmark):
 
 
 @pytest.mark.slow
-def test_faster_than_pyslammer(benchmark):
+def test_slide_study_is_faster_than_pyslammer(benchmark):
     """An analysis of a study takes a hundredth of pySLAMMER's rigid analysis of the same record; side by side, one core each."""
     from pyslammer.ground_motion import GroundMotion
     from pyslammer.rigid_analysis import RigidAnalysis
@@ -104,7 +104,7 @@ def test_faster_than_pyslammer(benchmark):
     assert ratio > TIMES_FASTER * share(benchmark)
 
 
-def test_a_single_answer_is_faster_than_pyslammer(benchmark):
+def test_solve_slide_is_faster_than_pyslammer(benchmark):
     """One `solve_slide` of a 300 s record, every curve of it made, takes a twentieth of pySLAMMER's rigid analysis of it."""
     from pyslammer.ground_motion import GroundMotion
     from pyslammer.rigid_analysis import RigidAnalysis

@@ -30,14 +30,14 @@ def one_block(mu):
     return Pile("block", (PileStone("block", WIDTH, WIDTH, 4 * WIDTH),), mu=mu)
 
 
-def test_one_rigid_block(benchmark):
+def test_stack_of_one_rigid_block(benchmark):
     """One block on its edges, at the default step: 300 simulated seconds per second."""
     response = benchmark(solve_stack, one_block(5.0), SHAKING)
     assert response.outcome.max_tilt_rad["block"] > 0.01
     assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > 300.0
 
 
-def test_five_stones_on_25_points_each(benchmark):
+def test_stack_of_five_spring_stones(benchmark):
     """The paper's pile of five stones on springs at 5 x 5 points each: 40 simulated seconds per second."""
     response = benchmark(solve_stack, load_pile("wagata"), SHAKING, law="springs", points=5)
     assert response.outcome.max_tilt_rad["sao"] > 0.005
@@ -45,20 +45,20 @@ def test_five_stones_on_25_points_each(benchmark):
 
 
 @pytest.mark.parametrize(("stones", "pga"), [(1, 3.5), (5, 4.6), (5, 3.0)], ids=["one rocks", "the top of five rocks", "five stand"])
-def test_side_by_side_with_mujoco(stones, pga, capsys):
+def test_stack_and_mujoco(stones, pga, capsys):
     """Simulated seconds per second of both, in one run, taken in turns: rigid stones at their default step, MuJoCo at 1 and 2 ms.
 
     Thresholds of one block stand within 0.1 % of their limit at the one step, within 0.2 % at the others; those of the pile within
     0.1 %, 0.1 % and 0.5 %.
     """
     pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
-    from tests.crosscheck.mujoco_pile import falls
+    from tests.crosscheck.mujoco_pile import any_stone_falls
 
     pile, motion = one_block(1.0) if stones == 1 else load_pile("wagata", mu=0.8), shaking(pga)
     runs = {
         "seisblock": lambda: solve_stack(pile, motion),
-        "MuJoCo 1 ms": lambda: falls(pile, motion, timestep=1e-3),
-        "MuJoCo 2 ms": lambda: falls(pile, motion, timestep=2e-3),
+        "MuJoCo 1 ms": lambda: any_stone_falls(pile, motion, timestep=1e-3),
+        "MuJoCo 2 ms": lambda: any_stone_falls(pile, motion, timestep=2e-3),
     }
     assert not runs["seisblock"]().outcome.overturned_any
     assert not runs["MuJoCo 1 ms"]()

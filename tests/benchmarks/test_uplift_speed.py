@@ -9,10 +9,10 @@ from seisblock.models.uplift.batch import uplift_many
 from seisblock.models.uplift.harmonic import uplift_thresholds
 from seisblock.models.uplift.solve import solve_uplift
 from tests.benchmarks.test_slide_speed import best
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 
-def test_harmonic_curve_of_1000_frequencies(benchmark):
+def test_uplift_harmonic_curve_of_1000_frequencies(benchmark):
     """A harmonic curve of 1000 frequencies takes less than 50 ms."""
     body = SpringBlock.from_ratios(1.0, 0.707)
     ratio = np.linspace(0.005, 5.0, 1000)
@@ -21,7 +21,7 @@ def test_harmonic_curve_of_1000_frequencies(benchmark):
     assert benchmark.stats is None or benchmark.stats.stats.min < 0.05
 
 
-def test_record_of_100_seconds(benchmark):
+def test_uplift_of_100_s_record(benchmark):
     """A 100 s, 100 Hz three-component record with a vertical frequency of 10 Hz takes less than 0.2 s."""
     body = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
     response = benchmark(solve_uplift, body, shaking(100.0, 0.01))
@@ -29,7 +29,7 @@ def test_record_of_100_seconds(benchmark):
     assert benchmark.stats is None or benchmark.stats.stats.min < 0.2
 
 
-def test_rows_of_a_minute(benchmark):
+def test_uplift_many_of_60_s(benchmark):
     """Sixteen blocks side by side take no longer than one after another: three integrations of 1.5 microseconds per sample each."""
     bodies = [SpringBlock.from_frequency(0.6, 0.6, 1.2 + 0.05 * n, frequency_vertical=10.0, beta=0.707) for n in range(16)]
     motion = shaking(60.0, 0.01)

@@ -21,7 +21,7 @@ def assert_same(found: BlockArray, alone: list[Block]):
 
 
 @pytest.mark.parametrize("inset", [EdgeWear(), EdgeWear(share=0.1), EdgeWear(length_m=0.02, share=0.05)], ids=str)
-def test_rectangles(inset):
+def test_block_array_equals_single_rectangles(inset):
     """Widths and heights drawn at random, some of them wider than tall, where the restitution is zero."""
     widths, heights = RNG.uniform(0.1, 3.0, (2, 200))
     found = rectangular_blocks(widths, heights, inset)
@@ -30,7 +30,7 @@ def test_rectangles(inset):
 
 
 @pytest.mark.parametrize("block", [Block(0.24, 0.8), STATUE], ids=["rectangle", "statue"])
-def test_versions_are_those_that_one_resizes_and_wears(block):
+def test_block_array_equals_resized_and_worn_blocks(block):
     """Lengths by any factors, edges as they are or by a share of the new width; a given inertia keeps its radius of gyration, to an ulp."""
     size, wider, share = RNG.uniform(0.8, 1.2, 100), RNG.uniform(0.8, 1.2, 100), RNG.uniform(0.0, 0.1, 100)
     alone = [scale_block(block, size=float(s), slenderness=float(q)) for s, q in zip(size, wider, strict=True)]
@@ -44,17 +44,17 @@ def test_versions_are_those_that_one_resizes_and_wears(block):
         assert_same(BlockArray(found.right, found.left, found.centre, np.array(kept)), expected)
 
 
-def test_blocks_that_are_there_are_gathered():
+def test_block_array_from_blocks_keeps_order():
     """Any blocks, in their order."""
     some = [Block(0.24, 0.8), STATUE, Block(3.0, 0.2)]
     assert_same(to_block_array(some), some)
 
 
-def test_what_no_block_can_be_is_refused_in_its_words():
+def test_block_array_rejects_invalid_row_like_block():
     """The first of them says what is wrong."""
     with pytest.raises(BodyError, match=r"width must be positive.*-1"):
         rectangular_blocks([0.3, -1.0], [0.9, 0.9])
-    with pytest.raises(ParameterError, match=r"leaves nothing of a base 0\.3 m wide"):
+    with pytest.raises(ParameterError, match=r"is too large for a base 0\.3 m wide"):
         rectangular_blocks([0.9, 0.3], [0.9, 0.9], EdgeWear(length_m=0.2))
     with pytest.raises(BodyError, match="must lie above the base"):
         block_variants(STATUE, size=[1.0, 1.0], slenderness=[1.0, 1.0], inset_share=[0.1, 0.45])

@@ -24,7 +24,7 @@ SURVEY = """\
 """
 
 
-def test_columns_in_english_with_a_ratio():
+def test_cemetery_accepts_english_columns_with_ratio():
     """height_over_width is enough; the other columns are optional and unknown ones passed over."""
     found = parse_cemetery("block,Height over width,fallen,count\nA,2.6,yes,\nB,3.1,0,4\n")
     assert [s.height_over_width for s in found.stones] == [2.6, 3.1]
@@ -34,7 +34,7 @@ def test_columns_in_english_with_a_ratio():
     assert found.has_survey
 
 
-def test_columns_in_japanese_with_sizes():
+def test_cemetery_accepts_japanese_columns_with_sizes():
     """Japanese headings, full-width digits and brackets, comments and empty cells."""
     found = parse_cemetery(SURVEY)
     assert found.ratios.tolist() == [2.6, 2.625, 2.625, 2.0]
@@ -47,7 +47,7 @@ def test_columns_in_japanese_with_sizes():
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
 @pytest.mark.parametrize("ending", ["\n", "\r\n"])
-def test_encodings(tmp_path, encoding, ending):
+def test_cemetery_accepts_encodings_and_line_ends(tmp_path, encoding, ending):
     """UTF-8 with and without a byte order mark, Shift-JIS and what Excel calls Unicode, with either line ending."""
     path = tmp_path / "墓地.csv"
     path.write_bytes(SURVEY.replace("\n", ending).encode(encoding))
@@ -66,7 +66,7 @@ def test_encodings(tmp_path, encoding, ending):
         ("H/B,高さ\n2.5,0.6\n", 0.6),
     ],
 )
-def test_units(table, height):
+def test_cemetery_accepts_units_in_heading_or_cell(table, height):
     """A unit stands in the heading or in the cell; a ratio with one size gives the other."""
     assert parse_cemetery(table).stones[0].height == pytest.approx(height)
 
@@ -99,7 +99,7 @@ def test_units(table, height):
         ("H/B\n2,6\n", "line 2: expected 1 cells as in the header, found 2"),
     ],
 )
-def test_what_is_wrong_is_one_sentence_with_its_line(table, message):
+def test_cemetery_error_names_its_line(table, message):
     """Empty tables, missing columns, sizes that are none, words that mean nothing."""
     with pytest.raises(BodyError, match=message) as caught:
         parse_cemetery(table, source="survey.csv")
@@ -107,7 +107,7 @@ def test_what_is_wrong_is_one_sentence_with_its_line(table, message):
     assert "\n" not in str(caught.value)
 
 
-def test_files_that_are_none(tmp_path, monkeypatch):
+def test_cemetery_rejects_other_files(tmp_path, monkeypatch):
     """A missing file, a directory, a binary file and another bundled file are one sentence each."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "binary.csv").write_bytes(b"\x00\x01\x02")
@@ -123,7 +123,7 @@ def test_files_that_are_none(tmp_path, monkeypatch):
             read_cemetery(name)
 
 
-def test_impossible_stones_are_refused():
+def test_cemetery_rejects_invalid_stones():
     """A stone or a cemetery made in memory is checked, too."""
     with pytest.raises(BodyError, match="height over width of a gravestone must be positive"):
         Stone(0.0)
@@ -133,7 +133,7 @@ def test_impossible_stones_are_refused():
         Cemetery(())
 
 
-def test_aoyama_has_the_printed_shares_and_says_that_it_is_reconstructed():
+def test_aoyama_has_printed_shares_and_states_reconstruction():
     """100 stones with the shares that [Furukawa2009]_ table 6 pins, inside the fitted range; also by its stem."""
     aoyama = read_cemetery("aoyama")
     assert aoyama.size == 100
@@ -148,13 +148,13 @@ def test_aoyama_has_the_printed_shares_and_says_that_it_is_reconstructed():
     assert np.all(aoyama.widths() < 0.31)
 
 
-def test_the_script_makes_aoyama_again():
+def test_bundled_aoyama_equals_script_output():
     """The script gives the bundled bytes."""
     assert make_aoyama.make().encode() == sample_path("aoyama.csv").read_bytes()
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
-def test_what_the_program_prints_is_read_back(lang):
+def test_cemetery_reads_printed_yes_and_no(lang):
     """Yes and no as tables print them, in either language, and as surveys mark them."""
     with use_locale(lang):
         yes, no = format_number(True), format_number(False)

@@ -21,7 +21,7 @@ def pile(*stones, **more):
     return Pile("pile", stones, **more)
 
 
-def test_wagata_is_the_papers():
+def test_bundled_wagata_has_sizes_of_paper():
     """The bundled gravestone has the sizes of table 1, H/B 2.6, and chudai 6 sun behind gedai's front edge."""
     wagata = load_pile("wagata")
     sizes = {stone.name: tuple(round(side / SUN, 9) for side in stone.size) for stone in wagata.stones}
@@ -33,20 +33,20 @@ def test_wagata_is_the_papers():
     assert wagata.mu == 0.438
 
 
-def test_dowels_make_one_body_of_two_stones():
+def test_dowels_join_two_stones():
     """Reinforced, jodai and sao move as one; plain, every stone moves by itself."""
     assert list(load_pile("wagata").bodies()) == [(0,), (1,), (2,), (3,), (4,)]
     assert list(load_pile("wagata", reinforced=True).bodies()) == [(0,), (1,), (2,), (3, 4)]
 
 
-def test_a_stone_may_be_left_out_or_fixed():
+def test_pile_without_or_fixed_stone():
     """Without the mizubachi four stones are left; fixed, it is no body of its own."""
     assert load_pile("wagata").without("mizubachi").names == ("gedai", "chudai", "jodai", "sao")
     fixed = replace(load_pile("wagata"), fixed=("gedai", "mizubachi"))
     assert list(fixed.bodies()) == [(2,), (3,), (4,)]
 
 
-def test_the_lantern_stands():
+def test_bundled_lantern_is_stable():
     """The bundled lantern is a pile that can stand, 2 m high."""
     lantern = load_pile("lantern.toml")
     assert lantern.centres()[-1][2] + 0.5 * lantern.stones[-1].height == pytest.approx(2.01)
@@ -85,7 +85,7 @@ def test_the_lantern_stands():
         (lambda: pile(), "has no stones"),
     ],
 )
-def test_impossible_piles_are_refused(make, message):
+def test_pile_rejects_invalid_geometry(make, message):
     """Overlapping, floating, unstable, weightless, wrongly dowelled: one sentence that names the stone."""
     with pytest.raises(BodyError, match=message) as caught:
         make()
@@ -105,7 +105,7 @@ def test_impossible_piles_are_refused(make, message):
         ("not toml", "is not valid TOML"),
     ],
 )
-def test_unreadable_files_are_refused(text, message, tmp_path):
+def test_pile_rejects_other_files(text, message, tmp_path):
     """A file that describes no pile is one sentence."""
     path = tmp_path / "stones.toml"
     path.write_text(text, encoding="utf-8")
@@ -113,7 +113,7 @@ def test_unreadable_files_are_refused(text, message, tmp_path):
         load_pile(path)
 
 
-def test_dowels_that_are_not_there_are_refused(tmp_path):
+def test_reinforced_requires_dowels_in_file(tmp_path):
     """Asking for dowels that a file does not name is an error, not a plain pile."""
     path = tmp_path / "stones.toml"
     path.write_text("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1", encoding="utf-8")
@@ -121,7 +121,7 @@ def test_dowels_that_are_not_there_are_refused(tmp_path):
         load_pile(path, reinforced=True)
 
 
-def test_contact_is_per_mass_or_physical():
+def test_pile_contact_is_per_mass_or_physical():
     """Table 2 is 10 Hz and critical damping per point; a joint of known stiffness shares it among its points."""
     normal, dashpot, shear, _ = PileContact().point_coefficients(100.0, 0.04, 0.3, 25)
     assert math.sqrt(normal / 100.0) / (2.0 * math.pi) == pytest.approx(10.0, rel=1e-4)
@@ -137,7 +137,7 @@ def test_contact_is_per_mass_or_physical():
         PileContact(stiffness=0.0)
 
 
-def test_what_slides_may_have_less_friction_than_what_clings(tmp_path):
+def test_kinetic_friction_may_be_lower_than_static(tmp_path):
     """Of the pile or of a stone, in the file or set for all; `mu` from outside replaces both."""
     file = tmp_path / "own.toml"
     stones = '[[stone]]\nname = "foot"\nwidth = 1.0\ndepth = 1.0\nheight = 0.2\nmu = 0.4\nmu_kinetic = 0.1\n'
@@ -165,7 +165,7 @@ def test_what_slides_may_have_less_friction_than_what_clings(tmp_path):
         (lambda: pile(FOOT, mu_kinetic=math.nan), "kinetic friction"),
     ],
 )
-def test_more_friction_once_it_slides_is_refused(make, message):
+def test_kinetic_friction_above_static_is_rejected(make, message):
     with pytest.raises(BodyError, match=message):
         make()
 
@@ -181,7 +181,7 @@ def test_more_friction_once_it_slides_is_refused(make, message):
         ('fixed = ["roof"]', "", "fixed stone: the pile own has no stone 'roof'"),
     ],
 )
-def test_what_is_wrong_in_a_file_is_said_with_its_name(tmp_path, head, stone, message):
+def test_pile_error_names_its_file(tmp_path, head, stone, message):
     """A pile that cannot be names its file, whether the pile refuses it, or a stone does."""
     file = tmp_path / "own.toml"
     size = "width = 0.5\ndepth = 0.5\nheight = 0.2\n"

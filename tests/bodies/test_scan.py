@@ -28,7 +28,7 @@ EXACT = 1e-12
 """Sums of some hundred terms, relative."""
 
 
-def regular(sides, radius):
+def polygon_properties(sides, radius):
     """Return area, and second moment about a line through the middle, of a regular polygon."""
     turn = 2.0 * math.pi / sides
     return 0.5 * sides * radius**2 * math.sin(turn), sides * radius**4 / 24.0 * math.sin(turn) * (2.0 + math.cos(turn))
@@ -38,15 +38,15 @@ def regular(sides, radius):
     ("below", "above"), [(0.3, 0.3), (0.3, 0.1), (0.25, 0.0), (0.1, 0.3)], ids=["cylinder", "frustum", "cone", "upside down"]
 )
 @pytest.mark.parametrize("sides", [3, 4, 17, 300])
-def test_what_a_frustum_encloses(sides, below, above):
+def test_scan_volume_centre_and_inertia_of_frusta(sides, below, above):
     """Volume, centre and inertia of prisms, frusta and cones over regular polygons are integrals of polynomials in z."""
     height, far = 0.9, np.array([3.0, -2.0, 5.0])
     vertices, faces = frustum(sides, below, above, height)
     used = np.unique(faces)
-    found = mass_properties(Mesh(*_shared(vertices[used] + far, np.searchsorted(used, faces))))
+    found = mass_properties(Mesh(*_merge_vertices(vertices[used] + far, np.searchsorted(used, faces))))
     z = Polynomial([0.0, 1.0])
     radius = below + (above - below) / height * z
-    area, moment = regular(sides, 1.0)
+    area, moment = polygon_properties(sides, 1.0)
     volume = (area * radius**2).integ()(height)
     centre = (area * radius**2 * z).integ()(height) / volume
     across = (moment * radius**4).integ()(height) / volume
@@ -58,7 +58,7 @@ def test_what_a_frustum_encloses(sides, below, above):
     assert found.pieces == 1
 
 
-def _shared(vertices, faces):
+def _merge_vertices(vertices, faces):
     """Return a mesh without the doubled apex of a cone."""
     _, first, number = np.unique(vertices.round(12), axis=0, return_index=True, return_inverse=True)
     corners = number.reshape(-1)[faces]
@@ -67,16 +67,16 @@ def _shared(vertices, faces):
 
 
 @pytest.fixture(scope="module")
-def boxed(tmp_path_factory):
+def box_scan(tmp_path_factory):
     """Return the body of a box of 0.3 x 0.4 x 0.9 m with a density of 2000 kg/m^3."""
     path = write_ply(tmp_path_factory.mktemp("box") / "box.ply", *box(0.3, 0.4, 0.9))
     return scan_body(path, density=2000.0)
 
 
-def test_a_box_is_a_block_towards_each_of_its_sides(boxed):
+def test_scanned_box_equals_block_along_its_sides(box_scan):
     """+x is east: towards 90 degrees it is as wide as along x. Mass, centre, inertia, alpha and p are those of the rectangle."""
     for azimuth, width, depth in ((90.0, 0.3, 0.4), (0.0, 0.4, 0.3), (270.0, 0.3, 0.4), (180.0, 0.4, 0.3)):
-        found, expected = boxed.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
+        found, expected = box_scan.body.block_toward(azimuth), Block(width, 0.9, depth, density=2000.0)
         assert found.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
         for name in ("arms", "radii", "slendernesses", "corner_inertias", "lever_ratios", "restitutions"):
             assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
@@ -84,7 +84,7 @@ def test_a_box_is_a_block_towards_each_of_its_sides(boxed):
 
 
 @pytest.mark.parametrize("sides", [4, 12])
-def test_products_of_inertia_that_are_zero_are_zero(sides, tmp_path):
+def test_zero_products_of_inertia_are_exactly_zero(sides, tmp_path):
     """Sums over triangles leave 1e-18 of them, which was told as a number."""
     path = write_ply(tmp_path / "body.ply", *frustum(sides, 0.3, 0.1, 0.9))
     inertia = np.array(scan_body(path).body.inertia)
@@ -92,22 +92,22 @@ def test_products_of_inertia_that_are_zero_are_zero(sides, tmp_path):
 
 
 @pytest.mark.parametrize("azimuth", [13.0, 45.0, 100.0, 222.0, 359.0])
-def test_a_box_turns_about_its_corner_between_its_sides(boxed, azimuth):
+def test_scanned_box_pivots_at_corner_between_sides(box_scan, azimuth):
     """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""
     angle = math.radians(90.0 - azimuth)
     c, s = abs(math.cos(angle)), abs(math.sin(angle))
-    found = boxed.body.block_toward(azimuth)
+    found = box_scan.body.block_toward(azimuth)
     mass = 2000.0 * 0.3 * 0.4 * 0.9
     assert found.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
     about_y, about_x = mass * (0.3**2 + 0.9**2) / 12, mass * (0.4**2 + 0.9**2) / 12
     assert found.gyration_squared * mass == pytest.approx(about_y * c * c + about_x * s * s, rel=1e-11)
 
 
-def test_facing_turns_the_body(boxed):
+def test_facing_rotates_the_body(box_scan):
     """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
-    turned = ScannedBody(**{**vars_of(boxed.body), "facing": 130.0})
+    turned = ScannedBody(**{**vars_of(box_scan.body), "facing": 130.0})
     for azimuth in (0.0, 17.0, 200.0):
-        before, after = boxed.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
+        before, after = box_scan.body.block_toward(azimuth), turned.block_toward(azimuth + 40.0)
         assert before.arms == pytest.approx(after.arms, rel=1e-12) and before.gyration_squared == pytest.approx(
             after.gyration_squared, rel=1e-12
         )
@@ -119,7 +119,7 @@ def vars_of(body):
 
 
 @pytest.mark.parametrize("write", [write_stl, write_obj, write_ply])
-def test_formats_agree(write, tmp_path):
+def test_scan_formats_agree(write, tmp_path):
     """STL (single precision, no shared vertices), OBJ and PLY hold the same box; millimetres are a thousandth of metres."""
     vertices, faces = box(300.0, 400.0, 900.0)
     path = write(tmp_path / f"box.{write.__name__[-3:]}", vertices, faces)
@@ -129,7 +129,7 @@ def test_formats_agree(write, tmp_path):
 
 
 @pytest.mark.parametrize("up", AXIS_ROTATIONS)
-def test_every_axis_may_point_upwards(up, tmp_path):
+def test_scan_accepts_any_up_axis(up, tmp_path):
     """Whatever axis is up, volume and height are the same, nothing is mirrored, and the body stands."""
     vertices, faces = frustum(5, 0.3, 0.2, 0.8, sheared=(0.05, 0.02))
     shuffled = np.empty_like(vertices)
@@ -143,19 +143,19 @@ def test_every_axis_may_point_upwards(up, tmp_path):
     assert body.block_toward(77.0).arms == pytest.approx(upright.block_toward(77.0).arms, abs=1e-12)
 
 
-def test_a_scan_that_leans_is_laid_level(tmp_path, boxed):
+def test_tilted_scan_is_levelled(tmp_path, box_scan):
     """A box turned by 4 degrees about any level axis rests on its base again: the same body, and the turn is told."""
     vertices, faces = box(0.3, 0.4, 0.9)
     leaning = vertices @ Rotation.from_rotvec(math.radians(4.0) * np.array([math.cos(1.0), math.sin(1.0), 0.0])).as_matrix().T
     found = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
     assert math.degrees(found.tilt) == pytest.approx(4.0, abs=1e-6)
     assert found.body.height == pytest.approx(0.9, abs=1e-8)
-    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(boxed.body)[0], abs=1e-7)
-    assert np.array(found.body.inertia) == pytest.approx(np.array(boxed.body.inertia), abs=1e-6)
+    assert min_slenderness(found.body)[0] == pytest.approx(min_slenderness(box_scan.body)[0], abs=1e-7)
+    assert np.array(found.body.inertia) == pytest.approx(np.array(box_scan.body.inertia), abs=1e-6)
     assert any("turned by 4 degrees" in doubt for doubt in scan_qc_messages(found))
 
 
-def test_feet_carry_and_a_hollow_between_them_does_not(tmp_path):
+def test_base_is_hull_of_contact_points(tmp_path):
     """The base is the hull of what touches: a box whose base is hollow but for its rim stands as a box does."""
     vertices, faces = box(0.3, 0.4, 0.9)
     vertices[8, 2] = 0.05  # the middle of the base
@@ -164,7 +164,7 @@ def test_feet_carry_and_a_hollow_between_them_does_not(tmp_path):
     assert found.block_toward(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
 
 
-def test_the_tolerance_decides_what_carries(tmp_path):
+def test_base_tolerance_selects_contact_points(tmp_path):
     """A foot 3 mm short carries with a tolerance of 4 mm, and not with one of 1 mm: then three others do, as a table rocks."""
     vertices, faces = frustum(8, 0.3, 0.3, 0.6)
     vertices[0, 2] = 0.003
@@ -175,7 +175,7 @@ def test_the_tolerance_decides_what_carries(tmp_path):
     assert "depends on the tolerance" in " ".join(scan_qc_messages(scan_body(path, tolerance=0.002)))
 
 
-def test_an_irregular_body_against_points_in_a_grid():
+def test_irregular_scan_equals_grid_integration():
     """A boulder of 40 000 vertices against its own inequality at a million points: volume, centre and inertia to 0.5 %."""
     towards, faces = make_boulder.sphere(40_000)
     points = make_boulder.bumpy(towards)
@@ -195,7 +195,7 @@ def test_an_irregular_body_against_points_in_a_grid():
 
 
 @pytest.mark.parametrize("sides", [3, 4, 7, 60])
-def test_worn_edges_of_a_regular_polygon(sides):
+def test_inset_of_regular_polygon_is_similar(sides):
     """Moving all sides inwards leaves a similar polygon; its corners move by more than its sides."""
     turn = 2.0 * np.pi * np.arange(sides) / sides
     corners = np.column_stack([np.cos(turn), np.sin(turn)])
@@ -206,7 +206,7 @@ def test_worn_edges_of_a_regular_polygon(sides):
     assert interior_distance(left, (0.0, 0.0)) == pytest.approx(math.cos(math.pi / sides) - 0.1, rel=1e-9)
 
 
-def test_a_hull_keeps_what_stands_out():
+def test_hull_keeps_extreme_points():
     """Of random points all corners; of a round base as many as a millionth of its size asks for, not one for each of its vertices."""
     dice = np.random.default_rng(3)
     towards = np.stack([np.cos(np.arange(0.0, 6.3, 0.01)), np.sin(np.arange(0.0, 6.3, 0.01))])
@@ -220,7 +220,7 @@ def test_a_hull_keeps_what_stands_out():
     assert len(convex_hull([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])) < 3
 
 
-def test_worn_edges_may_swallow_a_side():
+def test_inset_may_remove_a_side():
     """A short side between two long ones is gone when they meet before it; beyond the deepest point nothing is left."""
     roof = convex_hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
     assert len(offset_polygon(roof, 0.2)) == 4 and len(roof) == 5
@@ -229,18 +229,18 @@ def test_worn_edges_may_swallow_a_side():
     assert support_distance(roof, (0.0, 1.0)) == pytest.approx(1.1)
 
 
-def test_an_inset_moves_every_side_of_the_base(boxed):
+def test_inset_moves_every_side_of_base(box_scan):
     """10 mm in: arms shrink by 10 mm towards sides, by more towards corners; a share is one of the least width, 0.3 m."""
-    worn = boxed.body.with_wear(EdgeWear(length_m=0.01))
+    worn = box_scan.body.with_wear(EdgeWear(length_m=0.01))
     assert worn.block_toward(90.0).arms == pytest.approx((0.14, 0.14), rel=EXACT)
     assert worn.block_toward(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
     assert worn.block_toward(90.0).inset == pytest.approx(0.01, rel=1e-9)
-    assert boxed.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
+    assert box_scan.body.with_wear(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
     with pytest.raises(BodyError, match="exceeds the distance of the centre of gravity"):
-        boxed.body.with_wear(EdgeWear(length_m=0.16))
+        box_scan.body.with_wear(EdgeWear(length_m=0.16))
 
 
-def test_towards_the_opposite_azimuth_it_is_the_same_block_seen_from_behind():
+def test_opposite_azimuth_swaps_sides_of_block():
     """Arms and restitutions change sides, mass and inertia stay: the two sides of a boulder differ."""
     body = load_scan("boulder")
     for azimuth in (0.0, 33.0, 120.0):
@@ -250,7 +250,7 @@ def test_towards_the_opposite_azimuth_it_is_the_same_block_seen_from_behind():
         assert abs(here.arms[0] - here.arms[1]) > 1e-3
 
 
-def test_the_table_of_azimuths_is_that_of_the_blocks():
+def test_azimuth_table_equals_blocks():
     """b, alpha, R, I_O, p and the threshold towards an azimuth are those of the block's right corner; the least alpha is among them."""
     body = load_scan("boulder").with_wear(0.05)
     around = scan_azimuths(body, step_deg=1.0)
@@ -267,16 +267,16 @@ def test_the_table_of_azimuths_is_that_of_the_blocks():
     assert abs(azimuth - least.azimuth_deg) <= 1.0
 
 
-def test_a_box_from_a_scan_rocks_as_the_block(boxed):
+def test_scanned_box_rocks_like_block(box_scan):
     """Towards its side, a scanned box leans, hits and falls as the block of its sizes, at the same times."""
     pulse = Motion.from_arrays(4.2 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401)), 0.01, name="90")
-    scanned = solve_rock(block_for_motion(boxed.body, pulse), pulse).outcome
+    scanned = solve_rock(block_for_motion(box_scan.body, pulse), pulse).outcome
     drawn = solve_rock(Block(0.3, 0.9), pulse).outcome
     assert scanned.rocks and scanned.impacts == drawn.impacts
     assert scanned.max_rotation_rad == pytest.approx(drawn.max_rotation_rad, rel=1e-9)
 
 
-def test_a_motion_knows_its_azimuth():
+def test_scan_requires_azimuth_of_motion():
     """An azimuth and the code of a component both say where +x points; a motion of numbers alone does not, and a scan is told so."""
     record = read("synthetic_jma.csv")
     assert [motion_of(record, name).azimuth_deg for name in ("NS", "EW", "37")] == [0.0, 90.0, 37.0]
@@ -288,7 +288,7 @@ def test_a_motion_knows_its_azimuth():
     assert block_for_motion(load_block("gravestone"), bare) == load_block("gravestone")
 
 
-def test_a_body_is_read_as_it_was_written(tmp_path):
+def test_scan_body_round_trips_through_toml(tmp_path):
     """Every number of the TOML keeps its digits; a name with quotation marks is one."""
     found = scan_body("boulder.ply", inset=EdgeWear(length_m=0.004), facing=12.5, body_name='a "stone" \\ 石')
     path = tmp_path / "stone.toml"
@@ -304,7 +304,7 @@ def test_a_body_is_read_as_it_was_written(tmp_path):
 BOX = box(0.3, 0.4, 0.9)
 
 
-def spoilt(what):
+def faulty_box(what):
     """Return vertices and faces of a box of which something is wrong."""
     vertices, faces = BOX[0].copy(), BOX[1].copy()
     if what == "open":
@@ -340,10 +340,10 @@ def spoilt(what):
         ("not a number", "not finite numbers"),
     ],
 )
-def test_a_surface_that_is_no_body_is_refused_in_words(what, told_so, tmp_path):
+def test_scan_rejects_invalid_surfaces(what, told_so, tmp_path):
     """Open, inside out, non-manifold, flat, on its tip, top-heavy, not finite: each in its own sentence."""
     with pytest.raises(BodyError, match=told_so):
-        scan_body(write_ply(tmp_path / "wrong.ply", *spoilt(what)))
+        scan_body(write_ply(tmp_path / "wrong.ply", *faulty_box(what)))
 
 
 @pytest.mark.parametrize(
@@ -358,14 +358,14 @@ def test_a_surface_that_is_no_body_is_refused_in_words(what, told_so, tmp_path):
         ("shape.step", b"ISO", "the file name of a mesh must end in"),
     ],
 )
-def test_a_file_that_is_no_mesh_is_refused_in_words(name, data, told_so, tmp_path):
+def test_scan_rejects_other_files(name, data, told_so, tmp_path):
     """Empty, other words, damaged, another format."""
     (tmp_path / name).write_bytes(data)
     with pytest.raises(BodyError, match=told_so):
         read_mesh(tmp_path / name)
 
 
-def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
+def test_scan_limits_bytes_and_triangles(tmp_path, monkeypatch):
     """Bytes and triangles, each with the variable that lifts it; counted before a triangle is made."""
     monkeypatch.setenv("SEISBLOCK_TRIANGLES", "10")
     for write in (write_ply, write_obj, write_stl):
@@ -380,20 +380,20 @@ def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
         read_mesh(path)
 
 
-def test_a_wrong_unit_is_a_doubt():
+def test_scan_flags_implausible_unit():
     """A gravestone of 300 m, and one of 1 mm."""
     for unit in ("km", "mm"):
         assert any("mesh files do not state their unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", unit=unit)))
     assert not any("unit" in doubt for doubt in scan_qc_messages(scan_body("boulder.ply", inset=0.1)))
 
 
-def test_sharp_edges_are_a_doubt():
+def test_scan_without_inset_warns_of_sharp_edges():
     """What two granite rocks taught is said where no inset is given, and not where one is."""
     assert "1.4 to 2.5 times" in " ".join(scan_qc_messages(scan_body("boulder.ply")))
     assert list(scan_qc_messages(scan_body("boulder.ply", inset=0.1))) == []
 
 
-def test_what_else_stands_in_the_file_is_one_body(tmp_path):
+def test_scan_reports_separate_surfaces(tmp_path):
     """A second surface that does not touch the first is told of; a vertex that no triangle has is none."""
     vertices, faces = BOX
     both = write_ply(
@@ -423,13 +423,13 @@ def test_what_else_stands_in_the_file_is_one_body(tmp_path):
         ({"turned": 3}, "unknown entries"),
     ],
 )
-def test_a_scan_that_is_described_wrongly_is_refused_in_words(change, told_so):
+def test_scan_body_toml_rejects_errors(change, told_so):
     """Each slip in the TOML of a body is one sentence."""
     with pytest.raises(InputError, match=told_so):
         scan_from_table({**read_body_toml("boulder"), **change})
 
 
-def test_one_block_is_not_taken_for_a_scan():
+def test_functions_of_one_block_reject_scan():
     """Where one block for all directions is needed, a scan is refused with what is missing."""
     with pytest.raises(BodyError, match="dimensions depend on the azimuth"):
         load_block("boulder")

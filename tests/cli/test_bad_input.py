@@ -35,13 +35,13 @@ def run(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("command", ["rock", "respond", "criteria", "measure", "uplift"])
-def test_a_stone_of_24_m(run, command):
+def test_commands_reject_implausible_size_and_suggest_units(run, command):
     """A unit that was forgotten: refused by every command that takes sizes, with the ways to write it."""
     code, said = run(command, "--width", "24", "--height", "62")
     assert code == 2 and "width 24 has no unit and exceeds 20 m: write 24cm, 24mm or 24m" in said
 
 
-def test_a_stone_of_24_m_in_a_file(run, tmp_path):
+def test_files_with_implausible_size_are_rejected(run, tmp_path):
     """A body and a cemetery, too."""
     (tmp_path / "body.toml").write_text('kind = "block"\nwidth = 24\nheight = 62\n')
     (tmp_path / "stones.csv").write_text("height,width\n62,24\n")
@@ -51,7 +51,7 @@ def test_a_stone_of_24_m_in_a_file(run, tmp_path):
     assert code == 3 and "is not plausible for a gravestone (read as metres without a unit" in said
 
 
-def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):
+def test_ambiguous_column_t_is_rejected(run, tmp_path):
     """T may be the time: said, not guessed."""
     name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
     code, said = run("measure", name)
@@ -62,13 +62,13 @@ def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):
 @pytest.mark.parametrize(
     "header", ["time,NS (gal),NS (gal),UD (gal)", "time,NS (gal),N (gal),UD (gal)", "time,N10E (gal),10° (gal),UD (gal)"]
 )
-def test_two_columns_of_one_name(run, tmp_path, header):
+def test_duplicate_columns_are_rejected(run, tmp_path, header):
     """Or of one meaning: keep one of them."""
     code, said = run("slide", table(tmp_path / "two.csv", header, *[100] * header.count("gal")), "--mu", "0.2")
     assert code == 3 and "several columns for" in said and said.endswith("keep one")
 
 
-def test_one_way_sliding_with_lift_off(run, tmp_path):
+def test_one_way_sliding_with_contact_loss_is_rejected(run, tmp_path):
     """Not defined in the air: refused with its time, where the ground falls away at more than g."""
     name = table(tmp_path / "strong.csv", "time,NS (gal),EW (gal),UD (gal)", 1200, 2400, 3600)
     code, said = run("slide", name, "--mu", "0.2", "--one-way", "--vertical", "--quiet")
@@ -76,7 +76,7 @@ def test_one_way_sliding_with_lift_off(run, tmp_path):
     assert run("slide", name, "--mu", "0.2", "--one-way", "--quiet")[0] == 0
 
 
-def test_twenty_files_with_one_name(run, tmp_path):
+def test_repeated_file_is_rejected_but_equal_names_are_not(run, tmp_path):
     """One file named twenty times is refused, however it is spelt; twenty files of that name in twenty folders are twenty records."""
     header = "time,NS (gal),EW (gal),UD (gal)"
     for i in range(20):
@@ -104,7 +104,7 @@ FOREIGN = {
 
 
 @pytest.mark.parametrize(("header", "azimuths"), FOREIGN.items(), ids=FOREIGN)
-def test_an_azimuth_is_met_by_the_azimuths_of_the_record(tmp_path, header, azimuths):
+def test_component_azimuth_uses_azimuths_of_record(tmp_path, header, azimuths):
     """`--component 37` of foreign layouts: turned by the record's own azimuths, refused where there are none."""
     from seisblock.core.errors import ComponentError
     from seisblock.readers import read
@@ -122,7 +122,7 @@ def test_an_azimuth_is_met_by_the_azimuths_of_the_record(tmp_path, header, azimu
     np.testing.assert_allclose(motion_of(record, "37").acceleration[0], expected, atol=1e-12)
 
 
-def test_three_channels_of_which_none_is_vertical(tmp_path):
+def test_channels_without_vertical_are_rejected(tmp_path):
     """CH1, CH2, CH3 are accelerations by their unit, but which is up is not known: said."""
     from seisblock.readers import read
 
@@ -132,7 +132,7 @@ def test_three_channels_of_which_none_is_vertical(tmp_path):
     ]
 
 
-def test_a_number_that_is_no_azimuth(run, tmp_path):
+def test_component_rejects_invalid_azimuth(run, tmp_path):
     """400 degrees, or a value where a name belongs."""
     code, said = run("measure", table(tmp_path / "rec.csv", "time,400 (gal),130 (gal),UD (gal)", 100, 60, 20))
     assert code == 3 and "column name '400 (gal)' is not an azimuth" in said

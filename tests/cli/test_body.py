@@ -37,7 +37,7 @@ def stone(tmp_path_factory):
     return path
 
 
-def test_what_is_written_is_what_was_scanned(stone):
+def test_body_file_equals_library_body(stone):
     """The file holds the body of the library call, to the last digit."""
     found = scan_body("boulder.ply", facing=30.0, body_name="stone").body
     written = load_scan(stone)
@@ -45,7 +45,7 @@ def test_what_is_written_is_what_was_scanned(stone):
     assert written == found.with_wear(written.inset)
 
 
-def test_document_table_and_rows_say_the_same(stone, tmp_path):
+def test_body_document_csv_and_rock_agree(stone, tmp_path):
     """Alpha and p of each azimuth in JSON, in the CSV, and of the block that rock solves."""
     rows = tmp_path / "azimuths.csv"
     told = document("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", tmp_path / "unused.csv")
@@ -65,7 +65,7 @@ def test_document_table_and_rows_say_the_same(stone, tmp_path):
     )
 
 
-def test_each_component_meets_its_own_block(stone):
+def test_each_component_uses_arms_of_its_azimuth(stone):
     """NS and EW find other arms, told beside each answer; respond and criteria take the same ones."""
     body = load_scan(stone)
     expected = [min(body.block_toward(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
@@ -80,7 +80,7 @@ def test_each_component_meets_its_own_block(stone):
     assert "block" not in one and "directions" not in one
 
 
-def test_an_inset_of_the_line_replaces_that_of_the_file(stone):
+def test_inset_option_replaces_inset_of_file(stone):
     """Sharp again, or worn more: the polygon within is made anew."""
     sharp, worn = (
         document("rock", *SHORT, "--block", stone, "--component", "0", "--inset", inset)["parameters"]["block"] for inset in ("0", "3cm")
@@ -90,7 +90,7 @@ def test_an_inset_of_the_line_replaces_that_of_the_file(stone):
 
 
 @pytest.mark.parametrize("solver", ["rock", "respond"])
-def test_a_batch_takes_the_arms_of_each_component(solver, stone, tmp_path):
+def test_batch_of_scan_equals_single_commands(solver, stone, tmp_path):
     """A row of the table is the answer of the solver's own command, for a file and for a row of a table that names it."""
     table, bodies = tmp_path / "table.csv", tmp_path / "bodies.csv"
     bodies.write_text(f"name,body,mu,inset\nas told,{stone},0.4,\nworn,{stone},0.4,2cm\n", encoding="utf-8")
@@ -107,7 +107,7 @@ def test_a_batch_takes_the_arms_of_each_component(solver, stone, tmp_path):
             assert float(row[key]) == told[key], key
 
 
-def test_a_scan_without_azimuth_is_a_failure_of_its_row(stone, tmp_path):
+def test_batch_of_scan_without_azimuth_fails_its_row_only(stone, tmp_path):
     """A record of which nobody knows how it lay: one sentence in its row, and of the single command."""
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
@@ -115,7 +115,7 @@ def test_a_scan_without_azimuth_is_a_failure_of_its_row(stone, tmp_path):
     assert done.exit_code == 3 and "has other dimensions in each azimuth" in done.stderr.replace("\n", " ")
 
 
-def test_every_direction_of_rock_and_respond(stone, tmp_path):
+def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):
     """The worst direction is the one that is answered, and stands first among all of them; the rose is drawn."""
     for words in (("rock",), ("respond", "--mu", "0.4", "--runs", "0")):
         figure = tmp_path / f"{words[0]}.svg"
@@ -126,10 +126,10 @@ def test_every_direction_of_rock_and_respond(stone, tmp_path):
         assert result["overturned"] is directions[0]["overturned"]
         assert "maximum displacement (cm)" in figure.read_text() if words[0] == "respond" else figure.exists()
         table = run(*line).stdout
-        assert "All azimuths" in table and f"of {len(directions)} directions; results for the worst direction." in " ".join(table.split())
+        assert "All azimuths" in table and f"of {len(directions)} azimuths; results for the worst azimuth." in " ".join(table.split())
 
 
-def test_a_scan_is_not_written_over(tmp_path):
+def test_body_refuses_to_overwrite_scan(tmp_path):
     """R1: a table of azimuths cannot take the place of the scan; a body needs the name of a body; a folder is none."""
     path = write_stl(tmp_path / "box.stl", *box(0.3, 0.4, 0.9))
     before = path.read_bytes()
@@ -144,7 +144,7 @@ def test_a_scan_is_not_written_over(tmp_path):
     assert "must end in .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
 
 
-def test_without_trimesh_it_says_what_to_install(monkeypatch):
+def test_body_without_trimesh_names_extra(monkeypatch):
     """One sentence, and no traceback; the body that was written is read without it."""
     monkeypatch.setitem(sys.modules, "trimesh", None)
     done = run("body", "boulder.ply")
@@ -152,7 +152,7 @@ def test_without_trimesh_it_says_what_to_install(monkeypatch):
     assert run("rock", *SHORT, "--block", "boulder").exit_code == 0
 
 
-def test_what_a_scan_cannot_be_asked():
+def test_scan_rejects_unsupported_solvers():
     """One block for all directions, a jump, a pile: each says why not."""
     for words in (("report", "-o", "x.html", "--body", "boulder"), ("jump", "--block", "boulder"), ("stack", "--stones", "boulder")):
         done = run(*words)
@@ -164,7 +164,7 @@ FIT = ("fit", "shaken_block.csv", "--free", "inset", "--runs", "1", "--folds", "
 
 
 @pytest.mark.slow
-def test_a_fit_begins_with_the_block_of_the_azimuth_that_was_shaken(stone):
+def test_fit_starts_from_block_of_shaken_azimuth(stone):
     """The arms towards that azimuth."""
     block = document(*FIT, "--block", stone, "--azimuth", "40")["parameters"]["block"]
     expected = load_scan(stone).block_toward(40.0)
@@ -172,7 +172,7 @@ def test_a_fit_begins_with_the_block_of_the_azimuth_that_was_shaken(stone):
     assert block["centroid_inertia_kg_m2"] == pytest.approx(expected.gyration_squared * expected.mass, rel=1e-12)
 
 
-def test_a_fit_is_told_along_which_azimuth_a_scan_was_shaken(stone):
+def test_fit_of_scan_requires_azimuth(stone):
     """Without an azimuth a scan is refused, with one a block is."""
     for words, told in (
         ((stone,), "dimensions depend on the azimuth"),

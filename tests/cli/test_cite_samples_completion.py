@@ -25,7 +25,7 @@ def run(*words):
     return CliRunner().invoke(main, [str(word) for word in words])
 
 
-def test_every_command_with_an_answer_has_its_papers():
+def test_cite_knows_every_solver_command():
     """`cite` knows every command but those of the program itself, and every key exists."""
     assert set(COMMANDS) - OF_THE_PROGRAM <= set(COMMAND_PAPERS)
     assert {key for keys in COMMAND_PAPERS.values() for key in keys} <= set(REFERENCES)
@@ -42,7 +42,7 @@ def test_cite_prints_text_bibtex_and_json():
     assert run("cite", "cook").exit_code == 2
 
 
-def test_samples_are_listed_with_terms_and_peaks():
+def test_samples_lists_licence_origin_and_pga():
     """Every bundled file stands there with its licence, its origin and its PGA; in the document with SI and its digest."""
     text = run("samples").stdout
     assert "PGA NS 934, EW 962, UD 531 gal" in text and "NOT a recording" in text
@@ -53,7 +53,7 @@ def test_samples_are_listed_with_terms_and_peaks():
     assert listed[0]["pga_m_s2"]["NS"] == pytest.approx(9.3398)
 
 
-def test_samples_are_copied_byte_for_byte_with_their_notice(tmp_path):
+def test_samples_copy_is_identical_with_notice(tmp_path):
     """A directory gets all; it is made when missing, and a second copy changes nothing."""
     directory = tmp_path / "new" / "records"
     assert run("samples", "--copy", directory).exit_code == 0
@@ -64,14 +64,14 @@ def test_samples_are_copied_byte_for_byte_with_their_notice(tmp_path):
     assert again.exit_code == 0 and "already" in again.stderr
 
 
-def test_a_name_is_copied_to_where_one_stands(tmp_path, monkeypatch):
+def test_samples_copy_name_copies_sample_or_set(tmp_path, monkeypatch):
     """`--copy NAME` copies that sample, the whole set when the name is a stem."""
     monkeypatch.chdir(tmp_path)
     assert run("samples", "--copy", "synthetic_knet").exit_code == 0
     assert {path.name for path in tmp_path.glob("synthetic*")} == {f"synthetic_knet.{end}" for end in ("NS", "EW", "UD", "knt.tar.gz")}
 
 
-def test_nothing_is_overwritten_unless_asked(tmp_path):
+def test_samples_copy_refuses_to_overwrite_without_option(tmp_path):
     """A file of other content is refused before anything is written; --overwrite replaces it."""
     mine = tmp_path / "synthetic_jma.csv"
     mine.write_text("my own")
@@ -85,14 +85,14 @@ def test_nothing_is_overwritten_unless_asked(tmp_path):
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_completion_scripts(shell):
+def test_completion_prints_script_per_shell(shell):
     """Each shell's script calls the program back; where it belongs is said on stderr."""
     answer = run("completion", shell)
     assert answer.exit_code == 0 and "_SEISBLOCK_COMPLETE" in answer.stdout
     assert "seisblock completion" in answer.stderr
 
 
-def test_the_shell_completes_commands_options_and_samples():
+def test_shell_completes_commands_options_and_samples():
     """What the script asks back: a command's name, an option, a sample's name or a file."""
 
     def complete(words, index):
@@ -121,7 +121,7 @@ BASH = shutil.which("bash")
     ],
     ids=" ".join,
 )
-def test_bash_offers_names_and_files_together(words, offered, tmp_path):
+def test_bash_completes_names_and_files(words, offered, tmp_path):
     """The script itself, run by bash: what is bundled stands beside the files there are."""
     for name in ("synthetic_mine.csv", "granite.toml"):
         (tmp_path / name).touch()

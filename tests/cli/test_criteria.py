@@ -17,7 +17,7 @@ def run(tmp_path, monkeypatch):
     return lambda *words: CliRunner().invoke(main, ["criteria", *map(str, words)])
 
 
-def test_document(run):
+def test_criteria_document_has_rows_and_simulated_outcome(run):
     """Each row has threshold, demand, verdict and its formula's place; the simulated outcome is that of rock."""
     found = json.loads(run("--width", "24cm", "--height", "72cm", "--json").stdout)
     rocked = json.loads(CliRunner().invoke(main, ["rock", "--width", "24cm", "--height", "72cm", "--json"]).stdout)
@@ -35,7 +35,7 @@ def test_document(run):
         assert frequencies == {"pga_pgv", "fourier", "pulse_width"}
 
 
-def test_numbers_by_hand(run):
+def test_criteria_equal_hand_calculation(run):
     """West 9.80665/3, Ishiyama 24/sqrt(0.72) cm/s, Furukawa (9) at the record's own frequency."""
     result = json.loads(run("--width", "24cm", "--height", "72cm", "--component", "NS", "--json").stdout)["results"][0]
     rows = {(row["criterion"], row["frequency"]): row["threshold"] for row in result["criteria"]}
@@ -45,7 +45,7 @@ def test_numbers_by_hand(run):
     assert rows["gravestone", "pga_pgv"] == pytest.approx(8.268 * (1 + (f / 1.92) ** 4.6) ** 0.5 / 3, rel=1e-12)
 
 
-def test_table_file_and_figure(run, tmp_path):
+def test_criteria_writes_table_csv_and_figure(run, tmp_path):
     """The table ends with the simulated outcome; the files hold all rows and the figure."""
     answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3)
     assert answer.exit_code == 0, answer.output
@@ -60,7 +60,7 @@ def test_table_file_and_figure(run, tmp_path):
 
 
 @pytest.mark.parametrize("words", [[], ["--width", "-1", "--height", "1"], ["--width", "1", "--height", "1", "--restitution", "2"]])
-def test_bad_input_is_one_sentence(run, words):
+def test_criteria_reports_bad_input_in_one_sentence(run, words):
     """No traceback for what a user can get wrong."""
     answer = run(*words)
     assert answer.exit_code in (2, 3)
@@ -68,10 +68,10 @@ def test_bad_input_is_one_sentence(run, words):
     assert "Traceback" not in answer.output
 
 
-def test_beside_the_criteria_stands_what_the_body_does():
+def test_criteria_states_full_response_of_body():
     """In one sentence and in the document: with the friction given, the body's own, or that of feet that hold."""
     shown = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
-    assert "Full response (respond) with friction 0.2: NS: slides" in " ".join(shown.stdout.split())
+    assert "NS, full response (respond, friction 0.2): slides" in " ".join(shown.stdout.split())
     for words, mu, known in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
         found = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
         assert found["mu"] == pytest.approx(mu) and found["friction_known"] is known

@@ -9,7 +9,7 @@ from seisblock.cli import main
 
 
 @pytest.fixture
-def drawn(tmp_path):
+def draw_figure(tmp_path):
     def draw(*words):
         path = tmp_path / "f.png"
         told = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2", "--plot", str(path), *words])
@@ -28,9 +28,9 @@ def drawn(tmp_path):
         (("--size", "90mm×9cm"), (9 / 2.54 * 200, 9 / 2.54 * 200)),
     ],
 )
-def test_size_and_resolution(drawn, words, pixels):
+def test_size_and_dpi_set_figure_dimensions(draw_figure, words, pixels):
     """200 dots per inch unless told otherwise; centimetres unless a unit is named."""
-    told, found = drawn(*words)
+    told, found = draw_figure(*words)
     assert told.exit_code == 0, told.output
     assert found == pytest.approx(pixels, abs=1)
 
@@ -47,14 +47,14 @@ def test_size_and_resolution(drawn, words, pixels):
         (("--dpi", "0"), "is not in the range", 2),
     ],
 )
-def test_what_cannot_be_drawn_is_one_sentence(drawn, words, message, code):
+def test_size_rejects_invalid_and_huge_values(draw_figure, words, message, code):
     """A size that is none, and one that is larger than a picture can be."""
-    told, found = drawn(*words)
+    told, found = draw_figure(*words)
     assert told.exit_code == code and found is None
     assert message in " ".join(told.stderr.split()) and "Traceback" not in told.output
 
 
-def test_a_title_is_the_figures(tmp_path):
+def test_title_is_plain_text_and_requires_plot(tmp_path):
     """The line above the figure is the user's, not mathematics; without a figure there is nothing to put it on."""
     path = tmp_path / "f.svg"
     words = ["slide", "elcentro_1940_ns", "--mu", "0.2", "--title", "墓石 $x_1$ & co"]
@@ -65,7 +65,7 @@ def test_a_title_is_the_figures(tmp_path):
     assert told.exit_code == 3 and "require --plot" in told.stderr
 
 
-def test_options_are_those_that_act():
+def test_figure_options_exist_only_where_effective():
     """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
         told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())

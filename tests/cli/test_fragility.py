@@ -43,7 +43,7 @@ def document(*words):
     return json.loads(answer.stdout)
 
 
-def test_the_median_comes_first(folder):
+def test_fragility_prints_median_then_table(folder):
     """The verdict, the table, and what it rests on; levels and the curve to compare with in kine."""
     answer = run(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
     assert answer.exit_code == 0, answer.stderr
@@ -57,14 +57,14 @@ def test_the_median_comes_first(folder):
     assert told["results"][0]["unit"] == "m/s" and told["results"][0]["records"] == 12
 
 
-def test_a_body_by_its_name_is_the_body_of_a_list(folder):
+def test_fragility_block_equals_bodies_row(folder):
     """--block, --bodies and a table give one curve."""
     listed = document(folder, "--bodies", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
     named = document(folder, "--block", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
     assert listed == named
 
 
-def test_files_are_written(folder, tmp_path):
+def test_fragility_writes_csv_figure_pelicun_and_openquake(folder, tmp_path):
     """Counts and curves as a table, the figure, rows for pelicun with what they are, and a model for OpenQuake."""
     names = {
         option: tmp_path / name for option, name in (("--csv", "a.csv"), ("--plot", "b.png"), ("--pelicun", "c.csv"), ("--nrml", "d.xml"))
@@ -88,21 +88,21 @@ def test_files_are_written(folder, tmp_path):
         (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
         (("FOLDER", *SHELF, "--levels", "1,2"), "not exceeded at any level up to 2 kine; use higher levels"),
         (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine; use lower levels"),
-        (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "leave --levels out"),
+        (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "omit --levels"),
         (("FOLDER", *SHELF, "--limit", "slip=5cm"), "does not compute the limit 'slip=0.05m'"),
         (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
         (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are the same file"),
         (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "friction required: give mu"),
     ],
 )
-def test_what_cannot_be_asked_is_a_sentence(words, says, folder):
+def test_fragility_rejects_invalid_requests(words, says, folder):
     """Before anything is computed, or when the runs say nothing: one sentence, and what to change."""
     answer = run(*(word.replace("FOLDER", str(folder)) for word in words))
     assert answer.exit_code in (2, 3)
     assert says in " ".join(answer.stderr.split()), answer.stderr
 
 
-def test_a_file_that_cannot_be_read_is_left_out_and_told(folder, tmp_path):
+def test_fragility_skips_and_reports_unreadable_file(folder, tmp_path):
     """The others answer; with --strict it is refused."""
     (tmp_path / "list.txt").write_text("\n".join([*(str(path) for path in sorted(folder.glob("S0*.csv"))), "gone.csv"]))
     answer = run(f"@{tmp_path / 'list.txt'}", *SHELF, "--levels", "10:150:20")
@@ -110,7 +110,7 @@ def test_a_file_that_cannot_be_read_is_left_out_and_told(folder, tmp_path):
     assert run(f"@{tmp_path / 'list.txt'}", *SHELF, "--strict").exit_code == 3
 
 
-def test_bodies_and_limits_have_their_names_in_japanese(folder):
+def test_fragility_translates_bodies_and_limits(folder):
     """In the first line and in warnings, as in the table; a name of somebody's own stays, and commands no terminal."""
     answer = CliRunner().invoke(main, ["--lang", "ja", "fragility", str(folder), *SHELF[4:], "--block", "gravestone", "--quiet"])
     assert answer.exit_code == 0, answer.stderr
@@ -124,7 +124,7 @@ def test_bodies_and_limits_have_their_names_in_japanese(folder):
     assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in told)
 
 
-def test_a_block_without_a_name_is_one_in_japanese():
+def test_fragility_translates_unnamed_block():
     """What the solvers warn of names it as tables do."""
     motion = Motion.from_arrays(np.zeros(10), 0.01)
     with use_locale("ja"):

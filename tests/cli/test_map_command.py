@@ -14,7 +14,7 @@ from tests.stations import EPICENTRE, bundle, station_files
 
 
 @pytest.fixture(scope="module")
-def answered(tmp_path_factory):
+def map_result(tmp_path_factory):
     """Return what a bundle of six stations, one of them damaged, and a record without coordinates give: result, and the folder of files."""
     folder = tmp_path_factory.mktemp("map")
     path = bundle(folder / "event.knt.tar.gz", 6, damaged=(2,))
@@ -23,9 +23,9 @@ def answered(tmp_path_factory):
     return CliRunner().invoke(main, words), folder
 
 
-def test_the_document(answered):
+def test_map_document_lists_worst_first_and_names_failures(map_result):
     """Seven records: six answers, the worst first; the damaged one and the one without a place are named in the warnings."""
-    result, _ = answered
+    result, _ = map_result
     assert result.exit_code == 0, result.stderr
     document = json.loads(result.stdout)
     entries = document["results"]
@@ -43,9 +43,9 @@ def test_the_document(answered):
     assert "SYN 合成波形 SYNTHETIC: no coordinates in the file; listed, not on the map" in text
 
 
-def test_points_for_maps(answered):
+def test_map_geojson_is_valid_feature_collection(map_result):
     """RFC 7946: a FeatureCollection of points, longitude before latitude; the keys of the document; no point without a place."""
-    result, folder = answered
+    result, folder = map_result
     entries = {entry["station"]: entry for entry in json.loads(result.stdout)["results"]}
     told = json.loads((folder / "a.geojson").read_text(encoding="utf-8"))
     assert told["type"] == "FeatureCollection" and len(told["features"]) == 5
@@ -58,9 +58,9 @@ def test_points_for_maps(answered):
     assert told["earthquake"]["coordinates"] == [138.87, 37.288]
 
 
-def test_the_table_of_rows(answered):
+def test_map_csv_has_row_per_record(map_result):
     """A row for each record, every digit of its numbers, empty where there is nothing."""
-    result, folder = answered
+    result, folder = map_result
     entries = json.loads(result.stdout)["results"]
     with (folder / "a.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
@@ -71,7 +71,7 @@ def test_the_table_of_rows(answered):
         assert row["station"] == entry["station"]
 
 
-def test_what_is_shown(tmp_path, monkeypatch):
+def test_map_prints_outcome_earthquake_and_stations(tmp_path, monkeypatch):
     """The verdict, the earthquake on its network's clock, the stations; of a cemetery the rate."""
     monkeypatch.setenv("COLUMNS", "100")
     for number in (1, 4):
@@ -94,8 +94,8 @@ def test_what_is_shown(tmp_path, monkeypatch):
         (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "friction required"),
         (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "--cemetery and a body exclude each other"),
         (["shafter_1989", "--solver", "rock"], 3, "body required (--width, --height missing)"),
-        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu; remove it"),
-        (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide has no samples"),
+        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu: omit it"),
+        (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide does not support samples"),
         (["shafter_1989", "--solver", "jump", "--block", "gravestone"], 3, "jump requires a two-layer body"),
         (["shafter_1989", "--solver", "uplift", "--width", "1", "--height", "3"], 3, "spring stiffness required"),
         (
@@ -105,7 +105,7 @@ def test_what_is_shown(tmp_path, monkeypatch):
         ),
     ],
 )
-def test_bad_input(words, code, says, tmp_path):
+def test_map_reports_bad_input_in_one_sentence(words, code, says, tmp_path):
     """A folder without records, two earthquakes, a body and a cemetery, no friction."""
     (tmp_path / "note.md").write_text("nothing here")
     words = [str(tmp_path) if word == "EMPTY" else word for word in words]
@@ -114,7 +114,7 @@ def test_bad_input(words, code, says, tmp_path):
     assert says in " ".join(result.stderr.split())
 
 
-def test_records_of_other_days_are_doubted():
+def test_map_warns_of_records_far_apart_in_time():
     """Two records of April and November 2016, one of which tells no earthquake: the answer stands, beside a sentence with the span."""
     result = CliRunner().invoke(main, ["map", "synthetic_jma.csv", "hanmer_springs_2016", "--json"])
     assert result.exit_code == 0 and len(json.loads(result.stdout)["results"]) == 2
@@ -128,13 +128,13 @@ def test_records_of_other_days_are_doubted():
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [
-        ("--solver rock --block gravestone --runs 3", "gravestone: overturns at 0 of 1 station", "falls share worst samples"),
-        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides moves"),
-        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps falls moves"),
-        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: lifts at 1 of 1 station", "lifts rises"),
+        ("--solver rock --block gravestone --runs 3", "gravestone: overturns at 0 of 1 station", "over- turns share worst samples"),
+        ("--solver slide --mu 0.1", "object: slides at 1 of 1 station", "slides displ."),
+        ("--solver jump --body chozusha --mu 0.18", "chozusha: jumps at 0 of 1 station", "jumps over- turns displ."),
+        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m: uplift at 1 of 1 station", "uplift"),
     ],
 )
-def test_every_solver_is_told(words, says, heads, monkeypatch):
+def test_map_states_outcome_of_every_solver(words, says, heads, monkeypatch):
     """The verdict in its own words, what it tells of, and its papers; a name of several words is not broken within one."""
     monkeypatch.setenv("COLUMNS", "80")
     shown = CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split()])
@@ -144,14 +144,14 @@ def test_every_solver_is_told(words, says, heads, monkeypatch):
     assert told["parameters"]["solver"] == words.split()[1] and set(COMMAND_PAPERS[words.split()[1]]) <= set(told["citations"])
 
 
-def test_the_storey_is_told():
+def test_map_states_floor_motion():
     """What was done to each record stands beside its answer, in document and points."""
     words = ["map", "hanmer_springs_2016", "--floor", "T=0.5", "--scale", "2", "--json"]
     (entry,) = json.loads(CliRunner().invoke(main, words).stdout)["results"]
     assert entry["history"].startswith("scaled by 2; floor motion T 0.5 s")
 
 
-def test_a_map_needs_a_place(tmp_path):
+def test_map_figure_requires_coordinates(tmp_path):
     """Stations are drawn where it is known where they are; without any, one sentence."""
     for name, data in station_files(1).items():
         (tmp_path / name).write_bytes(data)
@@ -166,7 +166,7 @@ def test_a_map_needs_a_place(tmp_path):
     assert "no station has coordinates" in refused.stderr
 
 
-def test_surveys_stand_beside_stations(tmp_path):
+def test_map_includes_surveys_and_contradictions(tmp_path):
     """Table, document, points, figure and page tell of surveyed cemeteries; contradictory pairs are named."""
     for name, data in station_files(1, place=EPICENTRE).items():
         (tmp_path / name).write_bytes(data)

@@ -32,7 +32,7 @@ def sines(tmp_path):
     return path
 
 
-def test_document(run, sines):
+def test_measure_document_has_keys_in_si(run, sines):
     """The keys everyone relies on, SI, with the numbers of three sines."""
     found = json.loads(run(sines, "--json").stdout)
     assert found["schema"] == "seisblock/measure/1"
@@ -70,7 +70,7 @@ def test_document(run, sines):
         (["--width", "8sun", "--height", "0.9696", "--gravity", "9.8"], 9.8 / 4),
     ],
 )
-def test_threshold_in_its_forms(run, sines, words, expected):
+def test_measure_threshold_accepts_units_sizes_and_bodies(run, sines, words, expected):
     """Gal, m/s^2, g, the sizes of a block, or a bundled one."""
     duration = json.loads(run(sines, "--json", *words).stdout)["results"][0]["duration"]
     assert duration["threshold_m_s2"] == pytest.approx(expected, rel=1e-12)
@@ -78,12 +78,12 @@ def test_threshold_in_its_forms(run, sines, words, expected):
     assert duration["total_s"] == pytest.approx(60 * inside, abs=5e-3)
 
 
-def test_one_side(run, sines):
+def test_measure_one_sided_durations_are_half(run, sines):
     """Half the stretches of a sine are positive."""
     assert json.loads(run(sines, "--json", "--direction", "+").stdout)["results"][0]["duration"]["count"] == 60
 
 
-def test_components_keep_the_intensity_of_the_record(run, sines):
+def test_measure_component_keeps_intensity_of_record(run, sines):
     """One component or an azimuth asked for, JMA intensity still of all three."""
     whole = json.loads(run(sines, "--json").stdout)
     part = json.loads(run(sines, "--json", "--component", "UD,45").stdout)
@@ -91,7 +91,7 @@ def test_components_keep_the_intensity_of_the_record(run, sines):
     assert part["jma_intensity"] == whole["jma_intensity"]
 
 
-def test_table_fits_80_columns(run, sines):
+def test_measure_table_fits_80_columns(run, sines):
     """One row per component, nothing wider than the terminal, no heading broken."""
     out = run(sines).stdout
     assert max(map(len, out.splitlines())) <= 80
@@ -102,7 +102,7 @@ def test_table_fits_80_columns(run, sines):
     assert "m/s²" in run(sines, "--si").stdout
 
 
-def test_histories(run, sines, tmp_path):
+def test_measure_csv_round_trips_acceleration(run, sines, tmp_path):
     """Time, and three columns per component; acceleration round-trips to the last digit."""
     assert run(sines, "--csv", "out.csv", "--quiet").exit_code == 0
     with (tmp_path / "out.csv").open() as file:
@@ -114,7 +114,7 @@ def test_histories(run, sines, tmp_path):
     assert float(rows[-1]["EW_displacement_m"]) == pytest.approx(0.0, abs=1e-12)
 
 
-def test_two_records_are_told_apart(run, sines, tmp_path):
+def test_measure_indexes_results_of_two_records(run, sines, tmp_path):
     """Results carry the index of their record; the intensity becomes a list; a figure is refused in words."""
     other = tmp_path / "half.csv"
     other.write_text("time,NS (gal)\n" + "".join(f"{i * 0.01:.2f},{math.sin(i * 0.1):.6f}\n" for i in range(500)))
@@ -144,7 +144,7 @@ def test_two_records_are_told_apart(run, sines, tmp_path):
         (["--animate", "a.gif"], 2, "No such option '--animate'"),
     ],
 )
-def test_nonsense_gets_one_sentence(run, sines, words, exit_code, message):
+def test_measure_reports_bad_input_in_one_sentence(run, sines, words, exit_code, message):
     """What is wrong, on stderr, and the exit code that goes with it."""
     result = run(sines, *words)
     assert result.exit_code == exit_code
@@ -153,21 +153,21 @@ def test_nonsense_gets_one_sentence(run, sines, words, exit_code, message):
 
 
 @pytest.mark.slow
-def test_figure(run, sines, tmp_path):
+def test_measure_writes_each_figure_format(run, sines, tmp_path):
     """Each of the three formats is written."""
     for suffix, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
         assert run(sines, "--component", "NS", "--plot", f"record.{suffix}").exit_code == 0
         assert (tmp_path / f"record.{suffix}").read_bytes().startswith(start)
 
 
-def test_without_a_record_the_sample_is_measured(run):
+def test_measure_without_record_uses_sample(run):
     """The bundled record, and a word about it on stderr."""
     result = run("--json")
     assert json.loads(result.stdout)["record"]["samples"] > 1000
     assert "bundled sample" in result.stderr
 
 
-def test_what_is_done_to_a_record_stands_in_the_help_in_its_order(run):
+def test_help_lists_processing_options_in_order(run):
     """The mean goes before the high-pass, which said that it comes first; a target PGA is that of the whole record, not of the window."""
     found = json.loads(run("elcentro_1940_ns", "--window", "20:", "--target-pga", "300", "--highpass", "0.1", "--demean", "--json").stdout)
     steps = [next(i for i, did in enumerate(found["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]

@@ -47,7 +47,7 @@ def sines(tmp_path):
 
 
 @pytest.mark.parametrize("words", [["aoyama.csv"], ["aoyama"]])
-def test_the_users_line_by_bundled_name(run, words):
+def test_overturn_rate_uses_bundled_cemetery(run, words):
     """``seisblock overturn-rate --cemetery aoyama.csv`` prints the curve where there is no such file."""
     found = run("--cemetery", *words)
     assert found.exit_code == 0
@@ -56,7 +56,7 @@ def test_the_users_line_by_bundled_name(run, words):
     assert "0.5 Hz" in found.stdout
 
 
-def test_the_users_line_with_the_users_file(run, tmp_path):
+def test_overturn_rate_prefers_local_file(run, tmp_path):
     """The same line from a directory that holds a file of that name takes that file."""
     (tmp_path / "aoyama.csv").write_text("height_over_width\n2.0\n3.0\n", encoding="utf-8")
     assert "aoyama: 2 stones" in run("--cemetery", "aoyama.csv").stdout
@@ -64,7 +64,7 @@ def test_the_users_line_with_the_users_file(run, tmp_path):
     assert "aoyama: 100 stones" in run("--cemetery", "aoyama.csv").stdout
 
 
-def test_the_curve_in_the_document(document):
+def test_overturn_rate_document_has_curve(document):
     """Without a record the one result holds the curve, which stands at the top level, too; each point is the share above (9)."""
     found = document("--cemetery", "aoyama.csv")
     assert found["schema"] == "seisblock/overturn-rate/2"
@@ -77,7 +77,7 @@ def test_the_curve_in_the_document(document):
     assert found["parameters"]["fit"] == {"p_m_s2": 8.268, "q_hz": 1.92, "r": 4.6, "name": "plain"}
 
 
-def test_a_record(document, sines):
+def test_overturn_rate_of_record_has_result_per_horizontal(document, sines):
     """One result per horizontal and one for the larger of them, with PGA, equivalent frequency, threshold, rate and interval."""
     found = document("--cemetery", "aoyama.csv", sines)
     assert [each["component"] for each in found["results"]] == ["NS", "EW", "larger"]
@@ -96,7 +96,7 @@ def test_a_record(document, sines):
     assert found["record"]["sha256"]
 
 
-def test_bare_numbers(document):
+def test_overturn_rate_accepts_pga_and_frequency_pairs(document):
     """--pga in gal and --frequency in Hz give one result per pair; the rate of Kofu in table 6 is 0.35."""
     found = document("--cemetery", "aoyama.csv", "--pga", "725,280", "--frequency", "2.75,1.65")
     pairs = [(r["pga_m_s2"], r["equivalent_frequency_hz"]) for r in found["results"]]
@@ -106,7 +106,7 @@ def test_bare_numbers(document):
     assert len(document("--cemetery", "aoyama.csv", "--pga", "725")["results"]) == 6
 
 
-def test_reinforcing(run, document):
+def test_overturn_rate_of_reinforced_stones(run, document):
     """--reinforced judges by (10), --both says what all dowels save, --most-fragile what a few do."""
     words = ("--cemetery", "aoyama.csv", "--pga", 725, "--frequency", 2.75)
     (dowelled,) = document(*words, "--reinforced")["results"]
@@ -125,7 +125,7 @@ def test_reinforcing(run, document):
     assert run(*words, "--both", "--reinforced").exit_code == 2
 
 
-def test_own_parameters(document):
+def test_overturn_rate_fit_options_replace_parameters(document):
     """--fit and --fit-reinforced replace p (gal), q (Hz) and r."""
     words = ("--cemetery", "aoyama.csv", "--pga", 894, "--frequency", 2.2)
     (found,) = document(*words, "--fit", "900,2,4", "--fit-reinforced", "1362.9,1.84,4.5")["results"]
@@ -133,7 +133,7 @@ def test_own_parameters(document):
     assert found["threshold_ratio_reinforced"] == pytest.approx(2.742, abs=5e-4)
 
 
-def test_other_criteria(document, sines):
+def test_overturn_rate_criteria_rigid_and_simulated(document, sines):
     """A rigid block needs no fit; simulated stones come close to (9) with inset pivots and say no threshold."""
     words = ("--cemetery", "aoyama.csv", "--pga", 300, "--frequency", 1)
     (rigid,) = document(*words, "--criterion", "rigid", "--inset", 0)["results"]
@@ -149,20 +149,20 @@ def test_other_criteria(document, sines):
     assert "Housner1963" in found["citations"]
 
 
-def test_models_of_the_stones_are_told(document, run):
+def test_overturn_rate_states_rate_by_each_model(document, run):
     """The rate by each model stands in one sentence, and what its interval is of in the caption (N12, N15)."""
     words = ("--cemetery", "aoyama.csv", "elcentro_1940_ns")
     shown = " ".join(run(*words).stdout.split())
-    assert "NS: Overturning rate of the stones: 32 % by the gravestone criterion, 3 % by the half-sine pulse of" in shown
-    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges, 9 %", shown)
-    assert "9 % by the rigid block with worn edges, 8 % by the rigid block with sharp edges" in shown
-    assert "sharp edges (largest over smallest 10.7)" in shown
-    assert "sampling interval (Clopper-Pearson) only" in shown
+    assert "NS, overturning rate by model: 32 % (gravestone criterion), 3 % (half-sine pulse of" in shown
+    assert re.search(r"half-sine pulse of \d\.\d+ Hz with worn edges\), 9 %", shown)
+    assert "9 % (rigid block with worn edges), 8 % (rigid block with sharp edges)" in shown
+    assert "sharp edges) (largest over smallest 10.7)" in shown
+    assert "sampling interval of the rate (Clopper-Pearson) only" in shown
     (found,) = document(*words)["results"]
     assert [model["rate"] for model in found["models"]] == [0.32, 0.03, 0.09, 0.08]
 
 
-def test_frequencies_of_a_record(document, sines):
+def test_overturn_rate_frequency_kind_is_selectable(document, sines):
     """The kind of equivalent frequency can be chosen, or the frequency given."""
     words = ("--cemetery", "aoyama.csv", sines, "--component", "EW")
     for kind in ("fourier", "pulse-width"):
@@ -172,7 +172,7 @@ def test_frequencies_of_a_record(document, sines):
     assert given["equivalent_frequency_hz"] == 1.5
 
 
-def test_files(run, sines):
+def test_overturn_rate_writes_csv_and_figure(run, sines):
     """--csv writes the curve where no shaking is named, --plot a figure."""
     done = run("--cemetery", "aoyama.csv", "--both", "--csv", "curve.csv", "--plot", "rate.png")
     assert done.exit_code == 0
@@ -193,7 +193,7 @@ def test_files(run, sines):
     ],
     ids=" ".join,
 )
-def test_the_file_holds_what_the_table_does(run, document, sines, words):
+def test_overturn_rate_csv_has_row_per_result(run, document, sines, words):
     """--csv of a record, or of bare numbers, has a row for each of the results that the document holds (it held the curve alone)."""
     words = ["--cemetery", "aoyama.csv", *words]
     assert run(*words, "--csv", "rates.csv").exit_code == 0
@@ -220,7 +220,7 @@ def test_the_file_holds_what_the_table_does(run, document, sines, words):
         (("--pga", 700, "--frequency", 4.5), "frequency 4.5 Hz is outside the range of the fit (0.5 to 3 Hz)"),
     ],
 )
-def test_warnings(run, words, message):
+def test_overturn_rate_warns_outside_fit(run, words, message):
     """An implausible PGA and numbers outside the fit are said on stderr, and in the document."""
     found = run("--cemetery", "aoyama.csv", *words, "--json")
     assert message in found.stderr
@@ -249,7 +249,7 @@ def test_warnings(run, words, message):
         (("--cemetery", "aoyama.csv", "zero.csv"), 3, "component NS has no equivalent frequency of kind pga_pgv"),
     ],
 )
-def test_bad_input_is_one_sentence(run, sines, tmp_path, words, code, message):
+def test_overturn_rate_reports_bad_input_in_one_sentence(run, sines, tmp_path, words, code, message):
     """What the user can mend is one sentence on stderr and an exit code, never a traceback."""
     (tmp_path / "bad.csv").write_text("H/B\n2.5\n0\n", encoding="utf-8")
     (tmp_path / "empty.csv").write_text("", encoding="utf-8")

@@ -73,14 +73,14 @@ def off_a_terminal(script, words, cwd):
     return subprocess.run([sys.executable, "-c", script, *words], cwd=cwd, capture_output=True, text=True, check=True).stderr
 
 
-def by_line(text):
+def by_command(text):
     """Return what commands wrote, by the line that was typed."""
     pieces = re.split(r"END OF ([^\r\n]*)\r?\n", text)
     return dict(zip(pieces[1::2], pieces[:-1:2], strict=True))
 
 
 @pytest.fixture(scope="module")
-def said(tmp_path_factory):
+def command_output(tmp_path_factory):
     """What each command writes off a terminal and on one, after the kernels have been compiled."""
     workshop = tmp_path_factory.mktemp("workshop")
     (workshop / "record.csv").write_bytes(brief_record())
@@ -88,7 +88,7 @@ def said(tmp_path_factory):
     off = off_a_terminal(COMMANDS, lines, workshop)
     if "compiling kernels" in off:
         off = off_a_terminal(COMMANDS, lines, workshop)
-    return by_line(off), by_line(on_a_terminal(COMMANDS, lines, workshop))
+    return by_command(off), by_command(on_a_terminal(COMMANDS, lines, workshop))
 
 
 def read(terminal):
@@ -99,7 +99,7 @@ def read(terminal):
         return b""
 
 
-def left(text):
+def remaining_lines(text):
     """Return the lines that stand on a terminal in the end: a carriage return, one line up and clear to the end are all that bars use."""
     lines, row = [""], 0
     for piece in re.split(r"(\r?\n|\r|\x1b\[\??\d*[A-Za-z])", text):
@@ -116,37 +116,39 @@ def left(text):
 
 
 @pytest.mark.slow
-def test_a_cold_cache_is_told_for_as_long_as_it_takes(tmp_path):
+def test_kernel_compilation_shows_progress(tmp_path):
     """Kernels that are compiled, which takes longest, say so for as long as it takes."""
-    said = on_a_terminal("from seisblock.cli import main; main()", ["slide", "--mu", "0.2"], tmp_path, SEISBLOCK_CACHE_DIR=str(tmp_path))
-    assert re.search("compiling kernels[^\n]*━", said)
-    assert left(said)[-1] == "compiling kernels (first run only, up to 30 s)..."
+    command_output = on_a_terminal(
+        "from seisblock.cli import main; main()", ["slide", "--mu", "0.2"], tmp_path, SEISBLOCK_CACHE_DIR=str(tmp_path)
+    )
+    assert re.search("compiling kernels[^\n]*━", command_output)
+    assert remaining_lines(command_output)[-1] == "compiling kernels (first run only, up to 30 s)..."
 
 
 @pytest.mark.parametrize("work", WORKS)
-def test_what_takes_long_is_said(work, said):
+def test_long_steps_show_progress_and_clear_it(work, command_output):
     """While a command reads, computes, draws and writes, a line says so; in the end only what was said stands there."""
-    off, on = (where[WORKS[work]] for where in said)
+    off, on = (where[WORKS[work]] for where in command_output)
     assert re.search(rf"{work}[^\n]*━", on)
     assert "━" not in off
-    assert left(on) == off.splitlines()
+    assert remaining_lines(on) == off.splitlines()
 
 
-def test_silence_is_kept(said):
+def test_quiet_shows_no_progress(command_output):
     """--quiet leaves a terminal empty."""
-    assert said[1][QUIET] == ""
+    assert command_output[1][QUIET] == ""
 
 
 @pytest.mark.slow
-def test_a_single_long_motion_says_how_far_it_is(tmp_path):
+def test_long_motion_shows_share_completed(tmp_path):
     """While the engine follows it, the line says which share of it is behind."""
     text = on_a_terminal(LONG_MOTION, [], tmp_path)
     shares = [int(share) for share in re.findall(r"solving[^\r]*?(\d+) ?%", text)]
     assert len(set(shares)) > 2
-    assert left(text) == []
+    assert remaining_lines(text) == []
 
 
-def test_the_samples_that_are_told_grow_to_the_last_one():
+def test_reported_samples_increase_to_the_last():
     """The engine tells a motion piece by piece to its end; it begins anew where it needs more room for events."""
     motion, told = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
     with progress_scope(lambda done, total: told.append((done, total))):

@@ -27,7 +27,7 @@ from seisblock.report.html.report_text import verdict
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
 from tests.brief_record import brief_record
-from tests.language.english import english_in, seen_in
+from tests.i18n.english import english_words, visible_text
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -45,12 +45,12 @@ def pages():
 
 
 @pytest.mark.slow
-def test_the_japanese_page_is_in_japanese(pages):
+def test_report_is_fully_translated(pages):
     """Cards, sentences, tables, captions and provenance; references are quoted."""
-    assert not english_in(seen_in(pages["ja"])) and english_in(seen_in(pages["en"]))
+    assert not english_words(visible_text(pages["ja"])) and english_words(visible_text(pages["en"]))
 
 
-def test_the_page_opens_without_network(pages):
+def test_report_loads_nothing(pages):
     """Every picture is data, and no style or script comes from elsewhere."""
     for page in pages.values():
         sources = re.findall(r'src="([^"]{0,30})', page)
@@ -59,7 +59,7 @@ def test_the_page_opens_without_network(pages):
         assert len(page) < 4_000_000
 
 
-def test_contents_lead_to_every_section(pages):
+def test_report_contents_link_to_every_section(pages):
     """Each entry of the list names a heading of the page, and each heading of the first order is in it."""
     for page in pages.values():
         entries = re.findall(r'<li><a href="#([\w-]+)">(.*?)</a></li>', page)
@@ -80,7 +80,7 @@ def page_of_square(square):
     return report(square)
 
 
-def test_a_file_is_named_without_its_folder(tmp_path):
+def test_report_title_has_file_name_without_folder(tmp_path):
     """A record of no station is called by its file in the title of the page and of its figures; where that lies is nobody's business."""
     path = tmp_path / "somewhere" / "shaken.csv"
     path.parent.mkdir()
@@ -92,7 +92,7 @@ def test_a_file_is_named_without_its_folder(tmp_path):
 
 
 @pytest.mark.slow
-def test_what_was_done_to_the_record_stands_above_the_verdicts(square, page_of_square):
+def test_report_states_processing_before_outcomes(square, page_of_square):
     """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
     scaled = assess(Preparation(scale=0.5).apply(square.record), [body_models("1x1")], components=["EW"])
     for lang, told in (("en", "Processing: "), ("ja", "記録の処理：")):
@@ -104,7 +104,7 @@ def test_what_was_done_to_the_record_stands_above_the_verdicts(square, page_of_s
 
 
 @pytest.mark.slow
-def test_provenance_is_true_from_python(square, page_of_square, pages, monkeypatch):
+def test_report_provenance_from_python_is_reproducible(square, page_of_square, pages, monkeypatch):
     """F4: how the process was started has no say: the page names the command it is told, or that there was none, twice the same."""
     monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])
     page = report(square)
@@ -113,7 +113,7 @@ def test_provenance_is_true_from_python(square, page_of_square, pages, monkeypat
     assert "<dd>seisblock report</dd>" in pages["en"]
 
 
-def test_a_drawing_loses_no_peak():
+def test_report_figure_keeps_extremes():
     """A curve of 30 000 points in a page holds few of them, the extremes among them."""
     record = read("synthetic_jma.csv")
     figure = measure_figure(record, measure(record))
@@ -130,7 +130,7 @@ def test_a_drawing_loses_no_peak():
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
 @pytest.mark.parametrize("lang", ["en", "ja"])
-def test_nothing_runs_off_a_phone(pages, lang, tmp_path):
+def test_report_fits_390_px(pages, lang, tmp_path):
     """F4: in a frame 390 px wide the page is no wider than that, nor is anything that cannot be moved in its own box."""
     path, frame = tmp_path / "report.html", tmp_path / "frame.html"
     probe = """<script>onload = () => {
@@ -150,13 +150,13 @@ def test_nothing_runs_off_a_phone(pages, lang, tmp_path):
     assert "<title>390,true,0</title>" in done.stdout
 
 
-def test_it_is_readable_on_a_phone_and_on_paper(pages):
+def test_report_has_viewport_and_print_style(pages):
     """It tells the width of the device, and has a style of its own for print."""
     assert 'name="viewport"' in pages["en"] and "@media print" in pages["en"]
     assert '<html lang="en">' in pages["en"] and '<html lang="ja">' in pages["ja"]
 
 
-def test_it_holds_every_section(pages):
+def test_report_has_every_section(pages):
     """Record, measures, rocking, criteria, sliding, jump, uplift, provenance."""
     for named in (
         "Ground motion record",
@@ -175,7 +175,7 @@ def test_it_holds_every_section(pages):
         assert re.search(rf"<h[23][^>]*>{re.escape(named)}</h[23]>", pages["ja"]) is None
 
 
-def test_it_tells_where_it_comes_from(pages):
+def test_report_states_digest_format_and_citations(pages):
     """Digest, format, processing, citations."""
     record = read(sample_path("synthetic_jma.csv"))
     assert record.sha256 in pages["en"] and "JMA-CSV" in pages["en"]
@@ -183,19 +183,19 @@ def test_it_tells_where_it_comes_from(pages):
         assert key in pages["en"]
 
 
-def test_its_verdict_is_the_solver_s(pages):
+def test_report_outcome_equals_solve_rock(pages):
     """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
-    assert f"Overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
+    assert f"overturning to {outcome.overturned_towards[0]}EW at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
     assert re.search(r"Nearest change of the result at scale factor \d\.\d{3}", pages["en"])
     assert "未満では転倒しません" in pages["ja"]
 
 
-def test_one_card_per_body_says_what_governs(pages):
+def test_report_card_states_best_estimate(pages):
     """Its verdict and its share are those of respond; the idealised models stand below, with the factor from which on each begins."""
     cards = re.findall(r'<div class="(?:bad|mild|)"><b>(.*?)</b><span>(.*?)</span></div>', pages["en"])
-    assert [head.split(":")[0] for head, _ in cards] == ["gravestone", "Chozu-sha, short side"]
+    assert [head.split(":")[0] for head, _ in cards] == ["gravestone, EW", "Chozu-sha, short side, EW"]
     motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
     outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
     assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][0] and outcome.overturned
@@ -209,15 +209,15 @@ def test_one_card_per_body_says_what_governs(pages):
 
 
 @pytest.mark.slow
-def test_a_body_of_unknown_friction_is_said_to_hold(tmp_path):
+def test_report_card_states_assumed_friction(tmp_path):
     """Sizes alone: the card says which friction it takes, and that it was not given."""
     page = tmp_path / "report.html"
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "-o", str(page), "--quiet"])
     assert answer.exit_code == 0, answer.stderr
-    assert "Friction not given; assumed coefficient 1.07" in page.read_text(encoding="utf-8")
+    assert "Friction coefficient assumed: 1.07 (none given" in page.read_text(encoding="utf-8")
 
 
-def test_what_the_user_must_mend_is_one_sentence(tmp_path):
+def test_report_rejects_bad_input_in_one_sentence(tmp_path):
     """Bodies that are none, several records, a missing directory."""
     page = str(tmp_path / "report.html")
     for words in (["--body", "nosuch"], ["--body", "0cmx10cm"], ["synthetic_jma.csv", "elcentro_1940_ns.csv"], ["--body", "aoyama.csv"]):
@@ -228,7 +228,7 @@ def test_what_the_user_must_mend_is_one_sentence(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_record_of_one_component_is_enough(tmp_path):
+def test_report_of_single_component_record(tmp_path):
     """No vertical, no intensity: the page says what there is."""
     page = tmp_path / "report.html"
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "--mu", "0.2", "-o", str(page), "--quiet"])
@@ -236,7 +236,7 @@ def test_a_record_of_one_component_is_enough(tmp_path):
     assert "JMA intensity" not in page.read_text(encoding="utf-8").split("<footer>")[0].split("data:image")[0]
 
 
-def test_a_jump_that_rounds_to_nothing_is_no_minus():
+def test_report_rounds_tiny_jump_without_minus_sign():
     """A body that ends where it stood has moved to neither side, one that ends a hair's breadth to the left has moved."""
     moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-0.0, 0.0, -4e-6, -6e-4)]
     effects = [

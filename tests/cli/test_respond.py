@@ -37,7 +37,7 @@ def answer(*words):
     return json.loads(done.stdout)
 
 
-def test_the_document_keeps_the_contract():
+def test_respond_document_has_contract_keys():
     """Every key of the contract, events from time 0, modes and corners by their names."""
     document = answer(*CABINET, "--runs", "10")
     assert document["schema"].startswith("seisblock/respond/")
@@ -51,7 +51,7 @@ def test_the_document_keeps_the_contract():
             assert event["corner"] in {"left", "right", None} and event["slip"] in {"+", "-", None}
 
 
-def test_the_first_line_says_what_happened_and_the_second_how_sure_that_is():
+def test_respond_prints_outcome_then_probability():
     """Verdict, share of versions, then the table."""
     lines = run("elcentro_1940_ns", *CABINET[:4], "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
     assert lines[0].startswith("NS: slides ") and "no rocking" in lines[0] + lines[1]
@@ -59,7 +59,7 @@ def test_the_first_line_says_what_happened_and_the_second_how_sure_that_is():
 
 
 @pytest.mark.parametrize("words", [("--width", "60cm", "--height", "60cm", "--mu", "1.2"), ("--block", "gravestone")])
-def test_a_body_that_nothing_stirs_stands_still(words, tmp_path):
+def test_respond_of_weak_record_reports_no_motion(words, tmp_path):
     """A weak record: the sentence says so, and no displacement is minus zero."""
     shown = " ".join(run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout.split())
     assert (
@@ -69,7 +69,7 @@ def test_a_body_that_nothing_stirs_stands_still(words, tmp_path):
     )
 
 
-def test_bodies_by_name_bring_their_friction():
+def test_respond_bundled_bodies_have_friction():
     """Block, two-layer block and pile of the samples, each as one rigid body."""
     for name, mu in (("gravestone", 0.438), ("chozusha", 0.18), ("lantern", 0.6)):
         document = answer("elcentro_1940_ns", "--block", name, "--runs", "0")
@@ -77,7 +77,7 @@ def test_bodies_by_name_bring_their_friction():
         assert "probability" not in document["results"][0]
 
 
-def test_surfaces_are_looked_up():
+def test_respond_surface_sets_friction_with_source():
     """--surface takes friction from the table, and the source is told."""
     done = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
     assert "mu 0.18, kinetic 0.17" in done.stderr and "Sugimoto2017" in done.stderr
@@ -92,7 +92,7 @@ ELSEWHERE = (
 
 
 @pytest.mark.parametrize(("words", "before"), ELSEWHERE, ids=[" ".join(words[:3]) for words, _ in ELSEWHERE])
-def test_where_another_model_ends_the_command_line_is_typed_out(words, before, monkeypatch):
+def test_jump_and_rock_suggest_working_respond_command(words, before, monkeypatch):
     """Jump and rock with too little friction: the line that they print runs, on the same record and the same body."""
     monkeypatch.setenv("COLUMNS", "400")
     shown = CliRunner().invoke(main, list(words)).stdout
@@ -102,7 +102,7 @@ def test_where_another_model_ends_the_command_line_is_typed_out(words, before, m
     assert [result["component"] for result in document["results"]] == (["EW"] if "EW" in words else ["NS"])
 
 
-def test_slide_says_which_bodies_rock_instead(monkeypatch):
+def test_slide_warns_of_slender_bodies(monkeypatch):
     """Below b/h = mu a body rocks; what nothing moves needs no word."""
     monkeypatch.setenv("COLUMNS", "400")
     shown = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2"]).stdout
@@ -128,14 +128,14 @@ BAD = (
 
 
 @pytest.mark.parametrize(("words", "said"), BAD, ids=[" ".join(words[-2:]) for words, _ in BAD])
-def test_what_cannot_be_meant_is_one_sentence(words, said):
+def test_respond_reports_bad_input_in_one_sentence(words, said):
     """Exit 2 or 3, one line, no traceback."""
     done = run(*words)
     assert done.exit_code in (2, 3), done.output
     assert re.search(said, done.stderr) and "Traceback" not in done.output
 
 
-def test_files(tmp_path):
+def test_respond_writes_figure_history_and_animation(tmp_path):
     """Figure, history and film are written; the history holds the modes."""
     csv, plot, film = (tmp_path / name for name in ("a.csv", "a.png", "a.html"))
     done = run("elcentro_1940_ns", *CABINET, "--runs", "0", "--csv", csv, "--plot", plot, "--animate", film)
@@ -145,13 +145,13 @@ def test_files(tmp_path):
     assert plot.read_bytes().startswith(b"\x89PNG") and "<html" in film.read_text()
 
 
-def test_what_rounds_to_nothing_has_no_sign():
+def test_respond_writes_zero_without_sign():
     """A quantile of a quarter of a millimetre is 0, not -0.0 cm."""
     unit = length_unit([0.0123], gal=True)
     assert [format_signed(value, unit) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
 
 
-def test_hops_too_small_to_see_have_no_panel():
+def test_respond_figure_omits_invisible_hops():
     """A lift of a thousandth of a millimetre is no curve; one of a centimetre is."""
     motion = Motion.from_arrays(5.0 * np.sin(0.12 * np.arange(300)), 0.01, name="NS")
     low = solve_respond(Block(0.3, 0.9), Motion.from_arrays(0.67 * motion.horizontal, 0.01, name="NS"), mu=0.9, restitution=0.05)
@@ -161,7 +161,7 @@ def test_hops_too_small_to_see_have_no_panel():
     assert ["uplift (cm)" in each for each in labels] == [False, True]
 
 
-def test_what_did_not_happen_has_no_panel():
+def test_respond_figure_has_panels_of_actual_motion_only():
     """At rest there is the ground alone, a slider has no lean; beside one that rocks each column keeps to its own, with a clock below."""
     motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     rests, slides, rocks = (solve_respond(Block(width, 0.9), motion, mu=mu) for width, mu in ((0.9, 0.9), (0.9, 0.1), (0.2, 0.9)))
@@ -187,7 +187,7 @@ def test_what_did_not_happen_has_no_panel():
     ],
     ids=["within sight", "twice the peak", "far away"],
 )
-def test_a_legend_names_lines_that_are_seen(mu, named):
+def test_respond_legend_names_visible_lines_only(mu, named):
     """Beside what rests stands how much more it takes; what lies far beyond the picture is told in words, without a line."""
     motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     (axis,) = figure([solve_respond(Block(10.0 * mu, 0.9), motion, mu=mu)]).axes
@@ -195,14 +195,14 @@ def test_a_legend_names_lines_that_are_seen(mu, named):
     assert axis.get_ylim()[1] == pytest.approx(1.15 * max(300.0, 100.0 * 9.80665 * mu if mu < 0.6 else 0.0), rel=1e-3)
 
 
-def test_every_direction(tmp_path):
+def test_respond_all_azimuths_reports_worst(tmp_path):
     """all-azimuths answers for the worst one and lists them all."""
     document = answer("synthetic_jma", "--width", "45cm", "--height", "180cm", "--mu", "0.3", "--component", "all-azimuths", "--runs", "0")
     (result,) = document["results"]
     assert len(result["directions"]) == 36 and float(result["component"]) == result["directions"][0]["azimuth_deg"]
 
 
-def test_a_fall_after_the_record_is_said(tmp_path):
+def test_respond_reports_overturning_after_record(tmp_path):
     """A push that ends the record lets the body fall on still ground, at a time that the record does not have."""
     push = tmp_path / "push.csv"
     rows = [f"{0.01 * i:.2f},{4.5 * np.sin(np.pi * (i - 100) / 80) if i >= 100 else 0.0:.6f}" for i in range(160)]
@@ -215,14 +215,14 @@ def test_a_fall_after_the_record_is_said(tmp_path):
     )
 
 
-def test_where_friction_meets_slenderness_it_slides():
+def test_respond_slides_at_friction_equal_to_slenderness():
     """At mu = b/h the closed form of initiation slides: so does the body, and so says the table."""
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
     shown = run(*words).stdout
     assert "slides first, above 490 gal" in shown and "no rocking" in shown
 
 
-def test_tenons_hold_the_feet_before_friction_does():
+def test_respond_with_tenons_rocks_at_any_friction():
     """What stands on tenons rocks first, whatever the friction: so say the verdict, the table and the figure."""
     motion = Motion.from_arrays(1.8 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
     held, free = (solve_respond(Block(0.5, 1.0), motion, mu=0.2, tenon=tenon) for tenon in (0.02, 0.0))
@@ -232,7 +232,7 @@ def test_tenons_hold_the_feet_before_friction_does():
     assert "sliding threshold" in levels[1] and "sliding threshold" not in "".join(levels[0])
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.2", "--tenon", "2cm", "--runs", "0", "--quiet", "--component", "NS")
     shown = " ".join(run(*words).stdout.split())
-    assert "tenons 2.0 cm; once free, mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
+    assert "tenons 2.0 cm; out of the mortises: mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
 
 
 @pytest.mark.parametrize(
@@ -251,9 +251,12 @@ def test_probability_sentence_begins_with_probability_interval_and_samples(falle
 
 @pytest.mark.parametrize(
     ("q05", "q95", "ends"),
-    [(-0.0004, 0.0002, "90 % of the survivors have no residual displacement."), (-0.02, 0.0002, "of 90 % of the survivors -2.0 cm to 0.")],
+    [
+        (-0.0004, 0.0002, "no residual displacement in 90 % of the samples without overturning."),
+        (-0.02, 0.0002, "of 90 % of the samples without overturning -2.0 cm to 0."),
+    ],
 )
-def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
+def test_respond_omits_quantiles_below_half_millimetre(q05, q95, ends):
     """Quantiles of less than half a millimetre are no interval to tell."""
     found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, ParameterVariation(), 0)
     assert probability_sentence(found).endswith(ends)
@@ -267,7 +270,7 @@ def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
         ("0.48", "edge wear 46 % to 50 % of the width"),
     ],
 )
-def test_what_is_worn_is_varied_about_itself_and_said(inset, worn):
+def test_respond_varies_given_inset_about_itself(inset, worn):
     """As far as a fifth of the base is left: a stone worn almost to nothing is no error."""
     shown = run("elcentro_1940_ns", *CABINET, "--inset", inset, "--runs", "5", "--quiet")
     assert shown.exit_code == 0, shown.stderr
@@ -275,7 +278,7 @@ def test_what_is_worn_is_varied_about_itself_and_said(inset, worn):
 
 
 @pytest.mark.parametrize("told", [("--seed", "3"), ("--moved", "2cm"), ("--vary-size", "0.1"), ("--vary-azimuth", "5")])
-def test_what_is_said_of_no_versions_is_refused(told):
+def test_respond_rejects_sampling_options_without_samples(told):
     shown = run("elcentro_1940_ns", *CABINET, "--runs", "0", *told)
     assert (shown.exit_code, shown.stdout) == (3, "")
     assert f"{told[0]} has no effect without samples: give --runs" in shown.stderr

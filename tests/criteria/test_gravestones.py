@@ -7,7 +7,7 @@ import numpy as np
 from seisblock.criteria.gravestones import DOWELLED, fit_range_warnings, overturning_level, overturning_ratio, predict
 
 
-def test_more_acceleration_or_a_lower_frequency_overturns_stouter_stones():
+def test_threshold_ratio_is_monotone_in_pga_and_frequency():
     """The threshold falls with PGA and climbs with frequency; a dowel raises it."""
     frequencies = np.linspace(0.0, 5.0, 51)
     assert (np.diff(overturning_level(frequencies)) > 0).all()
@@ -20,7 +20,7 @@ def test_table_5_band_on_the_line_includes_its_ends():
     assert [predict(2.6, t) for t in (2.49, 2.5, 2.6, 2.7, 2.71)] == ["overturns", *["on the line"] * 3, "stands"]
 
 
-def test_leaving_the_fit_is_said():
+def test_criterion_warns_outside_fitted_range():
     """Each of PGA, frequency and H/B outside its range is one sentence; the ends are inside."""
     assert fit_range_warnings(1.0, 0.5, [1.25, 6.5]) == ()
     assert fit_range_warnings(13.0, 3.0) == ()

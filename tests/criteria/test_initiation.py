@@ -12,22 +12,22 @@ from seisblock.core.units import STANDARD_GRAVITY as G
 from seisblock.criteria import first_mode, friction_to_rock, peak_loading_ratio
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
-from tests.solvers.respond.cases import steady
+from tests.models.respond.cases import constant_push
 
 
 @settings(max_examples=200, deadline=None)
 @given(width=st.floats(0.1, 2.0), height=st.floats(0.1, 2.0), mu=st.floats(0.0, 1.2), ratio=st.floats(0.01, 2.5))
-def test_the_mode_that_begins_is_that_of_the_solver(width, height, mu, ratio):
+def test_initiation_mode_equals_solver(width, height, mu, ratio):
     """Rest, slide, rock and slide-rock under a jump of the ground acceleration, away from the limits themselves."""
     block = Block(width, height)
     needed = friction_to_rock(block, ratio) or mu + 1.0
     slender = width / height
     if min(abs(ratio - mu), abs(ratio - slender), abs(mu - slender), abs(mu - needed)) > 1e-6 and mu < 1.3:
-        outcome = solve_respond(block, steady(ratio * G), mu=mu, settle_s=0.0, sensitivity=False).outcome
+        outcome = solve_respond(block, constant_push(ratio * G), mu=mu, settle_s=0.0, sensitivity=False).outcome
         assert outcome.events[0]["mode"] == first_mode(block, mu, ratio)
 
 
-def test_the_friction_that_a_corner_needs_rises_from_b_h_to_its_limit():
+def test_required_friction_rises_from_slenderness_to_limit():
     """At A = b/h it is b/h; under an endless push (k^2 + b^2)/(b h); a worn block turns about its worn edge."""
     block = Block(0.3, 1.0)
     b, h, k2 = 0.15, 0.5, block.gyration_squared
@@ -37,7 +37,7 @@ def test_the_friction_that_a_corner_needs_rises_from_b_h_to_its_limit():
     assert friction_to_rock(block.with_wear(0.1), 0.25) is not None
 
 
-def test_the_largest_push_counts_the_weight_of_its_instant():
+def test_largest_demand_includes_vertical_motion():
     """The largest abs(a)/(g + a_y) need not be at the peak; ground that falls faster than gravity leaves no weight."""
     motion = Motion.from_arrays([0.0, 3.0, -2.5, 0.0], 0.5, vertical=[0.0, 2.0, -5.0, 0.0])
     assert peak_loading_ratio(motion, gravity=10.0) == (0.5, 1.0)
@@ -45,7 +45,7 @@ def test_the_largest_push_counts_the_weight_of_its_instant():
     assert math.isinf(peak_loading_ratio(Motion.from_arrays([0.0, 1.0], 0.5, vertical=[0.0, -11.0]), gravity=10.0)[0])
 
 
-def test_what_cannot_be_a_friction_is_refused():
+def test_initiation_rejects_negative_numbers():
     """A negative friction and a negative push are no numbers of this criterion."""
     with pytest.raises(ParameterError, match="friction"):
         first_mode(Block(0.3, 1.0), -0.1, 0.5)

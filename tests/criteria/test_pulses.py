@@ -28,7 +28,7 @@ def frequency_of(linear_threshold):
     return brentq(lambda f: G * STONE.slenderness * half_sine_ratio(2 * math.pi * f / p) - linear_threshold, 0.3, 5.0, xtol=1e-12)
 
 
-def test_the_exact_equation_asks_for_more_than_the_linear_one():
+def test_nonlinear_threshold_exceeds_linear():
     """Where the linear equation of 0.1.0 said 6.278 m/s^2 for a stone of .24 x .63 m, the exact one says 6.574 (N13)."""
     found = half_sine_acceleration(STONE.slenderness, STONE.frequency_parameter(), frequency_of(TOLD))
     assert found == pytest.approx(6.574, abs=1e-3)
@@ -36,7 +36,7 @@ def test_the_exact_equation_asks_for_more_than_the_linear_one():
 
 @pytest.mark.parametrize("frequency", [0.5, 2.0, 3.0])
 @pytest.mark.parametrize("block", [STONE, Block(0.4, 1.0, centroid_height=0.7), Block(0.3, 2.0)])
-def test_it_is_the_threshold_of_the_solver(block, frequency):
+def test_half_sine_threshold_equals_solve_rock(block, frequency):
     """A half sine a hair below stands, a hair above falls, in `rock` itself."""
     samples = 4000
     shape = np.sin(np.pi * np.arange(samples + 1) / samples)
@@ -47,7 +47,7 @@ def test_it_is_the_threshold_of_the_solver(block, frequency):
 
 @given(st.floats(0.01, 0.6), st.floats(0.3, 8.0), st.floats(0.2, 5.0))
 @settings(max_examples=40, deadline=None)
-def test_slender_blocks_follow_the_linear_equation(alpha, p, frequency):
+def test_nonlinear_threshold_approaches_linear_for_slender_blocks(alpha, p, frequency):
     """The two differ by the order of alpha^2, and never is the threshold below that of rocking."""
     exact = half_sine_acceleration(alpha, p, frequency)
     linear = G * alpha * half_sine_ratio(2 * math.pi * frequency / p)
@@ -56,13 +56,13 @@ def test_slender_blocks_follow_the_linear_equation(alpha, p, frequency):
 
 
 @pytest.mark.parametrize(("alpha", "p", "f"), [(0.0, 1.0, 1.0), (1.6, 1.0, 1.0), (0.3, -1.0, 1.0), (0.3, 1.0, math.nan)])
-def test_what_is_out_of_range_is_refused(alpha, p, f):
+def test_pulse_criterion_rejects_invalid_input(alpha, p, f):
     """One sentence each."""
     with pytest.raises(ParameterError):
         half_sine_acceleration(alpha, p, f)
 
 
-def test_a_criterion_counts_once_however_many_frequencies_it_was_given():
+def test_criterion_with_several_frequencies_counts_once():
     """Seven criteria take three frequencies each: the card has a row for each, the count has one (N13)."""
     rows = overturning_card(STONE, 5.0, 0.5, {"pga_pgv": 1.6, "fourier": 2.0, "pulse_width": None})
     once = unique_criteria(rows)

@@ -33,7 +33,7 @@ def model_of(body: Pile, timestep: float, time_constant: float = 0.004):
     )
 
 
-def followed(body: Pile, motion: Motion, timestep: float, time_constant: float = 0.004) -> Iterator:
+def simulate(body: Pile, motion: Motion, timestep: float, time_constant: float = 0.004) -> Iterator:
     """Yield MuJoCo's state at each sample of a motion."""
     import mujoco
 
@@ -50,18 +50,18 @@ def followed(body: Pile, motion: Motion, timestep: float, time_constant: float =
             yield data
 
 
-def falls(body: Pile, motion: Motion, timestep: float = 5e-4) -> bool:
+def any_stone_falls(body: Pile, motion: Motion, timestep: float = 5e-4) -> bool:
     """Return whether any stone leans beyond 60 degrees under a motion."""
-    return any(data.xmat[1:, 8].min() < FALLEN for data in followed(body, motion, timestep))
+    return any(data.xmat[1:, 8].min() < FALLEN for data in simulate(body, motion, timestep))
 
 
-def fate(body: Pile, motion: Motion, timestep: float = 1e-4, time_constant: float = 5e-4) -> tuple[list[str], float]:
+def first_falls(body: Pile, motion: Motion, timestep: float = 1e-4, time_constant: float = 5e-4) -> tuple[list[str], float]:
     """Return the stones that lean beyond 60 degrees first, and how far the centre of the last one has come from its place, m.
 
     With steps this fine and contacts this stiff, halving the step changes displacements by 1 or 2 %.
     """
     place, away = np.array(body.centres())[-1], 0.0
-    for data in followed(body, motion, timestep, time_constant):
+    for data in simulate(body, motion, timestep, time_constant):
         away = max(away, float(np.linalg.norm(data.xpos[-1] - place)))
         fallen = [name for name, up in zip(body.names, data.xmat[1:, 8], strict=True) if up < FALLEN]
         if fallen:

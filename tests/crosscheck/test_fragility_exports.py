@@ -42,7 +42,7 @@ def study():
     return run_fragility(records, bodies, "rock", limits=("lean=0.5", "overturn"), im="pga", levels=np.linspace(1, 16, 40), bootstrap=2)
 
 
-def test_a_limit_without_a_curve_is_left_out():
+def test_export_omits_limit_without_curve():
     """Where rocking begins is sharp, one intensity for every record: no curve, and no reason to refuse that of falling."""
     study = run_fragility(
         synthetic_suite(12, seconds=15.0),
@@ -92,7 +92,7 @@ def of(study, body, limit):
     return next(curve for curve in study.curves if (curve.body, curve.limit) == (body, limit))
 
 
-def test_the_library_of_models_reads_the_rows(study, files):
+def test_dlml_reads_exported_rows(study, files):
     """DLML's own reader finds a component per body, a demand and families of its vocabulary, and medians in g that rise."""
     table = convert_to_MultiIndex(load_tabular(files / "fragility.csv"), axis=1)
     assert set(table.index) == {"shelf_tall", "body_2"}
@@ -106,7 +106,7 @@ def test_the_library_of_models_reads_the_rows(study, files):
     assert (table["LS1"]["Theta_0"].astype(float) < table["LS2"]["Theta_0"].astype(float)).all()
 
 
-def test_the_rows_have_the_columns_of_its_own_shelves(study):
+def test_exported_columns_equal_fema_p58(study):
     """The header is that of FEMA P-58 in DLML, as far as there are limit states."""
     from dlml import api
 
@@ -145,7 +145,7 @@ print(json.dumps(states))
 """
 
 
-def test_pelicun_draws_the_states_that_the_curves_say(study, files):
+def test_pelicun_samples_states_of_curves(study, files):
     """An assessment with one shelf on the first storey, at one acceleration of its floor: the shares that the two curves give."""
     body = "shelf, tall"
     lean, fall = (of(study, body, limit).curve for limit in ("lean=0.5", "overturn"))
@@ -173,7 +173,7 @@ print(json.dumps(found))
 
 
 @pytest.mark.parametrize("shape", ["continuous", "discrete"])
-def test_openquake_gives_the_same_probabilities(shape, study, files):
+def test_openquake_functions_equal_curves(shape, study, files):
     """Its own functions, evaluated at levels in g, are our lognormal, or our shares made to rise."""
     levels = [2.0, 4.0, 6.0, 9.0]
     found = peer(
@@ -191,7 +191,7 @@ def test_openquake_gives_the_same_probabilities(shape, study, files):
 
 
 @pytest.mark.parametrize("shape", ["continuous", "discrete"])
-def test_the_model_is_what_openquake_asks_for(shape, study, files):
+def test_exported_model_obeys_openquake_rules(shape, study, files):
     """The rules of its reader, written down: order of the elements, names, positive numbers, as many shares as levels, rising."""
     root = ElementTree.parse(files / f"{shape}.xml").getroot()
     space = f"{{{NAMESPACE}}}"
@@ -216,14 +216,14 @@ def test_the_model_is_what_openquake_asks_for(shape, study, files):
             assert all(beyond <= before for before, beyond in zip(*shares, strict=True))
 
 
-def test_mean_and_deviation_are_of_the_intensity_itself(study):
+def test_openquake_moments_are_of_lognormal_variable(study):
     """OpenQuake takes the moments of the lognormal variable: those of a large sample of it."""
     curve = study.curves[0].curve
     sample = curve.median * np.exp(curve.beta * np.random.default_rng(0).standard_normal(400_000))
     assert lognormal_moments(curve) == pytest.approx((sample.mean(), sample.std()), rel=0.01)
 
 
-def test_units_are_theirs():
+def test_exports_use_units_of_target():
     """G for accelerations; pelicun m/s and m, OpenQuake cm/s and cm."""
     assert demand_of(intensity_measure("sa=0.5")) == ("Spectral Acceleration|0.5", "g", STANDARD_GRAVITY)
     assert demand_of(intensity_measure("pgv")) == ("Peak Floor Velocity", "mps", 1.0)
@@ -232,13 +232,13 @@ def test_units_are_theirs():
     assert imt_of(intensity_measure("arias")) == ("IA", 1.0)
 
 
-def test_what_they_do_not_know_is_refused():
+def test_exports_reject_unsupported_measures():
     """P PGV/g is a measure of ours alone; pelicun has no Arias intensity."""
     for ask, name in ((demand_of, "arias"), (demand_of, "p*pgv"), (imt_of, "p*pgv")):
         with pytest.raises(OutputError, match="not supported by"):
             ask(intensity_measure(name))
 
 
-def test_names_are_told_apart():
+def test_exported_names_are_unique_and_valid():
     """Two that become one, one that begins with a digit, one without a letter."""
     assert list(ascii_identifiers(["a b", "a-b", "3 shelves", "墓石"]).values()) == ["a_b", "a_b_2", "body_3_shelves", "body_4"]

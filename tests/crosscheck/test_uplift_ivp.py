@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 G = 9.80665
 SIGNS = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])

@@ -67,7 +67,7 @@ def test_piecewise_linear_input_is_integrated_exactly():
     assert answer.final[0] == pytest.approx(-(3.0**3) / 6, rel=1e-15)
 
 
-def test_equality_does_not_fire():
+def test_touched_guard_does_not_fire():
     """A guard that is touched, over one sample or over a plateau, does not end the mode."""
     plateau = Motion.from_arrays([0.0, 0.3, 0.3, 0.3, 0.0, 0.3, 0.0], 0.1)
     assert integrate(SLED, plateau, [0.3], [0.0, 0.0], 0).n_events == 0
@@ -88,20 +88,20 @@ def test_start_inside_a_sample():
     assert whole.path.first == 1
 
 
-def test_chattering_is_reported_not_looped():
+def test_chattering_raises_with_time():
     """Two modes that return to each other at one instant are an error with its time."""
     with pytest.raises(SolverError, match="two modes"):
         integrate(FLIP, STILL, [], [0.0], 0)
 
 
-def test_of_guards_that_are_behind_already_the_first_fires():
+def test_first_of_guards_already_passed_fires():
     """Two gates behind the start are passed at once, the model's first one for the record."""
     answer = integrate(RACE, STILL, [-1.0, -2.0], [0.0], 0)
     assert [(change.time, change.guard) for change in answer.events] == [(0.0, 0)]
 
 
 @pytest.mark.parametrize("at", [0.0, 0.013, 0.02, 0.005])
-def test_of_guards_that_cross_together_the_first_fires(at):
+def test_first_of_simultaneous_guards_fires(at):
     """At one instant, inside a sample, on one, or at the start, the order of the model decides; else the earlier guard does."""
     late = at + 1e-9
     for gates, first in (((at, at), 0), ((at, late), 0), ((late, at), 1)):
@@ -110,7 +110,7 @@ def test_of_guards_that_cross_together_the_first_fires(at):
         assert answer.end_time == pytest.approx(at, abs=1e-16)
 
 
-def test_mirror():
+def test_mirrored_motion_gives_mirrored_result():
     """The mirrored motion gives the mirrored answer, bit by bit."""
     rng = np.random.default_rng(1)
     a = rng.normal(size=200)
@@ -120,7 +120,7 @@ def test_mirror():
     np.testing.assert_array_equal(left.states, -right.states)
 
 
-def test_table_holds_both_limits_of_each_event_in_order_of_time():
+def test_trajectory_table_has_both_limits_of_each_event():
     """Times never fall, and every event stands twice."""
     answer = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     time, states, _ = answer.table()
@@ -129,7 +129,7 @@ def test_table_holds_both_limits_of_each_event_in_order_of_time():
     np.testing.assert_array_equal(states[-1], answer.events[-1].after)
 
 
-def test_ensembles_need_keep_nothing():
+def test_result_is_independent_of_stored_path():
     """Without path and events the end and the extrema are the same."""
     kept = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     bare = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0, keep_path=False, keep_events=False)
@@ -138,7 +138,7 @@ def test_ensembles_need_keep_nothing():
     np.testing.assert_array_equal(bare.final, kept.final)
 
 
-def test_a_sharp_guard_lands_from_however_small_a_height():
+def test_sharp_guard_lands_from_tiny_height():
     """A ball that starts 1e-19 m above the floor with 1e-9 m/s comes down when it is at the floor, not at the height it started from."""
     still = Motion.from_arrays(np.zeros(2), 0.01)
     height, speed = 1e-19, 1e-9
@@ -147,7 +147,7 @@ def test_a_sharp_guard_lands_from_however_small_a_height():
         assert first.time == pytest.approx((speed + (speed**2 + 2 * 9.8 * start) ** 0.5) / 9.8, rel=1e-12)
 
 
-def test_a_state_marked_as_still_stays():
+def test_state_marked_constant_is_kept():
     """Its row of the series is not read, and it is kept at every sample."""
     path = integrate(COUNTED, Motion.from_arrays(np.zeros(11), 0.1), [], [0.0, 3.0], 0).states
     np.testing.assert_allclose(path[:, 0], 0.1 * np.arange(11), atol=1e-15)

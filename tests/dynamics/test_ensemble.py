@@ -13,7 +13,7 @@ from tests.dynamics.toy_models import BALL, FLIP, SLED
 pytestmark = pytest.mark.kernel
 
 
-def test_rows_are_the_single_trajectories_bit_by_bit():
+def test_ensemble_rows_equal_single_trajectories():
     """Each row's end, extrema, first event and number of events are those of the trajectory followed alone."""
     rng = np.random.default_rng(5)
     motion = Motion.from_arrays(rng.normal(size=60), 0.02)
@@ -32,7 +32,7 @@ def test_rows_are_the_single_trajectories_bit_by_bit():
     assert many.n_events.tolist() == [1, 1, 0]
 
 
-def test_a_row_left_out_of_one_trajectory_is_zero_whatever_the_one_before_read():
+def test_inactive_forcing_row_is_zero_in_every_trajectory():
     """Rows share their room: the vertical motion of the first must not act on the second, for which its factor is zero."""
     motion = Motion.from_arrays(np.sin(np.arange(40.0)), 0.02, vertical=np.full(40, -9.0))
     base = slide.parameters(sliding_base(0.3), 9.8)
@@ -51,7 +51,7 @@ def test_tally_counts_guards_by_the_mode_they_lead_to():
     assert many.transition_counts[0].tolist() == [[many.n_events[0] - 1, 1]]
 
 
-def test_stays_are_the_times_between_events():
+def test_mode_durations_are_times_between_events():
     """The stays in each mode add up to the whole time; the longest is that between two events, or to the end."""
     motion = Motion.from_arrays(np.zeros(41), 0.01)
     many = integrate_many(BALL, motion, [[9.8, 0.9, 1e-9]], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
@@ -69,7 +69,7 @@ def test_failure_names_its_row():
         integrate_many(FLIP, Motion.from_arrays(np.zeros(3), 0.01), [[0.0]], [0.0], 0, gains=[1.0, 0.0, 0.0])
 
 
-def test_one_flat_row_of_parameters_is_refused():
+def test_one_dimensional_parameters_are_rejected():
     """Parameters without the axis of rows are an error, not one trajectory per number."""
     with pytest.raises(ParameterError, match="one row"):
         integrate_many(SLED, Motion.from_arrays(np.zeros(3), 0.01), [0.3], [0.0, 0.0], 0, gains=[1.0, 0.0, 0.0])

@@ -18,7 +18,7 @@ STILL = Motion.from_arrays(np.zeros(301), 0.01)
 
 
 @pytest.mark.skipif(not ENABLED, reason="nothing is compiled")
-def test_a_pointer_is_its_kernel():
+def test_function_pointer_behaves_like_its_kernel():
     """Called from Python it does what the kernel does, and says the signature that it was made for."""
     made = function_pointer(BALL.series, SERIES)
     room = np.zeros((2, 4)), np.zeros((1, 4)), np.zeros((2, 4)), np.zeros((1, 4))
@@ -28,13 +28,13 @@ def test_a_pointer_is_its_kernel():
     assert made.signature() == SERIES
 
 
-def test_a_kernel_travels_by_name():
+def test_kernel_is_pickled_by_name():
     """It is itself again where it arrives, described as the function that it is."""
     assert pickle.loads(pickle.dumps(evaluate)) is evaluate
     assert evaluate.__name__ == "evaluate" and "polynomial" in evaluate.__doc__
 
 
-def test_a_model_that_has_been_followed_can_be_sent_to_another_process():
+def test_used_model_can_be_pickled():
     """Addresses are not taken along: the other process finds its own, and the same answer."""
     here = integrate(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
     script = (

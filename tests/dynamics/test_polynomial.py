@@ -19,12 +19,12 @@ def from_roots(roots, sign=1.0):
     return sign * np.polynomial.polynomial.polyfromroots(roots)
 
 
-def test_line():
+def test_falling_line_crosses_at_root():
     """A falling line crosses at its root."""
     assert crossing([1.0, -4.0]) == pytest.approx(0.25, rel=1e-15)
 
 
-def test_dip_between_ends():
+def test_dip_between_ends_of_step_is_found():
     """A guard that is positive at both ends of a step but not between them is seen."""
     assert crossing(from_roots([0.5, 0.500001])) == pytest.approx(0.5, abs=1e-9)
 

@@ -25,7 +25,7 @@ def sled_skip(mode, acceleration, gains, sample, p):
     return max(k - 1, sample)
 
 
-def test_short_cut_changes_nothing():
+def test_skip_changes_nothing():
     """Path, modes, events and extrema are the same, bit by bit, with and without the short cut."""
     rng = np.random.default_rng(3)
     motion = Motion.from_arrays(np.concatenate([np.zeros(40), rng.normal(size=100)]), 0.02)
@@ -38,7 +38,7 @@ def test_short_cut_changes_nothing():
     assert quick.end == plain.end
 
 
-def test_motion_that_never_wakes_it_ends_at_the_last_sample():
+def test_skip_ends_at_last_sample():
     """The short cut stops at the end of the record."""
     quiet = Motion.from_arrays(np.full(30, 0.1), 0.02)
     answer = integrate(replace(SLED, skip=sled_skip), quiet, [1.5], [0.0, 0.0], STICK)

@@ -45,7 +45,7 @@ def short_stretches(request, monkeypatch):
 
 @TOYS
 @pytest.mark.parametrize("begins", [Instant(), Instant(3, 0.004), Instant(29, 0.0)], ids=["at first", "inside", "late"])
-def test_a_long_motion_is_followed_stretch_by_stretch_to_the_same_bits(model, motion, p, start, begins, short_stretches):
+def test_long_motion_in_chunks_equals_whole_motion(model, motion, p, start, begins, short_stretches):
     """The trajectory, and the path that is followed again when it is asked for, are those of a motion that is held whole."""
     whole = integrate(model, motion, p, start, 0, start=begins)
     table, ground = whole.table(), whole.interpolate(motion.horizontal)
@@ -61,7 +61,7 @@ def test_a_long_motion_is_followed_stretch_by_stretch_to_the_same_bits(model, mo
         assert all(path.first - 1 <= change.at.sample for change in path.events)
 
 
-def test_rows_go_through_a_long_motion_stretch_by_stretch(short_stretches):
+def test_ensemble_in_chunks_equals_whole_motion(short_stretches):
     """Many trajectories, those that end early among them, are those through a motion that is held whole."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
     whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
@@ -72,7 +72,7 @@ def test_rows_go_through_a_long_motion_stretch_by_stretch(short_stretches):
 
 
 @TOYS
-def test_where_the_loop_pauses_changes_no_bit(model, motion, p, start, short_slices):
+def test_slicing_a_trajectory_changes_no_bit(model, motion, p, start, short_slices):
     """Path, modes, events, extrema and end of a trajectory in slices of a few steps are those of one in a single slice."""
     whole = integrate(model, motion, p, start, 0)
     short_slices()
@@ -83,7 +83,7 @@ def test_where_the_loop_pauses_changes_no_bit(model, motion, p, start, short_sli
     assert [c[:5] for c in parts.events] == [c[:5] for c in whole.events]
 
 
-def test_rows_go_on_where_they_paused(short_slices):
+def test_slicing_an_ensemble_changes_no_bit(short_slices):
     """Many trajectories in slices that end inside a row are those in a single slice."""
     limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
     whole = integrate_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
@@ -94,7 +94,7 @@ def test_rows_go_on_where_they_paused(short_slices):
 
 
 @pytest.mark.skipif(not ENABLED, reason="a quarter of a million steps in plain Python")
-def test_events_without_end_inside_one_sample_are_given_up():
+def test_infinite_events_within_one_sample_raise():
     """A ball that hardly loses speed bounces for ever within one long sample: an error with its time, whether events are kept or not."""
     one_sample = Motion.from_arrays(np.zeros(2), 1e7)
     with pytest.raises(SolverError, match="too many mode changes"):

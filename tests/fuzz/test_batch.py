@@ -74,7 +74,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_a_batch_of_anything_is_a_table_or_a_sentence(seeds, folder):
+def test_random_batch_gives_table_or_one_error(seeds, folder):
     """Each record that was named stands in the table, answered or with its reason, unless a sentence says why there is none."""
     for solver in SOLVERS:  # kernels may have to be compiled first
         CliRunner().invoke(main, ["batch", "--bodies", "gravestone", "--solver", solver, "--out", f"{solver}.csv"])

@@ -17,7 +17,7 @@ from seisblock.core.errors import InputError
 from seisblock.samples import sample_path
 from seisblock.studies.report.models import body_models
 from tests.fuzz.accidents import spoil
-from tests.fuzz.values import as_toml, mistaken
+from tests.fuzz.values import as_toml, with_mistakes
 
 EACH = 150
 SLOWEST_S = 10.0
@@ -56,13 +56,13 @@ def refused_or(use, path, seed):
 
 
 @pytest.mark.parametrize("name", BODIES)
-def test_a_body_with_strange_values_is_a_body_or_one_sentence(name, seeds, tmp_path):
+def test_random_body_values_give_body_or_one_error(name, seeds, tmp_path):
     """Lists, dates, truths, texts and extreme numbers wherever a number, a text or a table belongs; entries lost and invented."""
     table = read_body_toml(sample_path(f"{name}.toml"))
     path = tmp_path / "body.toml"
     read = 0
     for seed in seeds(EACH):
-        path.write_text(as_toml(mistaken(table, np.random.default_rng(seed))), encoding="utf-8")
+        path.write_text(as_toml(with_mistakes(table, np.random.default_rng(seed))), encoding="utf-8")
         made = refused_or(load, path, seed)
         if made:
             read += 1
@@ -73,7 +73,7 @@ def test_a_body_with_strange_values_is_a_body_or_one_sentence(name, seeds, tmp_p
 
 
 @pytest.mark.parametrize("name", BODIES)
-def test_a_damaged_body_is_a_body_or_one_sentence(name, seeds, tmp_path):
+def test_damaged_body_file_gives_body_or_one_error(name, seeds, tmp_path):
     """Bytes lost, cut, repeated and changed."""
     whole = sample_path(f"{name}.toml").read_bytes()
     path = tmp_path / "body.toml"
@@ -83,7 +83,7 @@ def test_a_damaged_body_is_a_body_or_one_sentence(name, seeds, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["aoyama", "survey"])
-def test_a_damaged_cemetery_is_a_cemetery_or_one_sentence(name, seeds, tmp_path):
+def test_damaged_cemetery_gives_cemetery_or_one_error(name, seeds, tmp_path):
     """Every stone that is read has proportions and stands for some stones."""
     whole = SURVEY if name == "survey" else sample_path("aoyama.csv").read_bytes()
     path = tmp_path / "cemetery.csv"

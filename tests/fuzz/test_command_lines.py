@@ -68,7 +68,7 @@ def complaint(words, result):
     return ""
 
 
-def spoilt(words, whole):
+def changed_inputs(words, whole):
     """Return the files that are not what they were, though they were no output alone; what was written is put back."""
     changed = [path for path, data in whole.items() if path.read_bytes() != data]
     for path in changed:
@@ -86,7 +86,7 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_any_line_is_answered_or_refused_in_a_sentence(command, seeds, folder):
+def test_random_command_line_gives_answer_or_one_error(command, seeds, folder):
     """Whatever stands on it."""
     runner = CliRunner()
     codes = set()
@@ -100,6 +100,6 @@ def test_any_line_is_answered_or_refused_in_a_sentence(command, seeds, folder):
             result = runner.invoke(main, words, input="1,2\n")
         codes.add(result.exit_code)
         assert complaint(words, result) == "", (seed, words, result.output[-500:])
-        assert spoilt(words, whole) == [], (seed, words)
+        assert changed_inputs(words, whole) == [], (seed, words)
     assert codes <= CODES
     assert sys.stdout is not None

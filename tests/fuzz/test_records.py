@@ -26,7 +26,7 @@ TALLER = 5.0
 
 
 @pytest.mark.parametrize("kind", FORMATS)
-def test_no_accident_is_a_traceback_or_passes_in_silence(kind, seeds, tmp_path):
+def test_damaged_record_gives_record_or_one_error(kind, seeds, tmp_path):
     """A record that its file does not contradict, or one sentence of ours, in a moment."""
     whole = FORMATS[kind]
     path = tmp_path / "spoilt"

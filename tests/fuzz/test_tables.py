@@ -37,44 +37,44 @@ CURVES = json.dumps(
 )
 
 
-def finite(*values):
+def all_finite(*values):
     """Whether numbers are all of this world."""
     return bool(np.isfinite(np.concatenate([np.ravel(np.asarray(value, dtype=float)) for value in values])).all())
 
 
-def scanned(path):
+def valid_scan(path):
     """Return whether a scan makes a body with a mass and with angles."""
     found = scan_body(path)
     towards = [(each.slenderness_rad, each.radius_m) for each in scan_azimuths(found.body, step_deg=90.0)]
-    return found.volume > 0.0 and finite(found.volume, found.body.mass, *towards)
+    return found.volume > 0.0 and all_finite(found.volume, found.body.mass, *towards)
 
 
-def listed(path):
+def valid_body_list(path):
     """Return whether a list holds bodies told in numbers; what no solver takes, a height of 0, is refused by each in its row."""
-    return all(finite(value) for body in read_bodies(path) for value in body.parameters.values() if isinstance(value, float))
+    return all(all_finite(value) for body in read_bodies(path) for value in body.parameters.values() if isinstance(value, float))
 
 
-def surveyed(path):
+def valid_surveys(path):
     """Return whether no more stones fell at a place than stood there, and whether it is on the earth."""
     places = read_surveys(path)
     return all(0 <= each.fallen <= each.stones > 0 and abs(each.latitude) <= 90.0 and abs(each.longitude) <= 360.0 for each in places)
 
 
-def hazardous(path):
+def valid_hazard(path):
     """Return whether the curves of a hazard fall, and their weights are a whole."""
     branches = read_hazard(path).branches
     falling = all((np.diff(each.rates) <= 0.0).all() and (np.diff(each.levels) > 0.0).all() for each in branches)
     return falling and sum(each.weight for each in branches) == pytest.approx(1.0)
 
 
-def curved(path):
+def valid_fragility(path):
     """Return whether curves have a middle and a spread."""
-    return all(each.curve.median > 0.0 and each.curve.beta > 0.0 and finite(each.curve.median) for each in read_fragility(path))
+    return all(each.curve.median > 0.0 and each.curve.beta > 0.0 and all_finite(each.curve.median) for each in read_fragility(path))
 
 
-def observed(path):
+def valid_outcomes(path):
     """Return whether outcomes have weights, and factors that are numbers."""
-    return all(each.weight >= 0.0 and finite(each.weight, each.scale) for each in read_outcomes(path, component="NS").observed)
+    return all(each.weight >= 0.0 and all_finite(each.weight, each.scale) for each in read_outcomes(path, component="NS").observed)
 
 
 def mesh(write, suffix):
@@ -89,19 +89,19 @@ def mesh(write, suffix):
 
 
 WHOLE = {
-    "bodies.csv": (lambda folder: LIST.encode("cp932"), listed),
-    "surveys.csv": (lambda folder: SURVEYS.encode(), surveyed),
-    "hazard.csv": (lambda folder: sample_path("synthetic_hazard.csv").read_bytes(), hazardous),
-    "fragility.json": (lambda folder: CURVES.encode(), curved),
-    "outcomes.csv": (lambda folder: OUTCOMES.encode(), observed),
-    "scan.stl": (mesh(write_stl, ".stl"), scanned),
-    "scan.ply": (mesh(write_ply, ".ply"), scanned),
-    "scan.obj": (mesh(write_obj, ".obj"), scanned),
+    "bodies.csv": (lambda folder: LIST.encode("cp932"), valid_body_list),
+    "surveys.csv": (lambda folder: SURVEYS.encode(), valid_surveys),
+    "hazard.csv": (lambda folder: sample_path("synthetic_hazard.csv").read_bytes(), valid_hazard),
+    "fragility.json": (lambda folder: CURVES.encode(), valid_fragility),
+    "outcomes.csv": (lambda folder: OUTCOMES.encode(), valid_outcomes),
+    "scan.stl": (mesh(write_stl, ".stl"), valid_scan),
+    "scan.ply": (mesh(write_ply, ".ply"), valid_scan),
+    "scan.obj": (mesh(write_obj, ".obj"), valid_scan),
 }
 
 
 @pytest.mark.parametrize("name", WHOLE)
-def test_what_is_damaged_makes_sense_or_is_refused_in_a_sentence(name, seeds, tmp_path):
+def test_damaged_table_gives_valid_data_or_one_error(name, seeds, tmp_path):
     """Bytes lost, cut, repeated and changed, lines swapped."""
     make, makes_sense = WHOLE[name]
     whole = make(tmp_path)

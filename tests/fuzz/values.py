@@ -50,7 +50,7 @@ class Raw(str):
     """A value as TOML writes it."""
 
 
-def mistaken(table: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+def with_mistakes(table: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Return a table after one to three mistakes in it, at any depth."""
     made = copy.deepcopy({key: value for key, value in table.items() if key != "source"})
     for _ in range(rng.integers(1, 4)):
@@ -80,22 +80,22 @@ def _places(value: Any):
 
 def as_toml(table: dict[str, Any]) -> str:
     """Return a table as TOML, tables within it in braces."""
-    return "".join(f"{_quoted(key)} = {_written(value)}\n" for key, value in table.items())
+    return "".join(f"{_toml_string(key)} = {_toml_value(value)}\n" for key, value in table.items())
 
 
-def _written(value: Any) -> str:
+def _toml_value(value: Any) -> str:
     """Return a value as TOML writes it."""
     if isinstance(value, Raw):
         return value
     if isinstance(value, str):
-        return _quoted(value)
+        return _toml_string(value)
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_quoted(key)} = {_written(part)}" for key, part in value.items()) + " }"
+        return "{ " + ", ".join(f"{_toml_string(key)} = {_toml_value(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list):
-        return "[" + ", ".join(map(_written, value)) + "]"
+        return "[" + ", ".join(map(_toml_value, value)) + "]"
     return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
-def _quoted(text: str) -> str:
+def _toml_string(text: str) -> str:
     """Return a text between quotes."""
     return '"' + "".join(c if c.isprintable() and c not in '"\\' else f"\\u{ord(c):04x}" for c in text) + '"'

@@ -18,7 +18,7 @@ def three(acceleration, dt, vertical=None):
     return Record((Component("NS", acceleration), Component("EW", still), Component("UD", still if vertical is None else vertical)), dt)
 
 
-def test_intensity_of_skew_horizontals_is_that_of_the_ground():
+def test_jma_intensity_of_skew_horizontals_is_invariant():
     """The same ground seen along N10E and N50E has the intensity that NS and EW give."""
     t = np.arange(0.0, 40.0, 0.01)
     north, east, up = (np.sin(w * t) * np.exp(-(((t - 20) / 6) ** 2)) for w in (9.0, 14.0, 21.0))
@@ -28,7 +28,7 @@ def test_intensity_of_skew_horizontals_is_that_of_the_ground():
     assert jma_intensity(askew) == pytest.approx(jma_intensity(ground), rel=1e-12)
 
 
-def test_arias_of_a_constant_and_of_a_ramp():
+def test_arias_intensity_of_constant_and_ramp():
     """pi/(2g) a^2 T, and a third of it for a ramp, however coarse the samples."""
     assert arias_intensity(np.full(3, 2.0), 5.0) == pytest.approx(math.pi / (2 * G) * 4 * 10, rel=1e-14)
     assert arias_intensity(np.array([0.0, 2.0]), 10.0) == pytest.approx(math.pi / (2 * G) * 4 * 10 / 3, rel=1e-14)
@@ -57,7 +57,7 @@ def test_significant_duration_of_rest_is_zero():
     assert significant_duration(np.zeros(10), 0.1) == 0.0
 
 
-def test_jma_filter_where_every_coefficient_counts():
+def test_jma_filter_uses_every_coefficient():
     """[JMA1996]_ at 20 Hz: the squares of y = 2 in 1, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155 add up to 15.677824, by hand."""
     terms = [1.0, 2.776, 3.856, 3.5648, 2.473984, 1.37216, 0.63488]
     assert sum(terms) == pytest.approx(15.677824, rel=1e-14)
@@ -77,13 +77,13 @@ def test_jma_intensity_of_a_sine(f):
     assert jma_intensity(three(gal / 100 * np.sin(2 * math.pi * f * t), dt)) == pytest.approx(2 * math.log10(a0) + 0.94, abs=2e-3)
 
 
-def test_jma_intensity_does_not_feel_an_offset():
+def test_jma_intensity_ignores_offset():
     """The filter has no response at zero frequency."""
     wave = np.sin(2 * np.pi * np.arange(0, 20, 0.01))
     assert jma_intensity(three(wave + 3.0, 0.01)) == pytest.approx(jma_intensity(three(wave, 0.01)), abs=1e-12)
 
 
-def test_without_three_components_there_is_no_jma_intensity():
+def test_jma_intensity_requires_three_components():
     """None, and a warning that says what is missing."""
     alone = Record((Component("NS", np.sin(np.arange(1000.0))),), 0.01)
     answer = measure(alone)
@@ -92,7 +92,7 @@ def test_without_three_components_there_is_no_jma_intensity():
     assert any("two horizontal components and the vertical" in text for text in answer.warnings)
 
 
-def test_a_record_too_short_or_at_rest_has_no_jma_intensity():
+def test_jma_intensity_of_short_or_zero_record_is_none():
     """None again, each with its reason."""
     assert "shorter than 0.3 s" in " ".join(measure(three(np.ones(20), 0.01)).warnings)
     assert "all samples are zero" in " ".join(measure(three(np.zeros(200), 0.01)).warnings)
@@ -102,6 +102,6 @@ def test_a_record_too_short_or_at_rest_has_no_jma_intensity():
     ("intensity", "name"),
     [(-2, "0"), (0.49, "0"), (0.5, "1"), (4.49, "4"), (4.5, "5-"), (4.996, "5+"), (5.49, "5+"), (5.5, "6-"), (6.0, "6+"), (6.5, "7")],
 )
-def test_jma_classes(intensity, name):
+def test_jma_class_rounds_then_truncates(intensity, name):
     """Rounded to two decimals, cut to one, classed."""
     assert jma_class(intensity) == name

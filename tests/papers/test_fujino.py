@@ -182,7 +182,7 @@ def test_steady_sliding_needs_less_than_0_537():
     assert steady_slip(1.0, 1.0, 1e-9, gravity=1.0) == pytest.approx(2.0 / (2 * np.pi) ** 2, rel=1e-12)
 
 
-def test_closed_forms_refuse_what_they_cannot_answer():
+def test_closed_forms_reject_invalid_input():
     """No friction ratio, no pulse, no frequency: a sentence, not a number."""
     for call in (lambda: min_friction_to_stop(10.0, 0.0), lambda: pulse_slip(1.0, 1.0, 0.0), lambda: steady_slip(1.0, 0.0, 0.1)):
         with pytest.raises(ParameterError, match="positive"):

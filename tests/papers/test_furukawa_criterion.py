@@ -30,7 +30,7 @@ def test_equation_10_in_gal():
 
 
 @pytest.mark.parametrize("fit", [PLAIN, DOWELLED, GravestoneFit(13.629, 1.84, 4.5)])
-def test_inverses_return_what_went_in(fit):
+def test_inverses_recover_input(fit):
     """PGA, frequency and H/B follow from each other."""
     f, pga = np.meshgrid([0.5, 1.5, 3.0], [3.0, 9.0])
     ratio = overturning_ratio(pga, f, fit)
@@ -49,7 +49,7 @@ NOT_POSITIVE, NEGATIVE = "must be positive", "frequency must be zero or more"
 @pytest.mark.parametrize(
     ("pga", "frequency", "message"), [(0.0, 1.0, NOT_POSITIVE), (-1.0, 1.0, NOT_POSITIVE), (3.0, -1.0, NEGATIVE), (3.0, np.nan, NEGATIVE)]
 )
-def test_impossible_input_is_refused_in_one_sentence(pga, frequency, message):
+def test_criterion_rejects_invalid_input(pga, frequency, message):
     """PGA must be positive, the frequency not negative."""
     with pytest.raises(ParameterError, match=message):
         overturning_ratio(pga, frequency)

@@ -14,14 +14,14 @@ def test_case(case):
     assert result.verdict == case.status, f"{case.quantity}: expected {result.expected}, computed {result.computed}"
 
 
-def test_the_worn_edge_is_the_least_biased_and_sharp_edges_are_unsafe():
+def test_edge_wear_of_one_tenth_is_least_biased():
     """Edges worn by 0.1 B meet the survey with no bias, sharp ones let too few stones fall, 0.15 B too many."""
     assert min((abs(bias(model.key)), model.key) for model in MODELS)[1] == "worn"
     assert bias("sharp") < -0.1 and bias("half-sine") < -0.1 and bias("worn-more") > 0.15
     assert max(rms("eq-9"), rms("worn")) < min(rms("sharp"), rms("half-sine"), rms("worn-more"))
 
 
-def test_the_figure_shows_every_model_and_the_survey():
+def test_field_figure_shows_every_model_and_survey():
     """A bar per station with the surveyed rate, a marker per station and model with its rate."""
     drawn = figure()
     (axis,) = drawn.axes

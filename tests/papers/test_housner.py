@@ -162,7 +162,7 @@ def test_threshold_of_rocking_is_the_band():
 
 @pytest.mark.parametrize("function", [half_sine_ratio, one_sine_ratio, lambda w: rectangular_ratio(w, 1.0)])
 @pytest.mark.parametrize("value", [0.0, -1.0, math.nan])
-def test_impossible_frequencies_are_refused(function, value):
+def test_pulse_formulas_reject_non_positive_input(function, value):
     """W, t and p must be positive."""
     with pytest.raises(ParameterError, match="positive"):
         function(value)

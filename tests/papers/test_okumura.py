@@ -139,14 +139,14 @@ def test_rotating_a_square_base_by_a_right_angle_renames_its_corners():
         ({"damping": -0.1}, r"damping ratio must lie in \[0, 1\)"),
     ],
 )
-def test_impossible_bodies_are_refused(words, message):
+def test_spring_block_rejects_invalid_body(words, message):
     """A size, mass or stiffness that is not positive, or a damping outside [0, 1), is one sentence."""
     good = {"width": 1.0, "depth": 1.0, "height": 1.0, "mass": 100.0, "stiffness": (1e4, 1e4, 1e4), "damping": 0.05}
     with pytest.raises(BodyError, match=message):
         SpringBlock(**{**good, **words})
 
 
-def test_impossible_directions_and_corners_are_refused():
+def test_uplift_rejects_invalid_direction_and_corner():
     """An angle that is not a number and a fifth corner are one sentence each."""
     with pytest.raises(ParameterError, match="rho must be a finite number, found nan degrees"):
         shaking_direction(0.0, float("nan"))

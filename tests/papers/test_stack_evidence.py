@@ -16,7 +16,7 @@ def test_case(case):
     assert result.verdict == case.status, f"{case.where}: expected {result.expected}, computed {result.computed}"
 
 
-def kept(stones, half):
+def impact_factor(stones, half):
     """Return the part of its turning that an impact leaves to stones one on the other, summed over squares of them, about both pivots."""
     old, new, floor = 0.0, 0.0, 0.0
     middles = (np.arange(400) + 0.5) / 400.0
@@ -30,10 +30,10 @@ def kept(stones, half):
 
 
 @pytest.mark.parametrize(("reinforced", "left"), [(False, 0.87), (True, 0.73)])
-def test_an_impact_leaves_the_dowelled_pair_less_than_the_sao_alone(reinforced, left):
+def test_dowelled_pair_has_lower_restitution_than_sao(reinforced, left):
     """At H/B 2.6 on the outermost of 5 x 5 points, at 0.8 of the half width: as the page on stack says."""
     pile = with_top(load_pile("wagata", reinforced=reinforced).without("mizubachi"), 2.6)
     stones = pile.stones[-2:] if reinforced else pile.stones[-1:]
-    expected = kept(stones, 0.4 * stones[0].width)
+    expected = impact_factor(stones, 0.4 * stones[0].width)
     assert expected == pytest.approx(left, abs=0.005)
     assert rigid_top(pile, 5).restitution == pytest.approx(expected, abs=1e-5)

@@ -53,7 +53,7 @@ def test_ishiyama_velocity_in_centimetres():
 
 
 @pytest.mark.parametrize("sizes", [(0.0, 1.0), (1.0, -1.0), (math.nan, 1.0)])
-def test_impossible_sizes_are_refused(sizes):
+def test_tsutsui_criteria_reject_invalid_sizes(sizes):
     """Sizes must be positive."""
     with pytest.raises(ParameterError, match="positive"):
         tsutsui_velocity(*sizes)

@@ -27,7 +27,7 @@ def noise(seed: int, peak: float = 9.0, n: int = 600) -> np.ndarray:
 @pytest.mark.slow
 @given(st.integers(0, 10_000), st.sampled_from([0.0, 0.3]), st.floats(-0.5, 0.5), st.sampled_from(["paper", "friction"]))
 @settings(max_examples=40, deadline=None)
-def test_mirror_image(seed, drop, spin, landing):
+def test_mirrored_motion_gives_mirrored_chain(seed, drop, spin, landing):
     """The mirrored motion gives the mirrored chain, bit by bit."""
     a = noise(seed)
     options = {"contact": CONTACT, "drop": drop, "spin": f"ratio={spin}", "landing": landing}
@@ -41,7 +41,7 @@ def test_mirror_image(seed, drop, spin, landing):
 
 @given(st.integers(0, 10_000), st.floats(0.25, 8.0), st.sampled_from(["paper", "friction"]))
 @settings(max_examples=30, deadline=None)
-def test_similarity(seed, size, landing):
+def test_scaled_block_gives_similar_chain(seed, size, landing):
     """A block of `size` times the lengths in sqrt(size) times the time tilts by the same angles and goes `size` times as far."""
     a = noise(seed)
     big = TwoLayerBlock(2.08 * size, 2.5 * size, 1.06 * size, 1.84 * size, 1303.7, 160.0)
@@ -94,7 +94,7 @@ def test_flight_is_a_parabola():
     assert chain.rock_slide_duration_s == pytest.approx(0.0, abs=1e-9)
 
 
-def test_below_the_threshold_nothing_moves():
+def test_motion_at_threshold_starts_no_rocking():
     """Equality does not rock; a hair above does."""
     threshold = SHORT.rocking_threshold(G)
     plateau = np.concatenate([np.zeros(5), np.full(20, threshold), np.zeros(5)])
@@ -103,20 +103,20 @@ def test_below_the_threshold_nothing_moves():
     assert rocked.outcome != DID_NOT_ROCK
 
 
-def test_a_record_that_begins_above_the_threshold_rocks_at_once():
+def test_first_sample_above_threshold_starts_rocking():
     """The first sample counts, although the next one is below the threshold."""
     a = np.concatenate([[9.0, 1.0], np.zeros(60)])
     assert solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT).outcome.chains[0].rocking_start_s == 0.0
 
 
-def test_no_jump_when_spin_outweighs_the_rebound():
+def test_spin_ratio_above_restitution_prevents_jump():
     """A spin ratio above e_y presses a corner into the floor: the chain ends at the impact."""
     motion = half_sine(6.5, 0.6, 3.0)
     assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.86").outcome.outcome == NO_JUMP
     assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.84").outcome.outcome == JUMPED
 
 
-def test_repeat_follows_chain_after_chain():
+def test_chains_follow_in_time_and_accumulate():
     """Chains follow each other in time, and displacements add up in the history."""
     response = solve_jump(SHORT, Motion.from_arrays(noise(3, 12.0), 0.01), contact=CONTACT, spin="ratio=0.19")
     chains = response.outcome.chains
@@ -130,7 +130,7 @@ def test_repeat_follows_chain_after_chain():
     assert all(p.end_s >= p.start_s for p in response.phases)
 
 
-def test_only_the_asked_direction_starts_a_chain():
+def test_direction_option_ignores_opposite_push():
     """Direction + ignores an earlier push to the other side."""
     a = np.concatenate([-half_sine(6.5, 0.6, 3.0).horizontal, half_sine(6.5, 0.6, 3.0).horizontal])
     motion = Motion.from_arrays(a, 0.01)
@@ -141,7 +141,7 @@ def test_only_the_asked_direction_starts_a_chain():
     assert plus.total_displacement_m == pytest.approx(-both.total_displacement_m, rel=1e-9)
 
 
-def test_overturning_is_a_result():
+def test_strong_push_overturns_block():
     """A long strong push topples the block, while rocking."""
     motion = Motion.from_arrays(np.concatenate([[0.0], np.full(500, 9.0)]), 0.01)
     outcome = solve_jump(SHORT, motion, contact=CONTACT).outcome

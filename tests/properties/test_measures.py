@@ -29,7 +29,7 @@ def numbers(answer):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES, st.sampled_from([0.25, 2.0, 8.0]))
-def test_scaling(wave, factor):
+def test_measures_scale_with_motion(wave, factor):
     """Peaks scale, frequencies and durations over a scaled threshold do not, Arias goes with the square, JMA with 2 log10."""
     one = measure(three(wave), threshold=1.0, conventions=PLAIN)
     other = measure(three(wave * factor), threshold=factor, conventions=PLAIN)
@@ -43,7 +43,7 @@ def test_scaling(wave, factor):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES)
-def test_mirror(wave):
+def test_measures_ignore_sign(wave):
     """Turning the sign of the ground changes nothing: two-sided thresholds, absolute peaks."""
     one, other = (measure(three(w), threshold=1.0, conventions=PLAIN) for w in (wave, -wave))
     assert one.components[0] == other.components[0]
@@ -52,7 +52,7 @@ def test_mirror(wave):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES)
-def test_time_reversal(wave):
+def test_measures_of_reversed_record_are_equal(wave):
     """A record played backwards has the same Arias intensity, significant duration, durations and peak horizontal vector."""
     back = wave[::-1].copy()
     assert arias_intensity(back, DT) == pytest.approx(arias_intensity(wave, DT), rel=1e-12)
@@ -63,7 +63,7 @@ def test_time_reversal(wave):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES, st.integers(1, 300))
-def test_shift(wave, late):
+def test_leading_rest_only_delays_measures(wave, late):
     """Rest before a motion that starts from rest delays it and changes nothing else."""
     wave = np.concatenate(([0.0], wave, [0.0]))
     shifted = np.concatenate((np.zeros(late), wave))
@@ -77,7 +77,7 @@ def test_shift(wave, late):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES, st.integers(2, 5))
-def test_refinement(wave, parts):
+def test_measures_of_refined_record_are_equal(wave, parts):
     """Samples inserted on the straight lines are the same motion."""
     n = wave.size
     fine = np.interp(np.arange((n - 1) * parts + 1) / parts, np.arange(n), wave)
@@ -90,7 +90,7 @@ def test_refinement(wave, parts):
 
 @settings(max_examples=25, deadline=None)
 @given(WAVES, st.floats(0.1, 5), st.floats(0.1, 5))
-def test_a_higher_threshold_is_exceeded_for_less_time(wave, a, b):
+def test_duration_decreases_with_threshold(wave, a, b):
     """Total and longest fall as the threshold rises."""
     low, high = (duration_above(wave, DT, level) for level in sorted((a, b)))
     assert high.total_s <= low.total_s + 1e-12

@@ -32,7 +32,7 @@ few = settings(max_examples=25, deadline=None)
 
 @few
 @given(shakings, blocks, st.booleans())
-def test_mirror(a, block, linear):
+def test_mirrored_block_and_motion_give_mirrored_rocking(a, block, linear):
     """The mirrored block under the mirrored motion gives the mirrored answer, bit by bit."""
     mirrored = Block(block.width, block.height, centroid_offset=-block.centroid_offset)
     one, other = (solve_rock(b, Motion.from_arrays(x, 0.03), linear=linear) for x, b in ((a, block), (-a, mirrored)))
@@ -43,7 +43,7 @@ def test_mirror(a, block, linear):
 
 @few
 @given(shakings, blocks, st.floats(0.2, 9.0))
-def test_similarity(a, block, length):
+def test_scaled_block_and_time_give_similar_rocking(a, block, length):
     """Length L and time sqrt(L): the same angles at the same samples, and the same forces per weight."""
     small = solve_rock(block, Motion.from_arrays(a, 0.03))
     large = solve_rock(scale_block(block, size=length), Motion.from_arrays(a, 0.03 * math.sqrt(length)))
@@ -57,7 +57,7 @@ def test_similarity(a, block, length):
 
 @few
 @given(blocks, st.floats(0.1, 0.95), st.floats(-1.0, 1.0), st.booleans())
-def test_energy_never_grows_unforced(block, share, push, linear):
+def test_free_rocking_energy_never_grows(block, share, push, linear):
     """Without shaking, m R/I_O-scaled energy is kept between impacts and falls at each of them."""
     alpha = block.slendernesses[0]
     p = math.sqrt(G * block.lever_ratios[0])
@@ -79,7 +79,7 @@ def test_energy_never_grows_unforced(block, share, push, linear):
 
 @few
 @given(shakings, blocks)
-def test_halving_the_step_changes_nothing(a, block):
+def test_resampling_changes_no_rocking(a, block):
     """The same straight lines sampled twice as densely give the same answer."""
     fine = np.interp(np.arange(2 * a.size - 1) / 2, np.arange(a.size), a)
     one, other = solve_rock(block, Motion.from_arrays(a, 0.03)), solve_rock(block, Motion.from_arrays(fine, 0.015))
@@ -91,7 +91,7 @@ def test_halving_the_step_changes_nothing(a, block):
 
 @few
 @given(shakings, blocks, st.floats(0.2, 2.0), st.booleans())
-def test_ensembles_agree_with_single_runs(a, block, scale, vertical):
+def test_rock_many_equals_single_runs(a, block, scale, vertical):
     """The short way gives the verdict and the ratio of the long one."""
     motion = Motion.from_arrays(a, 0.03, vertical=0.5 * a[::-1])
     scaled = Motion.from_arrays(scale * a, 0.03, vertical=scale * 0.5 * a[::-1])
@@ -102,7 +102,7 @@ def test_ensembles_agree_with_single_runs(a, block, scale, vertical):
 
 @few
 @given(shakings, blocks)
-def test_below_the_threshold_nothing_moves(a, block):
+def test_motion_at_threshold_starts_no_rocking(a, block):
     """A motion scaled to the threshold itself does not start rocking: equality rests."""
     peak = float(np.abs(a).max())
     if peak == 0.0:

@@ -28,7 +28,7 @@ def noise(seed, n=120, dt=0.02, peak=4.0):
 
 @QUICK
 @given(seeds, mus, kappas)
-def test_mirror(seed, mu, kappa):
+def test_mirrored_motion_gives_mirrored_slip(seed, mu, kappa):
     """On a level base the mirrored motion gives the mirrored slip, bit by bit."""
     motion = noise(seed)
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
@@ -38,7 +38,7 @@ def test_mirror(seed, mu, kappa):
 
 @QUICK
 @given(seeds, mus, kappas, st.floats(2.0, 12.0))
-def test_slope_mirrored_with_the_motion(seed, mu, kappa, slope):
+def test_mirrored_slope_and_motion_give_mirrored_slip(seed, mu, kappa, slope):
     """A slope that falls the other way under the mirrored motion gives the mirrored slip."""
     motion = noise(seed)
     mu += np.tan(np.radians(slope))
@@ -51,7 +51,7 @@ def test_slope_mirrored_with_the_motion(seed, mu, kappa, slope):
 
 @QUICK
 @given(seeds, mus, kappas, st.sampled_from([0.25, 2.0, 8.0]))
-def test_accelerations_scale_together(seed, mu, kappa, factor):
+def test_slip_scales_with_acceleration_and_gravity(seed, mu, kappa, factor):
     """Scaling ground acceleration and gravity together scales the slip."""
     motion = noise(seed)
     one = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
@@ -62,7 +62,7 @@ def test_accelerations_scale_together(seed, mu, kappa, factor):
 
 @QUICK
 @given(seeds, mus, kappas)
-def test_friction_scales_with_gravity(seed, mu, kappa):
+def test_slip_depends_on_product_of_friction_and_gravity(seed, mu, kappa):
     """On a level base only mu g counts: twice the friction with half the gravity changes nothing."""
     motion = noise(seed)
     one = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
@@ -72,7 +72,7 @@ def test_friction_scales_with_gravity(seed, mu, kappa):
 
 @QUICK
 @given(seeds, mus, kappas)
-def test_time_scales_slip_with_its_square(seed, mu, kappa):
+def test_slip_scales_with_square_of_time(seed, mu, kappa):
     """The same samples at twice the interval give four times the slip."""
     motion = noise(seed)
     one = solve_slide(sliding_base(mu, kappa=kappa), motion).outcome
@@ -82,7 +82,7 @@ def test_time_scales_slip_with_its_square(seed, mu, kappa):
 
 @QUICK
 @given(seeds, mus, kappas, st.floats(0.0, 10.0))
-def test_refining_the_record_changes_nothing(seed, mu, kappa, slope):
+def test_refined_record_gives_same_slip(seed, mu, kappa, slope):
     """Linear interpolation to a third of the interval is the same motion: the same slip but for round-off."""
     motion = noise(seed)
     n = motion.samples
@@ -114,7 +114,7 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
 
 @QUICK
 @given(seeds, mus, kappas, st.integers(1, 100))
-def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
+def test_slip_is_independent_of_ground_velocity(seed, mu, kappa, sample):
     """Starting the record at any instant of rest, whatever the ground's velocity is then, gives what is left of the slip."""
     motion = noise(seed)
     whole = solve_slide(sliding_base(mu, kappa=kappa), motion)
@@ -128,7 +128,7 @@ def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
 
 @QUICK
 @given(seeds, mus, kappas)
-def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
+def test_slip_phase_has_one_sign_of_velocity(seed, mu, kappa):
     """Phases named forward have u' >= 0, backward u' <= 0, and sticking ones zero."""
     response = solve_slide(sliding_base(mu, kappa=kappa), noise(seed), vertical=1.0)
     names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
@@ -140,7 +140,7 @@ def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
 
 @QUICK
 @given(seeds, kappas, st.floats(0.0, 12.0), st.floats(0.0, 6.0))
-def test_study_gives_the_single_answers(seed, kappa, slope, scale):
+def test_slide_study_equals_single_runs(seed, kappa, slope, scale):
     """A study's numbers are those of the single solver, also with flights and with a foot of the slope."""
     motion = noise(seed, peak=6.0)
     mu = 0.3
@@ -166,7 +166,7 @@ def test_study_gives_the_single_answers(seed, kappa, slope, scale):
 
 @QUICK
 @given(seeds, kappas, st.floats(-16.0, 16.0), st.floats(1.0, 1e4))
-def test_no_motion_up_and_down_is_given_up(seed, kappa, slope, peak):
+def test_vertical_motion_on_slope_is_solved_to_the_end(seed, kappa, slope, peak):
     """On a slope shaken up and down only, contact and both limits end at one instant, however hard the shaking: the object flies."""
     up = noise(seed, peak=peak).horizontal
     motion = Motion.from_arrays(np.zeros(up.size), 0.01, vertical=up)

@@ -13,7 +13,7 @@ from seisblock.models.uplift.minima import uplift_minima
 from seisblock.models.uplift.modes import natural_modes
 from seisblock.models.uplift.solve import solve_uplift
 from seisblock.records.motion import Motion
-from tests.solvers.uplift_motions import shaking
+from tests.models.uplift_motions import shaking
 
 RATIO = st.floats(0.2, 5.0)
 DAMPING = st.floats(0.005, 0.5)
@@ -35,14 +35,14 @@ def blocks():
 
 
 @given(RATIO, RATIO)
-def test_closed_forms_are_the_eigenvalues(alpha, beta):
+def test_natural_frequencies_equal_eigenvalues(alpha, beta):
     """The paper's frequencies of a square base are scipy's, to 1e-12."""
     closed = np.sort(square_base_modes(alpha, beta).frequency_ratios)
     np.testing.assert_allclose(natural_modes(SpringBlock.from_ratios(alpha, beta)).frequencies_hz, closed, rtol=1e-12)
 
 
 @given(RATIO, RATIO, DAMPING, ANGLE, ANGLE, st.floats(0.05, 8.0), st.integers(1, 4))
-def test_eq_27_is_modal_superposition(alpha, beta, damping, phi, rho, ratio, corner):
+def test_eq_27_equals_modal_superposition(alpha, beta, damping, phi, rho, ratio, corner):
     """The corrected closed form gives the threshold of each corner, to 1e-10 of the largest response."""
     closed = harmonic_uplift_ratio([ratio], alpha=alpha, beta=beta, damping=damping, phi_deg=phi, rho_deg=rho, corner=corner)
     every = uplift_thresholds(SpringBlock.from_ratios(alpha, beta, damping=damping), [ratio], phi_deg=phi, rho_deg=rho)[:, 0]
@@ -51,7 +51,7 @@ def test_eq_27_is_modal_superposition(alpha, beta, damping, phi, rho, ratio, cor
 
 
 @given(blocks(), ANGLE, ANGLE, st.floats(0.1, 100.0))
-def test_modal_superposition_is_the_direct_response(body, phi, rho, omega):
+def test_modal_superposition_equals_direct_solution(body, phi, rho, omega):
     """For any base the sum over modes is the solution of the complex linear system."""
     direction = shaking_direction(phi, rho)
     direct = corner_response_direct(body, [omega], direction)
@@ -60,7 +60,7 @@ def test_modal_superposition_is_the_direct_response(body, phi, rho, omega):
 
 @given(blocks(), ANGLE, ANGLE)
 @settings(max_examples=30)
-def test_no_frequency_is_easier_than_the_least_minimum_or_the_ends(body, phi, rho):
+def test_minima_bound_the_uplift_curve(body, phi, rho):
     """The exact minima bound the curve from below, with its values at zero and at the end of the search."""
     minima = uplift_minima(body, phi_deg=phi, rho_deg=rho, frequency_range=(0.0, 10.0))
     curve = uplift_thresholds(body, np.linspace(0.0, 10.0, 2001), phi_deg=phi, rho_deg=rho).min(axis=0)
@@ -70,7 +70,7 @@ def test_no_frequency_is_easier_than_the_least_minimum_or_the_ends(body, phi, rh
 
 @given(blocks(), st.integers(0, 1000))
 @settings(max_examples=15, deadline=None)
-def test_corners_in_the_air_feel_nothing(body, seed):
+def test_uplifted_corners_carry_no_force(body, seed):
     """Whatever the shaking did, the base stays flat and no corner in the air is pulled."""
     pulse = shaking(1.0, 0.01, seed=seed).acceleration
     response = solve_uplift(body, Motion(np.hstack([pulse, np.zeros((3, 200))]), 0.01))
@@ -82,7 +82,7 @@ def test_corners_in_the_air_feel_nothing(body, seed):
 
 @given(blocks(), st.integers(0, 1000))
 @settings(max_examples=15, deadline=None)
-def test_the_uplift_scale_parts_lifting_from_not(body, seed):
+def test_uplift_scale_separates_contact_from_uplift(body, seed):
     """A little below the scale that the answer names nothing lifts, a little above something does."""
     motion = shaking(2.0, 0.01, seed=seed)
     scale = solve_uplift(body, motion).outcome.uplift_scale

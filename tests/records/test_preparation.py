@@ -22,7 +22,7 @@ def same(one, other):
         np.testing.assert_array_equal(a.acceleration, b.acceleration)
 
 
-def test_steps_come_in_the_order_that_is_told():
+def test_preparation_steps_run_in_documented_order():
     """Mean, high-pass, factor, target, window: as if each verb were called by itself."""
     prepared = Preparation(True, 0.2, 1.5, 4.0, ("NS", "37"), (5.0, 15.0)).apply(RECORD)
     by_hand = process.scale(process.highpass(process.demean(RECORD), 0.2), 1.5)
@@ -31,7 +31,7 @@ def test_steps_come_in_the_order_that_is_told():
     assert len(prepared.history) == 5
 
 
-def test_nothing_asked_changes_nothing():
+def test_empty_preparation_changes_nothing():
     """Numbers round-trip; the record itself stays as it is in any case."""
     before = RECORD.component("EW").acceleration.copy()
     assert Preparation().apply(RECORD) is RECORD
@@ -42,14 +42,14 @@ def test_nothing_asked_changes_nothing():
 @pytest.mark.parametrize(
     ("asked", "carries", "removed"), [(None, True, True), (None, False, False), (False, True, False), (True, False, True)]
 )
-def test_the_mean_is_removed_where_counts_carry_an_offset(asked, carries, removed):
+def test_preparation_removes_mean_of_count_offset(asked, carries, removed):
     """Unless it is asked for, or refused."""
     record = Record(RECORD.components, RECORD.dt, metadata={"carries_offset": carries})
     mean = Preparation(demean=asked).apply(record).component("NS").acceleration.mean()
     assert bool(abs(mean) < 1e-12) is removed
 
 
-def test_one_preparation_serves_many_records_and_the_target_finds_the_largest_horizontal():
+def test_preparation_is_a_value_and_scales_largest_horizontal():
     """It is a value: equal to its twin, hashable, and the same for all records."""
     preparation = Preparation(target_pga=3.0, window=(None, 10.0))
     assert preparation == Preparation(target_pga=3.0, window=(None, 10.0)) and len({preparation, Preparation()}) == 2
@@ -72,13 +72,13 @@ def test_one_preparation_serves_many_records_and_the_target_finds_the_largest_ho
         ({"highpass_hz": 80.0}, ParameterError, "half the sampling rate"),
     ],
 )
-def test_what_cannot_be_done_is_refused_in_a_sentence(asked, error, says):
+def test_preparation_rejects_invalid_steps(asked, error, says):
     """Numbers when it is made, the rest when a record goes through."""
     with pytest.raises(error, match=says):
         Preparation(**asked).apply(RECORD)
 
 
-def test_the_command_line_does_the_same():
+def test_command_line_equals_preparation():
     """What a command says of its record's options is what a library user gets in one call."""
     options = ["--demean", "--highpass", "0.2", "--target-pga", "500", "--component", "EW", "--window", "20:40"]
     told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_knet.EW", *options, "--json", "--quiet"]).stdout)["results"][0]

@@ -37,38 +37,38 @@ def test_crop_keeps_the_time_axis():
     ("start", "end", "first", "last"),
     [(2.0, 3.0, 200, 300), (2.003, 2.997, 201, 299), (2.0099, 3.0001, 201, 300), (1.9999, 2.9999, 200, 299)],
 )
-def test_crop_takes_the_samples_inside_and_no_other(start, end, first, last):
+def test_crop_keeps_samples_inside_window_only(start, end, first, last):
     """A window that begins or ends between two samples holds the ones inside it; one on a sample holds that sample."""
     part = crop(RECORD, start, end)
     assert part.offset_s == pytest.approx(first * 0.01, abs=1e-12)
     np.testing.assert_array_equal(part.component("NS").acceleration, RECORD.component("NS").acceleration[first : last + 1])
 
 
-def test_crop_keeps_everything_bit_by_bit_when_the_window_is_the_record():
+def test_crop_to_whole_record_changes_nothing():
     """The window from the first to the last sample changes nothing."""
     np.testing.assert_array_equal(crop(RECORD, 0.0, RECORD.duration_s).component("NS").acceleration, RECORD.component("NS").acceleration)
 
 
-def test_crop_with_an_open_end():
+def test_crop_accepts_open_ends():
     """None stands for the record's own first and last sample."""
     assert (crop(RECORD, None, 5.0).duration_s, crop(RECORD, 5.0, None).offset_s) == (pytest.approx(5.0), pytest.approx(5.0))
     assert crop(crop(RECORD, 5.0, None), None, None).samples == 1501
 
 
 @pytest.mark.parametrize(("start", "end"), [(-1, 5), (5, 21), (5, 5), (6, 5), (1.001, 1.004), (np.nan, 3)])
-def test_crop_refuses_a_window_it_cannot_cut(start, end):
+def test_crop_rejects_invalid_window(start, end):
     """A window outside, empty or shorter than two samples is an error that says so."""
     with pytest.raises(RecordError, match="window"):
         crop(RECORD, start, end)
 
 
-def test_what_is_scaled_by_one_is_not_said_to_be_scaled():
+def test_scale_by_one_is_not_reported():
     """No title says "scaled by 1"; by another factor it is said."""
     assert scale(RECORD, 1.0) is RECORD
     assert scale(RECORD, 1.5).history == ("scaled by 1.5",)
 
 
-def test_scale_to_pga_takes_the_largest_horizontal_not_the_vertical():
+def test_scale_to_pga_uses_largest_horizontal():
     """EW (2 m/s^2) reaches the target although UD is larger; ratios are kept."""
     done = scale_to_pga(RECORD, 4.0)
     assert largest_horizontal(RECORD).code == "EW"
@@ -84,7 +84,7 @@ def test_scale_to_pga_of_named_components():
     assert np.abs(component_at_azimuth(scale_to_pga(RECORD, 1.0, ("30",)), 30.0).acceleration).max() == pytest.approx(1.0, rel=1e-14)
 
 
-def test_nonsense_is_refused():
+def test_processing_rejects_invalid_arguments():
     """A zero record, a negative target, a factor that is no number, a corner beyond Nyquist, a missing component."""
     still = Record((Component("NS", np.zeros(9)),), 0.01)
     for attempt in (
@@ -107,7 +107,7 @@ def test_nonsense_is_refused():
         largest_horizontal(Record((Component("UD", np.ones(3)),), 0.1))
 
 
-def test_highpass_has_the_gain_of_a_butterworth_run_twice_and_no_delay():
+def test_highpass_has_squared_butterworth_gain_and_no_delay():
     """A long sine comes out with gain 1 / (1 + (fc/f)^8) and the same phase."""
     dt, fc = 0.01, 0.1
     time = np.arange(40001) * dt
@@ -118,7 +118,7 @@ def test_highpass_has_the_gain_of_a_butterworth_run_twice_and_no_delay():
         np.testing.assert_allclose(out[middle], wave[middle] / (1 + (fc / f) ** 8), atol=2e-4)
 
 
-def test_highpass_says_what_it_did():
+def test_highpass_is_recorded_in_history():
     """The history names the corner, the filter and the baseline; the offset is gone."""
     done = highpass(RECORD, 0.2)
     assert "high-pass 0.2 Hz (Butterworth order 4 forwards and backwards, line through the ends removed" in done.history[-1]
@@ -127,7 +127,7 @@ def test_highpass_says_what_it_did():
 
 
 @given(st.floats(-720, 720))
-def test_rotation_keeps_the_vector(azimuth):
+def test_rotation_keeps_vector_length(azimuth):
     """The length of the horizontal vector does not change, and the vertical stays bit by bit."""
     turned = rotate(RECORD, azimuth)
     a, b, up = (c.acceleration for c in turned.components)
@@ -135,7 +135,7 @@ def test_rotation_keeps_the_vector(azimuth):
     np.testing.assert_array_equal(up, RECORD.component("UD").acceleration)
 
 
-def test_rotation_to_the_axes_returns_the_samples():
+def test_rotation_to_axes_returns_samples():
     """0 and 90 degrees are NS and EW bit by bit; 180 is their opposite."""
     north, east = rotate(RECORD, 0.0).components[:2]
     np.testing.assert_array_equal(north.acceleration, RECORD.component("NS").acceleration)

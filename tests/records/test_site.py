@@ -32,7 +32,7 @@ def jma(tmp_path):
     return path
 
 
-def test_what_a_file_says(jma):
+def test_site_has_station_and_earthquake(jma):
     """Station with its name and place, and the earthquake; JST is the network's clock."""
     record = read(jma)
     assert get_site(record) == Site("47772", "大阪市中央区", 34.6819, 135.5183)
@@ -42,7 +42,7 @@ def test_what_a_file_says(jma):
     assert format_local_time(record, record.start) == "2016-04-16 01:25:00 JST"
 
 
-def test_what_is_not_said_is_none():
+def test_unknown_site_values_are_none():
     """An array has no place, no time and no earthquake; zeros for all of it are none either."""
     bare = Record((Component("NS", [0.0, 1.0]),), 0.01)
     assert (get_site(bare), get_earthquake(bare), format_local_time(bare, bare.start)) == (Site(), None, "")
@@ -53,7 +53,7 @@ def test_what_is_not_said_is_none():
     assert get_earthquake(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata={"magnitude": 6.1})) == Earthquake(magnitude=6.1)
 
 
-def test_tables_and_documents_tell_it(jma):
+def test_tables_and_documents_state_site(jma):
     """P4: name, local time, magnitude, depth and epicentre stand above the table and in the document."""
     told = CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4"])
     assert "47772 大阪市中央区  2016-04-16 01:25:00 JST" in told.stdout
@@ -68,7 +68,7 @@ def test_tables_and_documents_tell_it(jma):
     assert entry["earthquake"]["magnitude"] == 7.3 and entry["earthquake"]["origin_time"].startswith("2016-04-15T16:25:2")
 
 
-def test_a_real_record_tells_where_and_of_what_earthquake_everywhere(tmp_path):
+def test_site_of_real_record_appears_in_every_output(tmp_path):
     """Station, hemispheres, name of the earthquake and the file's own distance: in tables, documents, figures and reports."""
     told = " ".join(CliRunner().invoke(main, ["measure", "--json", "--window", "45:60"]).stdout.split())
     entry = json.loads(told)["record"]
@@ -83,7 +83,7 @@ def test_a_real_record_tells_where_and_of_what_earthquake_everywhere(tmp_path):
     assert record_info(record)[0] == "station at 42.5233 S 172.831 E"
 
 
-def test_distances_on_the_sphere():
+def test_epicentral_distance_is_near_geodesic():
     """Within the flattening of the Earth of the geodesic; zeros for a place are no place."""
     for one, other in (((35.681, 139.767), (34.702, 135.496)), ((0.0, 179.5), (0.0, -179.5)), ((-42.523, 172.831), (-42.693, 173.022))):
         assert great_circle_km(one, other) == pytest.approx(gps2dist_azimuth(*one, *other)[0] / 1000.0, rel=0.005)

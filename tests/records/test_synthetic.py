@@ -58,19 +58,19 @@ def geometric_mean(values):
 
 class TestTarget:
     @pytest.mark.parametrize("case", PYRVT)
-    def test_spectrum_of_an_independent_code(self, case):
+    def test_target_spectrum_equals_pyrvt(self, case):
         """Source, path and site multiply to the Fourier amplitudes of pyrvt."""
         found = PointSource(case[0], 1e3 * case[1]).spectrum(np.array([0.1, 0.3, 1.0, 3.0, 10.0, 25.0]))
         assert found == pytest.approx(PYRVT[case][0], rel=INDEPENDENT)
 
-    def test_it_falls_with_the_square_of_the_frequency(self):
+    def test_target_spectrum_falls_with_frequency_squared(self):
         """Towards zero the ground neither moves on nor is displaced for ever."""
         low, lower = PointSource(7.0, 20e3).spectrum(np.array([2e-3, 1e-3]))
         assert low / lower == pytest.approx(4.0, rel=0.01)
 
 
 class TestSuite:
-    def test_the_mean_spectrum_is_the_target(self, suite):
+    def test_mean_spectrum_equals_target(self, suite):
         """In bands from 0.05 to 40 Hz the power is the target's, within the error of a mean over the records, which is small."""
         spectra = np.abs(np.fft.rfft(samples(suite, "NS", "EW"))) * suite[0].dt
         f = np.fft.rfftfreq(suite[0].samples, suite[0].dt)
@@ -83,53 +83,53 @@ class TestSuite:
             assert abs(of_records.mean() - 1.0) < FOUR_ERRORS * error
 
     @pytest.mark.parametrize("case", PYRVT)
-    def test_peaks_are_those_of_random_vibration_theory(self, case):
+    def test_peaks_equal_random_vibration_theory(self, case):
         """PGA and PGV of magnitudes 5 to 7 near and far, which span a factor of fifteen."""
         shaken = samples(synthetic_suite(*case, 20, seed=4), "NS", "EW")
         assert geometric_mean(np.abs(shaken).max(axis=-1)) == pytest.approx(PYRVT[case][1], rel=RANDOM_VIBRATION)
         assert geometric_mean(np.abs(shaken.cumsum(axis=-1) * 0.01).max(axis=-1)) == pytest.approx(PYRVT[case][2], rel=RANDOM_VIBRATION)
 
-    def test_response_spectra_are_those_of_random_vibration_theory(self, suite):
+    def test_response_spectra_equal_random_vibration_theory(self, suite):
         """At 2, 5 and 10 Hz, of half of the suite."""
         found = [response_spectrum(a, 0.01, [0.5, 0.2, 0.1]).sa_m_s2 for a in samples(suite[:20], "NS", "EW").reshape(40, -1)]
         assert np.exp(np.log(found).mean(axis=0)) == pytest.approx(PYRVT_SA, rel=RANDOM_VIBRATION)
 
     @pytest.mark.parametrize(("magnitude", "distance"), [(5.0, 20.0), (7.0, 20.0), (7.0, 100.0)])
-    def test_it_shakes_as_long_as_it_should(self, magnitude, distance):
+    def test_significant_duration_equals_target(self, magnitude, distance):
         """Most of the energy, 5 to 95 %, comes within the duration of source and path."""
         energy = (samples(synthetic_suite(magnitude, distance, 20, seed=2), "NS") ** 2).cumsum(axis=-1)[:, 0]
         share = energy / energy[:, -1:]
         lasted = 0.01 * ((share < 0.95).sum(axis=1) - (share < 0.05).sum(axis=1))
         assert lasted.mean() == pytest.approx(PointSource(magnitude, 1e3 * distance).duration_s, rel=0.15)
 
-    def test_components_know_nothing_of_each_other(self, suite):
+    def test_components_are_uncorrelated(self, suite):
         """Correlations of the components scatter about zero."""
         shaken = samples(suite, "NS", "EW", "UD")
         r = np.array([np.corrcoef(record)[np.triu_indices(3, 1)] for record in shaken])
         assert (np.abs(r.mean(axis=0)) < FOUR_ERRORS * r.std(axis=0, ddof=1) / np.sqrt(len(r))).all()
         assert np.abs(r).max() < 0.4
 
-    def test_the_vertical_has_two_thirds(self, suite):
+    def test_vertical_has_two_thirds_of_horizontal(self, suite):
         """In the mean square over the records, within its error."""
         power = (samples(suite, "NS", "EW", "UD") ** 2).mean(axis=-1)
         ratio = power[:, 2] / power[:, :2].mean(axis=1).mean()
         assert abs(ratio.mean() - 4.0 / 9.0) < FOUR_ERRORS * ratio.std(ddof=1) / np.sqrt(ratio.size) < 0.1
 
-    def test_the_ground_comes_to_rest(self, suite):
+    def test_synthetic_ground_ends_at_rest(self, suite):
         """The last velocity is zero within the digits, the last displacement small beside the largest."""
         velocity = samples(suite, "NS", "EW", "UD").cumsum(axis=-1) * 0.01
         displacement = velocity.cumsum(axis=-1) * 0.01
         assert np.abs(velocity[..., -1]).max() < 2e-6
         assert (np.abs(displacement[..., -1]) < 0.1 * np.abs(displacement).max(axis=-1)).all()
 
-    def test_a_seed_is_a_suite(self, suite):
+    def test_suite_is_reproducible_by_seed(self, suite):
         """The same seed gives the same bits, a longer suite begins with a shorter one, another seed is another suite."""
         again, other = synthetic_suite(7.0, 20.0, 3, seed=17), synthetic_suite(7.0, 20.0, 3, seed=18)
         assert np.array_equal(samples(again, "NS", "EW", "UD"), samples(suite[:3], "NS", "EW", "UD"))
         assert not np.array_equal(samples(other, "NS"), samples(again, "NS"))
         assert not np.array_equal(samples(again[:1], "NS"), samples(again[1:2], "NS"))
 
-    def test_records_say_that_they_are_synthetic(self, suite):
+    def test_records_are_marked_synthetic(self, suite):
         """Station, name, format, history and magnitude."""
         record = suite[6]
         assert (record.station, record.source, record.format) == ("SYN007", "synthetic_M7_R20_007", "synthetic")
@@ -142,13 +142,13 @@ class TestSuite:
     ["synthetic", "synthetic:M7:R20", "synthetic:M7:R20:0", "synthetic:M7:R20:2.5", "synthetic:M9:R20:4", "synthetic:M7:R0.5:4",
      "synthetic:Mnan:R20:4", "synthetic:M7:R20:4:5", "real:M7:R20:4", "synthetic:M7:Rfar:4", "synthetic:M7:R20:99999999"],
 )  # fmt: skip
-def test_what_is_no_suite_is_refused(text):
+def test_suite_rejects_invalid_options(text):
     """In a sentence, and before anything large is made."""
     with pytest.raises(InputError):
         parse_suite(text)
 
 
-def test_a_seed_is_a_whole_number():
+def test_suite_requires_integer_seed():
     """No dice without one."""
     with pytest.raises(ParameterError, match="seed"):
         synthetic_suite(7.0, 20.0, 2, seed=-1)
@@ -163,7 +163,7 @@ class TestCommand:
         monkeypatch.chdir(tmp_path)
         return lambda *words: CliRunner().invoke(main, [*self.LINE, *map(str, words)])
 
-    def test_files_say_what_the_suite_said(self, run, tmp_path):
+    def test_written_suite_round_trips(self, run, tmp_path):
         """The records written are read back to the last bit, so that the study of the folder is that of the suite."""
         made = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--seed", 3, "--json")
         assert made.exit_code == 0, made.stderr
@@ -178,7 +178,7 @@ class TestCommand:
         assert document["parameters"]["suite"] == "synthetic:M6.5:R15:4" and read["parameters"]["suite"] is None
         assert any("Boore" in text for text in document["citations"]) and not any("Boore" in text for text in read["citations"])
 
-    def test_files_in_the_layout_of_knet_are_read_back(self, run, tmp_path):
+    def test_written_knet_files_round_trip(self, run, tmp_path):
         """Three to a record, to the last bit, by our reader without a doubt and by obspy; the study of the folder is that of the suite."""
         made = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--suite-format", "knet", "--seed", 3, "--json")
         assert made.exit_code == 0, made.stderr
@@ -197,7 +197,7 @@ class TestCommand:
         document, read = (json.loads(each.stdout)["results"] for each in (made, run("made", "--seed", 3, "--no-demean", "--json")))
         assert [{**r, "efficiency": None} for r in document] == [{**r, "efficiency": None} for r in read]
 
-    def test_strong_shaking_gets_coarser_counts(self, tmp_path):
+    def test_knet_counts_are_coarser_above_999_gal(self, tmp_path):
         """Beyond 999 gal a count is a thousandth: within half of it, and in its column."""
         (record,) = synthetic_suite(7.0, 20.0, 1)
         strong = process.scale(record, 20.0 / np.abs(record.component("NS").acceleration).max())
@@ -209,7 +209,7 @@ class TestCommand:
             quantum = 1e-5 if np.abs(c.acceleration).max() > 9.999 else 1e-6
             assert np.abs(back.component(c.code).acceleration - c.acceleration).max() <= quantum * 0.5001
 
-    def test_what_is_no_recording_is_said_to_be_none(self, run, monkeypatch):
+    def test_output_states_that_records_are_synthetic(self, run, monkeypatch):
         """Without RECORD it says which records it takes, and that they are synthetic."""
         monkeypatch.setattr("seisblock.cli.run_fragility.DEFAULT_SUITE", "synthetic:M7:R20:3")
         said = run("--json")
@@ -217,12 +217,12 @@ class TestCommand:
         assert "synthetic (not recorded)" in json.loads(said.stdout)["record"][0]["history"][0]
 
     @pytest.mark.parametrize("words", [("--suite", "synthetic:M7:R20:3"), ("--suite-out", "there")])
-    def test_records_or_a_suite(self, run, words):
+    def test_records_and_suite_are_exclusive(self, run, words):
         """Not both; nothing is written."""
         refused = run("synthetic_jma.csv", *words)
         assert refused.exit_code == 3 and words[0] in refused.stderr
 
-    def test_a_file_is_no_folder(self, run, tmp_path):
+    def test_suite_refuses_to_write_over_file(self, run, tmp_path):
         """What is there stays as it is."""
         (tmp_path / "notes").write_text("mine")
         assert run("--suite", "synthetic:M7:R20:3", "--suite-out", "notes").exit_code in (2, 3)

@@ -83,23 +83,23 @@ except KeyboardInterrupt:
 """
 
 
-def spent(pid):
+def processor_time(pid):
     """Return the processor time of a process, s."""
     user, system = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
     return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
-def interrupted(script, words, cwd):
+def interrupt_script(script, words, cwd):
     """Start a script, interrupt it when it is well under way; return exit code, stderr and the processor time that it took to end."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-c", SETTING_OUT + script, *words]
     with subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n", process.stderr.read()
-        began = spent(process.pid)
-        while spent(process.pid) < began + WELL_UNDER_WAY:
+        began = processor_time(process.pid)
+        while processor_time(process.pid) < began + WELL_UNDER_WAY:
             assert process.poll() is None, process.stderr.read()
             time.sleep(0.02)
-        at = spent(process.pid)
+        at = processor_time(process.pid)
         process.send_signal(signal.SIGINT)
         try:
             out, said = process.communicate(timeout=600)
@@ -112,7 +112,7 @@ def best_of_four(script, words, cwd, told):
     """Interrupt a script, and again where a busy machine may have slowed its end; return the shortest processor time, s."""
     least = float("inf")
     for _ in range(4):
-        code, said, took = interrupted(script, words, cwd)
+        code, said, took = interrupt_script(script, words, cwd)
         assert (code, said) == (130, told)
         least = min(least, took)
         if least < AT_ONCE:
@@ -121,7 +121,7 @@ def best_of_four(script, words, cwd, told):
 
 
 @pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
-def test_a_command_ends_at_once(named, tmp_path):
+def test_sigint_ends_command_at_once(named, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
     assert (
         best_of_four(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path, "seisblock: interrupted; no partially written file remains")
@@ -129,14 +129,14 @@ def test_a_command_ends_at_once(named, tmp_path):
     )
 
 
-def test_an_interrupt_is_not_lost_while_kernels_are_compiled(tmp_path, monkeypatch):
+def test_sigint_during_compilation_is_not_lost(tmp_path, monkeypatch):
     """Finalizers of the compiler swallow exceptions; Ctrl-C ends the run at the next kernel all the same."""
     monkeypatch.setenv("SEISBLOCK_CACHE_DIR", str(tmp_path / "kernels"))
-    assert interrupted(COMPILING, [], tmp_path)[0] == 130
+    assert interrupt_script(COMPILING, [], tmp_path)[0] == 130
 
 
 @pytest.mark.slow
-def test_a_call_of_the_library_ends_at_once(tmp_path):
+def test_sigint_ends_library_call_at_once(tmp_path):
     """A solver called from Python raises KeyboardInterrupt in the middle of eight hours of record."""
     assert best_of_four(LIBRARY, [], tmp_path, "") < AT_ONCE
 
@@ -162,7 +162,7 @@ main()
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_what_a_library_swallows_comes_again(number, code, tmp_path):
+def test_swallowed_interrupt_is_raised_again(number, code, tmp_path):
     """A signal that was lost in a finalizer ends the run all the same, and without a traceback."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-c", SWALLOWING, "measure", "--quiet"]
@@ -188,14 +188,14 @@ main()
 """Whose libraries take their time to be taken apart."""
 
 
-def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
+def test_interrupted_program_skips_teardown(tmp_path):
     """Freeing what matplotlib and numba hold took most of the time between Ctrl-C and the prompt."""
     pipe = subprocess.PIPE
     command = [sys.executable, "-c", FIGURE, "stack", "--contact", "grid=25", "--law", "springs", "--quiet"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n"
-        began = spent(process.pid)
-        while spent(process.pid) < began + WELL_UNDER_WAY:
+        began = processor_time(process.pid)
+        while processor_time(process.pid) < began + WELL_UNDER_WAY:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         try:
@@ -218,14 +218,14 @@ def make_a_class():
     type("Made", (), {"attribute": Wrapping()})
 
 
-def swallow():
+def suppress_interrupt():
     """Go on without something that was imported on trial."""
     with contextlib.suppress(BaseException):
         signal.raise_signal(signal.SIGINT)
 
 
-@pytest.mark.parametrize("become", [make_a_class, swallow])
-def test_an_interrupt_is_one_whatever_became_of_it(become):
+@pytest.mark.parametrize("become", [make_a_class, suppress_interrupt])
+def test_wrapped_interrupt_leaves_block_as_keyboard_interrupt(become):
     """Wrapped by an import or swallowed by a library, Ctrl-C leaves the block as itself, and the next block knows nothing of it."""
     with pytest.raises(KeyboardInterrupt), defer_interrupt(), defer_interrupt():
         become()
@@ -236,7 +236,7 @@ def test_an_interrupt_is_one_whatever_became_of_it(become):
 
 
 @pytest.mark.parametrize(("number", "code", "said"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "")])
-def test_a_command_whose_import_is_interrupted_says_so(number, code, said, monkeypatch):
+def test_sigint_during_import_gives_no_traceback(number, code, said, monkeypatch):
     """No traceback of a RuntimeError while matplotlib is being imported."""
     monkeypatch.setattr(signal, "raise_signal", lambda _, send=signal.raise_signal: send(number))
     monkeypatch.setattr(cite, "callback", lambda **_: make_a_class())
@@ -245,14 +245,14 @@ def test_a_command_whose_import_is_interrupted_says_so(number, code, said, monke
     assert said in done.stderr and "Traceback" not in done.stderr
 
 
-def test_an_interrupt_while_the_line_is_taken_apart_is_one(monkeypatch):
+def test_sigint_during_parsing_exits_130(monkeypatch):
     """Click's own end of it is "Aborted!" and exit 1."""
     monkeypatch.setattr(main, "parse_args", lambda *_: signal.raise_signal(signal.SIGINT))
     done = CliRunner().invoke(main, ["cite"])
     assert done.exit_code == 130 and "interrupted; no partially written file remains" in done.stderr and "Abort" not in done.stderr
 
 
-def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):
+def test_sigint_before_command_exits_130_silently(tmp_path):
     """Ctrl-C while the program itself is imported: exit 130 in silence."""
     script = (
         "import signal, sys\nfrom seisblock.__main__ import run\n"
@@ -264,7 +264,7 @@ def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
-def test_an_end_that_a_callback_swallows_is_not_told_twice(monkeypatch):
+def test_interrupt_in_callback_is_reported_once(monkeypatch):
     """Python tells what is raised where nobody can catch it; an interruption that comes again needs no such line, anything else does."""
     heard = []
     monkeypatch.setattr(sys, "unraisablehook", lambda lost: heard.append(lost.exc_type))

@@ -58,7 +58,7 @@ def in_stretches(monkeypatch):
 
 
 @pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
-def test_no_bit_of_an_answer_depends_on_stretches(solve, in_stretches):
+def test_chunked_motion_gives_same_response(solve, in_stretches):
     """Outcome, phases, events, time and channels, of a motion whose rows are the record's own."""
     whole = solve(motion_of(RECORD, "NS"))
     assert whole.channels
@@ -75,7 +75,7 @@ def test_no_bit_of_an_answer_depends_on_stretches(solve, in_stretches):
         np.testing.assert_array_equal(other.values, one.values, err_msg=one.name)
 
 
-def test_rows_of_a_long_motion_are_those_of_a_short_one(in_stretches):
+def test_chunked_rows_equal_whole_rows(in_stretches):
     """Along, across and up of a turned direction, at once and stretch by stretch; a row that does not act is not looked at."""
     whole = motion_of(RECORD, "37")
     in_stretches()
@@ -87,7 +87,7 @@ def test_rows_of_a_long_motion_are_those_of_a_short_one(in_stretches):
     assert stretches[-1].samples_after == 0 and [each.first for each in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
 
 
-def test_many_blocks_turned_in_a_long_motion(in_stretches):
+def test_ensemble_over_chunked_motion_equals_whole(in_stretches):
     """Runs of a study share the stretches: extrema and ends are those in the whole motion."""
     motion = motion_of(RECORD, "EW")
     p = np.array([rocking.parameters(rock_params(Block(width, 0.9), motion), motion.dt) for width in (0.1, 0.2, 0.3)])
@@ -99,7 +99,7 @@ def test_many_blocks_turned_in_a_long_motion(in_stretches):
         np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
 
 
-def test_curves_are_made_when_they_are_asked_for(monkeypatch):
+def test_curves_are_computed_on_demand(monkeypatch):
     """A verdict follows its path once more for nobody."""
     made = SimpleNamespace(count=0)
     original = seisblock.models.slide.solve._curves
@@ -117,7 +117,7 @@ def test_curves_are_made_when_they_are_asked_for(monkeypatch):
 NOISE = Motion.from_arrays(np.random.default_rng(1).normal(size=3000), 0.01)
 
 
-def test_more_changes_of_mode_than_the_tables_hold(monkeypatch):
+def test_event_buffer_overflow_changes_nothing(monkeypatch):
     """They are taken out in time: the answer is that of tables that hold all of them."""
     whole = seisblock.solve_slide(0.05, NOISE)
     assert len(whole.events) > 1000
@@ -129,7 +129,7 @@ def test_more_changes_of_mode_than_the_tables_hold(monkeypatch):
         assert (one.name, one.time_s, *one.before, *one.after) == (other.name, other.time_s, *other.before, *other.after)
 
 
-def test_changes_of_mode_without_end_are_refused(monkeypatch):
+def test_unbounded_events_are_rejected_with_remedy(monkeypatch):
     """Each of them takes memory: how much is said, and what lifts the limit."""
     monkeypatch.setenv("SEISBLOCK_CHANGES_MIB", "1")
     noise = Motion.from_arrays(np.random.default_rng(1).normal(size=40_000), 0.01)
@@ -141,7 +141,7 @@ BYTES_AN_EVENT = 300.0
 """What a change of mode of a sliding object may take at the peak: 112 in the columns, as much again while they are joined."""
 
 
-def test_a_change_of_mode_is_a_row_of_columns(monkeypatch):
+def test_memory_per_event(monkeypatch):
     """The slope between two lengths of noise: an object for each event, and one for each phase, took 0.8 kB."""
     monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 100)
     peaks, counts = [], []
@@ -156,7 +156,7 @@ def test_a_change_of_mode_is_a_row_of_columns(monkeypatch):
     assert (peaks[1] - peaks[0]) / (counts[1] - counts[0]) < BYTES_AN_EVENT
 
 
-def test_short_trajectories_of_a_long_motion_hold_what_they_reached():
+def test_memory_of_short_trajectories_in_long_motion():
     """`jump` follows many chains: each took room for the whole motion (7 GB of a million samples of noise)."""
     motion = Motion.from_arrays(np.concatenate([np.full(300, 4.0), np.zeros(50_000)]), 0.01)
     response = seisblock.solve_rock(Block(0.1, 0.9), motion)
@@ -175,7 +175,7 @@ def burst_of(samples):
     return 6.0 * np.exp(-(((place - 2000.0) / 200.0) ** 2)) * np.sin(0.06 * place)
 
 
-def turned(samples):
+def rotated_record(samples):
     """Return a record of two components, and its motion towards a direction between them."""
     record = Record((Component("NS", burst_of(samples)), Component("EW", 0.8 * burst_of(samples))), 0.005)
     return record, motion_of(record, "37")
@@ -199,7 +199,7 @@ def bytes_held(use, *given):
 
 
 @pytest.mark.parametrize("named", all_but_slow(SOLVES, set(SOLVES) - {"stack", "uplift"}))
-def test_a_verdict_holds_no_row_of_the_length_of_the_motion(named, monkeypatch):
+def test_memory_per_sample_of_outcome(named, monkeypatch):
     """The slope between two lengths: less than one row; the path of a slide takes five."""
     monkeypatch.setattr("seisblock.records.motion.LONG_MOTION_SAMPLES", 2**16)
     monkeypatch.setattr("seisblock.records.motion.SEGMENT_SAMPLES", 2**15)
@@ -207,7 +207,7 @@ def test_a_verdict_holds_no_row_of_the_length_of_the_motion(named, monkeypatch):
     assert (peak_bytes(SOLVES[named], LONGER) - peak_bytes(SOLVES[named], SHORTER)) / (LONGER - SHORTER) < LEAST
 
 
-def beside_a_pile(record, motion):
+def check_models_with_pile(record, motion):
     """Look at each sample of the three rows, as a pile does, and ask the other models."""
     assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.segments((True, True, True)))
     answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options={"gravity_m_s2": 9.81})
@@ -216,7 +216,7 @@ def beside_a_pile(record, motion):
 
 STUDIES = {
     "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, gravity=9.81).agreement,
-    "stack": beside_a_pile,
+    "stack": check_models_with_pile,
 }
 
 ONE_ROW = 10.0
@@ -224,7 +224,7 @@ ONE_ROW = 10.0
 
 
 @pytest.mark.parametrize("named", STUDIES)
-def test_models_beside_each_other_hold_one_row(named, monkeypatch):
+def test_memory_per_sample_of_model_comparison(named, monkeypatch):
     """The slope between two lengths of a turned motion: the row across, the filtered row and its velocity were held at once."""
     for size, samples in {
         "records.motion.LONG_MOTION_SAMPLES": 2**16,
@@ -238,5 +238,5 @@ def test_models_beside_each_other_hold_one_row(named, monkeypatch):
     fallen = SimpleNamespace(overturned=True)  # dozens of factors are tried, and what a verdict holds is looked at above
     monkeypatch.setattr("seisblock.studies.model_comparison.rock_verdict", lambda *args, **options: fallen)
     study = STUDIES[named]
-    study(*turned(2**16 + 2))  # compiles
-    assert (bytes_held(study, *turned(LONGER)) - bytes_held(study, *turned(SHORTER))) / (LONGER - SHORTER) < ONE_ROW
+    study(*rotated_record(2**16 + 2))  # compiles
+    assert (bytes_held(study, *rotated_record(LONGER)) - bytes_held(study, *rotated_record(SHORTER))) / (LONGER - SHORTER) < ONE_ROW

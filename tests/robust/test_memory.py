@@ -28,7 +28,7 @@ takes besides; in a day 0.55 GB, 0.73 GB, and 0.55 GB above the record's 0.41 GB
 
 
 @pytest.fixture(autouse=True)
-def many_pieces(monkeypatch):
+def lower_long_limits(monkeypatch):
     """Let both lengths count as long."""
     for size in (
         "measures.fft_filter.LONG_TRANSFORM",
@@ -62,7 +62,7 @@ def per_sample(make, use, shorter=SHORTER, longer=LONGER):
     return (peaks[1] - peaks[0]) / (longer - shorter)
 
 
-def recorded(samples):
+def make_record(samples):
     """Return a record of three components."""
     return Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(samples), strict=True)), 0.005)
 
@@ -82,13 +82,13 @@ def test_memory_per_sample_of_reading(tmp_path):
     assert per_sample(written, lambda path: read(path, units="mm/s2")) < BYTES_READ
 
 
-def resident():
+def resident_bytes():
     """Return what the process holds of the machine's memory, bytes."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 @pytest.mark.skipif(sys.platform != "linux" or not hasattr(ctypes.CDLL(None), "malloc_trim"), reason="the heap of another library")
-def test_what_is_free_under_a_block_that_is_not_is_given_back():
+def test_trim_heap_returns_free_memory():
     """As obspy's decoder leaves it: 40 MB in small blocks, freed but for the topmost."""
     libc = ctypes.CDLL(None)
     libc.malloc.restype, libc.free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
@@ -97,14 +97,14 @@ def test_what_is_free_under_a_block_that_is_not_is_given_back():
         ctypes.memset(block, 1, 2000)
     for block in blocks[:-1]:
         libc.free(block)
-    held = resident()
+    held = resident_bytes()
     trim_heap()
-    given = held - resident()
+    given = held - resident_bytes()
     libc.free(blocks[-1])
     assert given > 30e6
 
 
-def test_a_long_record_leaves_nothing_of_its_reading_behind(tmp_path, monkeypatch):
+def test_reading_long_record_returns_memory(tmp_path, monkeypatch):
     """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
     told = []
     monkeypatch.setattr(sys.modules["seisblock.readers.read"], "trim_heap", lambda: told.append(samples))
@@ -136,29 +136,29 @@ def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_memory_per_sample_of_measure():
     """Above the record itself; the transform of a whole component, of the intensity, is what takes most."""
-    assert per_sample(recorded, measure) < BYTES_MEASURED
+    assert per_sample(make_record, measure) < BYTES_MEASURED
 
 
 @pytest.mark.parametrize("samples", [2**18, 2**18 + 5, 3**11 * 5, 2 * 131101], ids=str)
-def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
+def test_intensity_is_independent_of_transform_order(samples, monkeypatch):
     """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
-    record = recorded(samples)
+    record = make_record(samples)
     in_pieces = jma_intensity(record)
     monkeypatch.setattr("seisblock.measures.fft_filter.LONG_TRANSFORM", 2**21)
     monkeypatch.setattr("seisblock.measures.fft_filter.CHUNK_SIZE", 2**21)
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 
-def test_a_corner_that_would_take_gigabytes_is_refused():
+def test_highpass_with_excessive_padding_is_rejected():
     """A high-pass of 1e-6 Hz pads by a month: refused with the number and the corner that is possible."""
     with pytest.raises(ParameterError, match=r"samples of padding .* choose a corner of"):
         highpass(read(sample_path("synthetic_jma.csv")), 1e-6)
 
 
-def test_a_record_that_cannot_be_filtered_in_parts_is_refused_with_what_lifts_it(monkeypatch):
+def test_intensity_of_prime_length_beyond_limit_is_none(monkeypatch):
     """A prime number of samples has one long transform: beyond the limit no intensity, and a reason with a remedy that works."""
     samples = 2**18 + 3  # a prime
-    found = recorded(samples)
+    found = make_record(samples)
     whole = jma_intensity(found)
     monkeypatch.setenv("SEISBLOCK_TRANSFORM_MIB", "45")
     assert whole is not None and jma_intensity(found) is None

@@ -48,7 +48,7 @@ OVER_THE_RECORD = (
 
 
 @pytest.mark.parametrize("words", OVER_THE_RECORD, ids=" ".join)
-def test_no_output_falls_on_the_record(words, folder):
+def test_output_never_overwrites_record(words, folder):
     """R1: the record that is read is never replaced, by whatever name."""
     before = (folder / "in.csv").read_bytes()
     (folder / "link.csv").symlink_to("in.csv")
@@ -58,7 +58,7 @@ def test_no_output_falls_on_the_record(words, folder):
     assert (folder / "in.csv").read_bytes() == before
 
 
-def test_no_output_falls_on_a_sibling_of_the_record(folder):
+def test_output_never_overwrites_other_components(folder):
     """R1: nor are the other components of a K-NET set, which were not named."""
     for suffix in ("NS", "EW", "UD"):
         (folder / f"x.{suffix}").write_bytes(sample_path(f"synthetic_knet.{suffix}").read_bytes())
@@ -68,7 +68,7 @@ def test_no_output_falls_on_a_sibling_of_the_record(folder):
 
 
 @pytest.mark.slow
-def test_no_output_falls_on_a_body_or_a_cemetery(folder):
+def test_output_never_overwrites_body_or_cemetery(folder):
     """R1: files of bodies and cemeteries are read, too."""
     for name in ("gravestone.toml", "aoyama.csv"):
         (folder / name).write_bytes(sample_path(name).read_bytes())
@@ -80,7 +80,7 @@ def test_no_output_falls_on_a_body_or_a_cemetery(folder):
 
 
 @pytest.mark.parametrize("command", ["batch", "fragility"])
-def test_no_output_falls_on_a_list_of_records(command, folder):
+def test_output_never_overwrites_list_of_records(command, folder):
     """R1: the file that names the records is read, too; under another name it is the same file."""
     (folder / "again.csv").write_bytes((folder / "in.csv").read_bytes())
     (folder / "list.txt").write_text("in.csv\nagain.csv\n")
@@ -92,7 +92,7 @@ def test_no_output_falls_on_a_list_of_records(command, folder):
 
 
 @pytest.mark.parametrize("link", [os.link, os.symlink])
-def test_no_journal_falls_on_a_record(link, folder):
+def test_checkpoint_never_overwrites_record(link, folder):
     """R1: what a batch keeps beside its table goes where an output may go."""
     link("in.csv", "out.csv.journal")
     before = (folder / "in.csv").read_bytes()
@@ -101,14 +101,14 @@ def test_no_journal_falls_on_a_record(link, folder):
     assert (folder / "in.csv").read_bytes() == before
 
 
-def test_outputs_do_not_fall_on_each_other(folder):
+def test_outputs_of_one_name_are_rejected(folder):
     """R1: --csv and --plot of one name are refused before either is written."""
     done = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
     assert done.exit_code == 3 and "the same file" in done.stderr
     assert not (folder / "a.png").exists()
 
 
-def test_a_read_only_file_is_refused(folder):
+def test_read_only_output_is_rejected(folder):
     """R3: whoever made it read-only meant it, also for root."""
     kept = folder / "kept.csv"
     kept.write_text("mine")
@@ -118,7 +118,7 @@ def test_a_read_only_file_is_refused(folder):
     assert kept.read_text() == "mine"
 
 
-def test_a_link_is_followed(folder):
+def test_output_through_link_keeps_link(folder):
     """R3: the link stays a link, what it leads to is written."""
     (folder / "real.csv").write_text("old")
     (folder / "name.csv").symlink_to("real.csv")
@@ -126,7 +126,7 @@ def test_a_link_is_followed(folder):
     assert (folder / "name.csv").is_symlink() and (folder / "real.csv").read_text().startswith("component,")
 
 
-def test_a_pipe_is_written_through(folder):
+def test_output_to_fifo_is_written_through(folder):
     """R3: a FIFO stays one, and its reader gets the file."""
     pipe = folder / "pipe.csv"
     os.mkfifo(pipe)
@@ -138,7 +138,7 @@ def test_a_pipe_is_written_through(folder):
     assert stat.S_ISFIFO(pipe.stat().st_mode) and got[0].startswith("component,")
 
 
-def test_a_device_is_written_through(tmp_path):
+def test_output_to_device_is_written_through(tmp_path):
     """R3: /dev/null is a device afterwards, and /dev/full is said to be full."""
     write_text("/dev/null", "gone")
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)  # noqa: PTH116
@@ -146,7 +146,7 @@ def test_a_device_is_written_through(tmp_path):
         write_text("/dev/full", "too much")
 
 
-def test_a_full_disk_keeps_the_old_file(tmp_path):
+def test_full_disk_keeps_existing_file(tmp_path):
     """The write fails half way: the old file stands, nothing lies beside it, and the reason is said."""
     target = tmp_path / "out.csv"
     target.write_text("old")
@@ -164,7 +164,7 @@ def test_a_full_disk_keeps_the_old_file(tmp_path):
 HOSTILE = ["=cmd|' /C calc'!A0", "@SUM(A1)", "+cmd|x", "'=1", "-x", "'tis", "plain", "=1,2"]
 
 
-def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
+def test_csv_escapes_spreadsheet_formulas(tmp_path):
     """Names from files are texts in every table, and are read back as they were."""
     path = tmp_path / "out.csv"
     write_table(path, ["name", "value"], ([name, -0.5] for name in HOSTILE))
@@ -175,7 +175,7 @@ def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
     assert {value for _, value in cells} == {"-0.5"}
 
 
-def test_a_name_too_long_is_a_sentence(folder):
+def test_overlong_name_gives_one_error(folder):
     """R16: a name of over 255 bytes is refused by the disk, in one line."""
     done = run("slide", "in.csv", "--mu", "0.2", "--csv", "x" * 300 + ".csv")
     assert done.exit_code == 3 and "too long" in done.stderr and "Traceback" not in done.output
@@ -186,7 +186,7 @@ def test_a_name_too_long_is_a_sentence(folder):
     [("slide", "in.csv", "--mu", "0.2", "--csv"), ("stack", "in.csv", "--plot"), ("report", "in.csv", "-o"), ("infer", "--cemetery")],
     ids=" ".join,
 )
-def test_a_link_to_itself_is_a_sentence(words, folder):
+def test_circular_link_gives_one_error(words, folder):
     """The disk finds no file behind it, however often it looks: a traceback with Python before 3.13."""
     (folder / "loop.png").symlink_to("loop.png")
     done = run(*words, "loop.png")
@@ -202,7 +202,7 @@ WHOLE = box(b"ftyp", 12) + box(b"mdat", 50) + box(b"moov", 30)
 
 
 @pytest.mark.parametrize(("content", "good"), [(b"", False), (WHOLE[:-10], False), (WHOLE[:78], False), (WHOLE, True)])
-def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeypatch):
+def test_incomplete_animation_keeps_existing_file(content, good, tmp_path, monkeypatch):
     """R2: an encoder that runs out of disk and says nothing leaves the old film alone."""
     from PIL import Image
 
@@ -222,7 +222,7 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
     assert film.read_bytes() == (content if good else b"old")
 
 
-def test_a_film_that_fills_the_disk_says_so(tmp_path, monkeypatch):
+def test_animation_on_full_disk_states_reason(tmp_path, monkeypatch):
     """R2: of all that ffmpeg tells, its last line is about something else."""
     from PIL import Image
 
@@ -254,7 +254,7 @@ def no_file_over(size):
 
 
 @pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
-def test_a_figure_that_fills_the_disk_is_a_sentence(suffix, tmp_path):
+def test_figure_on_full_disk_gives_one_error(suffix, tmp_path):
     """In the middle of whatever matplotlib does: the .pdf ended in a traceback of its compression."""
     from matplotlib.figure import Figure
 
@@ -269,7 +269,7 @@ def test_a_figure_that_fills_the_disk_is_a_sentence(suffix, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == [target.name] and target.read_bytes() == b"old"
 
 
-def test_a_batch_that_cannot_begin_leaves_no_journal(tmp_path):
+def test_failed_batch_start_leaves_no_checkpoint(tmp_path):
     """An empty one stood in the way of the next run."""
     path = tmp_path / "out.csv.journal"
     with no_file_over(20), pytest.raises(OutputError, match="cannot write"):
@@ -277,7 +277,7 @@ def test_a_batch_that_cannot_begin_leaves_no_journal(tmp_path):
     assert not path.exists()
 
 
-def test_what_a_study_keeps_is_whole_lines(tmp_path):
+def test_checkpoint_on_full_disk_has_whole_lines(tmp_path):
     """A full disk in the middle of a line leaves those before, and the next line stands by itself."""
     path = tmp_path / "kept.jsonl"
     append_line(path, "{1}")
@@ -290,7 +290,7 @@ def test_what_a_study_keeps_is_whole_lines(tmp_path):
     assert read_complete_lines(path, "{") == ["{1}", "{3}"]
 
 
-def test_termination_cleans_up(folder):
+def test_sigterm_cleans_up(folder):
     """R16: SIGTERM while pictures are drawn: the old film stands, nothing lies beside it, exit 143."""
     film = folder / "film.gif"
     film.write_bytes(b"old")
@@ -311,7 +311,7 @@ SHELL = {"full": ">/dev/full", "closed": ">&-"}
 
 @pytest.mark.parametrize("end", SHELL)
 @pytest.mark.parametrize("command", ["cite", "samples", "measure elcentro_1940_ns --json"])
-def test_stdout_that_takes_nothing(command, end, tmp_path):
+def test_full_or_closed_stdout_gives_at_most_one_error(command, end, tmp_path):
     """R10: a full or a closed stdout is one sentence at most, never a traceback."""
     line = f"{sys.executable} -m seisblock {command} {SHELL[end]}"
     done = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -323,14 +323,14 @@ def test_stdout_that_takes_nothing(command, end, tmp_path):
 
 
 @pytest.mark.slow
-def test_stdout_in_latin_1(tmp_path):
+def test_latin_1_stdout_replaces_characters(tmp_path):
     """R16: a terminal that cannot write Greek shows a sign in its place."""
     environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
     done = subprocess.run([*PROGRAM, "measure"], cwd=tmp_path, env=environment, capture_output=True, check=False)
     assert done.returncode == 0 and b"Traceback" not in done.stderr
 
 
-def test_stdout_in_ascii(tmp_path):
+def test_ascii_stdout_replaces_characters(tmp_path):
     """The C locale of a Python that was told not to mend it (a batch job) cannot write a station's Japanese name: a sign in its place."""
     narrow = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C"}
     environment = {**{name: value for name, value in os.environ.items() if name != "PYTHONIOENCODING"}, **narrow}
@@ -339,7 +339,7 @@ def test_stdout_in_ascii(tmp_path):
     assert b"SYN ???? SYNTHETIC" in done.stdout and done.stdout.isascii()
 
 
-def test_names_that_are_not_utf_8(tmp_path):
+def test_non_utf_8_file_name_is_read(tmp_path):
     """R16: a file name of other bytes is read like any other."""
     name = os.path.join(os.fsencode(tmp_path), b"\xb6\xe8.csv")  # noqa: PTH118
     with contextlib.suppress(OSError), open(name, "wb") as file:  # noqa: PTH123
@@ -349,7 +349,7 @@ def test_names_that_are_not_utf_8(tmp_path):
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".parquet"])
-def test_a_batch_over_names_that_are_not_utf_8(suffix, folder):
+def test_batch_over_non_utf_8_names(suffix, folder):
     """R16: the bytes are spelt out in the table, and kept in its journal as they are."""
     if suffix == ".parquet":
         pytest.importorskip("pyarrow")
@@ -363,7 +363,7 @@ def test_a_batch_over_names_that_are_not_utf_8(suffix, folder):
 
 
 @pytest.mark.parametrize("words", ["--csv out.csv --json > out.csv", "--plot out.png >> out.png", "--json >> in.csv"])
-def test_a_file_that_stdout_goes_to_is_no_other_output_and_no_input(words, folder):
+def test_stdout_file_is_neither_output_nor_input(words, folder):
     """What stdout holds would be lost behind the new file; the record would grow by an answer."""
     before = (folder / "in.csv").read_bytes()
     done = subprocess.run(
@@ -377,7 +377,7 @@ def test_a_file_that_stdout_goes_to_is_no_other_output_and_no_input(words, folde
     assert (folder / "in.csv").read_bytes() == before
 
 
-def test_a_nameless_pipe_is_written_through(folder):
+def test_process_substitution_is_written_through(folder):
     """A shell's process substitution is a name such as /dev/fd/63; so is /dev/stdout where it is a pipe."""
     line = f"{sys.executable} -m seisblock slide in.csv --mu 0.2 --quiet --json --csv >(cat > got.csv) > got.json; wait $!"
     done = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
@@ -401,7 +401,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("what", REFUSED)
-def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, monkeypatch):
+def test_output_path_is_checked_before_solving(what, folder, monkeypatch):
     """The first thing that a command does; the record need not even be there."""
     words, says = REFUSED[what]
     monkeypatch.setattr("shutil.which", lambda name: None)
@@ -422,7 +422,7 @@ OTHER_NAMES = (
 
 
 @pytest.mark.parametrize(("line", "says"), OTHER_NAMES)
-def test_a_text_is_not_written_under_the_name_of_another_format(line, says, folder):
+def test_output_suffix_of_other_format_is_rejected(line, says, folder):
     """A name that says PDF, and holds HTML, opens in nothing; what has no suffix, or one of the user's own, is written as ever."""
     done = run(*line.split())
     assert done.exit_code == 3 and says in " ".join(done.stderr.split()), done.output
@@ -430,20 +430,20 @@ def test_a_text_is_not_written_under_the_name_of_another_format(line, says, fold
 
 
 @pytest.mark.parametrize("name", ["rows", "rows.txt", "rows.CSV", "rows.run1", "v1.2"])
-def test_names_that_say_nothing_else_are_taken(name, folder):
+def test_output_with_unknown_suffix_is_accepted(name, folder):
     """Whoever names a table without a suffix, or with one of their own, gets it."""
     assert run("overturn-rate", "--cemetery", "aoyama.csv", "--csv", name).exit_code == 0
     assert (folder / name).read_text().startswith("pga_m_s2,")
 
 
 @pytest.mark.parametrize("words", [("report", "-o"), ("validate", "--html")], ids=" ".join)
-def test_a_page_that_leads_nowhere_is_refused_first(words, folder):
+def test_unwritable_page_is_rejected_first(words, folder):
     """Pages take long to make."""
     done = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
     assert done.exit_code == 3 and "the folder nowhere does not exist" in done.stderr
 
 
-def test_what_a_killed_run_left_is_swept(tmp_path):
+def test_stale_temporary_files_are_removed(tmp_path):
     """SIGKILL in the middle of a write leaves a hidden file: the next output there takes it away, but none that a living run holds."""
     fcntl = pytest.importorskip("fcntl")
     script = (

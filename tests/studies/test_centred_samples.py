@@ -101,7 +101,7 @@ def test_samples_drawn_at_the_middle_are_the_body_itself():
 
 @pytest.mark.parametrize("name", ["gravestone", "refrigerator"])
 @pytest.mark.parametrize("factor", [0.5, 2.0, 6.0])
-def test_probability_is_the_verdict_where_nothing_varies(name, factor):
+def test_probability_without_variation_equals_outcome(name, factor):
     """0 or 1, also of a body whose kind has ranges; `respond` and `rock`."""
     body, motion = load_block(name), shaking("hanmer_springs_2016", "1", factor)
     falls = solve_respond(body, motion, mu=0.5).outcome.overturned
@@ -110,7 +110,7 @@ def test_probability_is_the_verdict_where_nothing_varies(name, factor):
     assert perturb(body, motion, 2, spread=still).overturned == 2 * rock_verdict(body, motion).overturned
 
 
-def test_verdict_and_probability_agree_near_the_threshold():
+def test_outcome_agrees_with_probability_near_threshold():
     """Of 60 cases around the shaking at which half of the samples fall, at least 80 % have the verdict of the majority."""
     bodies = ((load_block("gravestone"), 0.6), (of_kind(Block(0.2424, 0.72), "gravestone"), 0.6), (Block(0.3, 1.2), 0.6))
     records = (("synthetic_jma.csv", "NS"), ("synthetic_jma.csv", "EW"), ("hanmer_springs_2016", "1"), ("shafter_1989", "NS"))
@@ -147,7 +147,7 @@ def test_restitution_varies_to_both_sides_of_a_plastic_impact():
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.03])
-def test_a_share_of_the_rocking_impact_is_one_of_its_own_law(offset):
+def test_restitution_share_scales_housner_ratio(offset):
     """With feet that hold, a share that is nearly one changes nearly nothing, and one of 0.9 brings the block to rest sooner."""
     pulse = Motion.from_arrays(3.6 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.002)
     body = rigid_body(Block(0.24, 0.8, centroid_offset=offset))
@@ -158,7 +158,7 @@ def test_a_share_of_the_rocking_impact_is_one_of_its_own_law(offset):
     assert fates.end_s[2] < fates.end_s[0] - 0.05
 
 
-def test_kinds_differ_in_the_prior_of_their_edges():
+def test_kind_sets_prior_of_edge_wear():
     """Only gravestones are worn, the others are sharp; an inset that is given replaces the prior, and a wrong kind is refused."""
     block = Block(0.24, 0.72)
     assert [of_kind(block, kind).inset for kind in KINDS] == pytest.approx([0.012, 0.0, 0.0, 0.0])

@@ -31,8 +31,8 @@ from seisblock.studies.fragility.lognormal import Lognormal, fit_fragility, fit_
 from seisblock.studies.fragility.run import prepare_bodies, run_fragility
 from seisblock.studies.fragility.runners import RUNNERS, version_draws
 from seisblock.studies.fragility.suite import make_suite
-from tests.batch.conftest import shaking
 from tests.motions import synthetic_suite
+from tests.studies.batch.conftest import shaking
 
 INDEPENDENT = 1e-3
 """Two optimisers of one likelihood; what the issue asks."""
@@ -49,12 +49,12 @@ def records():
     return synthetic_suite(20, seed=3, seconds=20.0)
 
 
-def drawn(count, *, median=0.7, beta=0.45, seed=0):
+def sample(count, *, median=0.7, beta=0.45, seed=0):
     """Return intensities at which it happens, drawn from a lognormal."""
     return median * np.exp(beta * np.random.default_rng(seed).normal(size=count))
 
 
-def with_ones(values):
+def add_constant(values):
     """Return a column of ones beside another."""
     return np.column_stack([np.ones(len(values)), values])
 
@@ -69,19 +69,19 @@ def by_statsmodels(columns, happened, runs):
 
 class TestFits:
     @pytest.mark.parametrize("seed", range(4))
-    def test_stripes_are_the_probit_regression_of_others(self, seed):
+    def test_stripes_fit_equals_statsmodels_probit(self, seed):
         """Median and beta are those of statsmodels' binomial GLM, at forty levels and at five."""
         levels = np.geomspace(0.1, 4.0, 40 if seed % 2 else 5)
-        happened = (drawn(44, seed=seed)[:, None] <= levels).sum(axis=0)
-        a, b = by_statsmodels(with_ones(np.log(levels)), happened, 44)
+        happened = (sample(44, seed=seed)[:, None] <= levels).sum(axis=0)
+        a, b = by_statsmodels(add_constant(np.log(levels)), happened, 44)
         found = fit_fragility(levels, happened, 44)
         assert found.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert found.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
 
-    def test_limits_together_are_one_regression_with_a_constant_each(self):
+    def test_joint_fit_of_limits_equals_statsmodels(self):
         """One beta for three limits is the slope of statsmodels' regression with three constants; the medians rise."""
         levels = np.geomspace(0.1, 8.0, 30)
-        happened = np.array([(factor * drawn(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
+        happened = np.array([(factor * sample(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
         design = np.column_stack([np.tile(np.log(levels), 3), np.repeat(np.eye(3), 30, axis=0)])
         b, *constants = by_statsmodels(design, happened.ravel(), 40)
         medians, beta = fit_lognormals_shared_beta(levels, happened[None].astype(float), np.full((1, 30), 40.0))
@@ -89,26 +89,26 @@ class TestFits:
         assert beta[0] == pytest.approx(1.0 / b, rel=INDEPENDENT)
         assert (np.diff(medians[0]) > 0.0).all()
 
-    def test_samples_side_by_side_are_samples_alone(self):
+    def test_bootstrap_fits_equal_separate_fits(self):
         """A bootstrap's samples, fitted together, are to 1e-8 what each is fitted by itself; the one without a curve is not a number."""
         levels = np.geomspace(0.1, 4.0, 25)
-        counts = np.array([(drawn(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
+        counts = np.array([(sample(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
         medians, betas = fit_lognormals(levels, counts, np.full((1, 25), 30.0))
         alone = [fit_fragility(levels, row, 30) for row in counts[:-1]]
         assert medians[:-1] == pytest.approx([each.median for each in alone], rel=1e-8)
         assert betas[:-1] == pytest.approx([each.beta for each in alone], rel=1e-8)
         assert np.isnan([medians[-1], betas[-1]]).all()
 
-    def test_first_exceedances_have_their_moments(self):
+    def test_ida_fit_equals_log_moments(self):
         """Where all happened: mean and standard deviation of the logarithms."""
-        logs = np.log(drawn(30))
+        logs = np.log(sample(30))
         medians, betas = moments(logs, np.ones((1, 30)), 10.0)
         assert medians[0] == pytest.approx(np.exp(logs.mean()), rel=ROUND_OFF)
         assert betas[0] == pytest.approx(logs.std(ddof=1), rel=ROUND_OFF)
 
-    def test_those_beyond_the_highest_level_count_as_beyond_it(self):
+    def test_ida_fit_is_right_censored(self):
         """Censored at the top: scipy's fit of a normal sample censored on the right."""
-        logs, top = np.log(drawn(40)), np.log(0.9)
+        logs, top = np.log(sample(40)), np.log(0.9)
         seen = logs[logs <= top]
         mean, deviation = norm.fit(CensoredData.right_censored(np.minimum(logs, top), logs > top))
         medians, betas = moments(np.where(logs <= top, logs, np.inf), np.ones((1, 40)), top)
@@ -116,14 +116,14 @@ class TestFits:
         assert medians[0] == pytest.approx(np.exp(mean), rel=INDEPENDENT)
         assert betas[0] == pytest.approx(deviation, rel=INDEPENDENT)
 
-    def test_a_weight_of_two_is_the_same_motion_twice(self):
+    def test_fit_weight_equals_repeated_motion(self):
         """Samples of the bootstrap count motions; counting one twice is having it twice."""
-        logs = np.log(drawn(12))
+        logs = np.log(sample(12))
         twice = moments(np.append(logs, logs[3]), np.ones((1, 13)), 10.0)
         weighted = moments(logs, np.where(np.arange(12) == 3, 2.0, 1.0)[None], 10.0)
         assert np.ravel(weighted) == pytest.approx(np.ravel(twice), rel=ROUND_OFF)
 
-    def test_the_curve_is_the_lognormal_distribution(self):
+    def test_fragility_curve_equals_lognormal_distribution(self):
         """Probability and its inverse; nothing at zero."""
         curve = Lognormal(2.0, 0.5)
         assert curve.probability([0.0, 2.0, 2.0 * np.exp(0.5)]) == pytest.approx([0.0, 0.5, ndtr(1.0)])
@@ -139,7 +139,7 @@ class TestFits:
             ([6, 5, 4, 3], "do not increase with the level"),
         ],
     )
-    def test_nothing_is_drawn_through_nothing(self, happened, says):
+    def test_fit_rejects_degenerate_counts(self, happened, says):
         """No exceedance, all, a jump between two levels, or none that rises: a sentence that says which levels would tell."""
         with pytest.raises(ParameterError, match=says):
             fit_fragility([1.0, 2.0, 4.0, 8.0], happened, 10)
@@ -153,7 +153,7 @@ class TestFits:
             ([1.0, 2.0], [1], 2, "as many counts"),
         ],
     )
-    def test_counts_that_make_no_sense_are_refused(self, levels, happened, runs, says):
+    def test_fit_rejects_invalid_counts(self, levels, happened, runs, says):
         """One level, a negative one, more than there were runs, counts that are missing."""
         with pytest.raises(ParameterError, match=says):
             fit_fragility(levels, happened, runs)
@@ -161,7 +161,7 @@ class TestFits:
 
 class TestIntensity:
     @pytest.mark.parametrize("name", list(IM))
-    def test_a_level_is_reached(self, name, records):
+    def test_scaled_motion_reaches_intensity_level(self, name, records):
         """A motion times its factor has the intensity of the level, in every measure: the Arias intensity grows with the square."""
         measure, motion = IM[name], motion_of(records[0], "EW")
         share = measure.share(SHELF, STANDARD_GRAVITY)
@@ -171,7 +171,7 @@ class TestIntensity:
         assert measure.of(scaled) * share == pytest.approx(level, rel=1e-9)
         assert factor == pytest.approx(3.7 ** (0.5 if name == "arias" else 1.0), rel=1e-12)
 
-    def test_the_measures_are_those_of_the_component_solved(self):
+    def test_intensity_measures_equal_component_measures(self):
         """PGA, PGV and PGD are what `measure` says of the component, and of an azimuth."""
         record = seisblock.read("synthetic_jma.csv")
         for name in ("EW", "37"):
@@ -180,7 +180,7 @@ class TestIntensity:
             found = [IM[key].of(motion) for key in ("pga", "pgv", "pgd", "arias")]
             assert found == pytest.approx([told.pga_m_s2, told.pgv_m_s, told.pgd_m, told.arias_m_s], rel=1e-12)
 
-    def test_p_pgv_is_of_the_body(self):
+    def test_p_pgv_measure_scales_with_body_size(self):
         """P PGV/g: twice the size, p over the root of two."""
         shares = [IM["p*pgv"].share(Block(0.3 * k, 1.2 * k), STANDARD_GRAVITY) for k in (1.0, 2.0)]
         assert shares[0] == pytest.approx(SHELF.frequency_parameter() / STANDARD_GRAVITY)
@@ -189,7 +189,7 @@ class TestIntensity:
             IM["p*pgv"].share(0.3, STANDARD_GRAVITY)
 
     @pytest.mark.parametrize("text", ["pgx", "sa", "sa=x", "sa=-1", "pga=2"])
-    def test_what_is_no_measure_is_refused(self, text):
+    def test_intensity_measure_rejects_invalid_name(self, text):
         """An unknown name, a period that is missing, none, or too many."""
         with pytest.raises(ParameterError):
             intensity_measure(text)
@@ -197,20 +197,20 @@ class TestIntensity:
     @pytest.mark.parametrize(
         ("text", "solver"), [("fall", "rock"), ("lean", "rock"), ("rock=2", "rock"), ("slip=5cm", "rock"), ("overturn", "slide")]
     )
-    def test_what_is_no_limit_is_refused(self, text, solver):
+    def test_damage_state_rejects_invalid_name(self, text, solver):
         """An unknown name, a threshold that is missing or too many, and what a solver does not answer."""
         with pytest.raises(ParameterError):
             limit_states(text, solver)
 
 
 class TestRuns:
-    def test_no_curve_lies_beyond_any_shaking(self, records):
+    def test_fragility_rejects_negligible_records(self, records):
         """Records of a ten-thousandth of their strength, scaled back, are no records: what a body does under them is no fragility."""
         faint = [process.scale(record, 1e-4) for record in records]
         with pytest.raises(ParameterError, match="the median requires half of the records to be scaled by"):
             run_fragility(faint, SHELF, "rock", levels=np.linspace(1.0, 16.0, 12), bootstrap=2)
 
-    def test_many_factors_are_single_runs(self, records):
+    def test_runs_at_factors_equal_single_runs(self, records):
         """Each solver's rows at once say what its single runs say, factor by factor."""
         motion = motion_of(records[1], "EW")
         factors = np.array([0.3, 0.7, 1.0, 1.4, 2.0, 3.0])
@@ -233,7 +233,7 @@ class TestRuns:
         slid = [solve_slide(0.2, each).outcome for each in scaled]
         assert ends["slide"].slip_m == pytest.approx([max(each.max_slip_m, abs(each.final_slip_m)) for each in slid], abs=1e-12)
 
-    def test_versions_lean_as_each_does_alone(self, records):
+    def test_tilt_of_sample_is_relative_to_its_slenderness(self, records):
         """A lean is over the slenderness of the version that leans, worn and resized as it is, not of the body in the middle."""
         motion, factors, draws = motion_of(records[1], "EW"), np.array([0.5, 1.0, 1.6]), version_draws(5, 4)
         shelf, (size, second, rough, bouncy, _, wear, wide) = SHELF.with_wear(0.1), draws.T
@@ -267,7 +267,7 @@ class TestRuns:
             assert stood.sum() >= 5 and (ends.tilt_ratio[stood] > 0.1).any()
             assert ends.tilt_ratio[stood] == pytest.approx([lean for fell, lean in alone if not fell], rel=1e-6, abs=1e-9)
 
-    def test_a_pile_is_followed_too(self):
+    def test_pile_runs_equal_solve_stack(self):
         """A stone that falls at some factor is what the pile's own solver says."""
         (placed,) = prepare_bodies("lantern", "stack", {"points": 2})
         record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
@@ -277,7 +277,7 @@ class TestRuns:
         assert ends.overturned.tolist() == [outcome.overturned_any]
         assert ends.slip_m[0] == max(outcome.residual_slip_m.values())
 
-    def test_where_rocking_begins_is_known(self, records):
+    def test_rocking_initiation_fragility_has_closed_form(self, records):
         """A block leaves its rest at a PGA of g B/H: over PGV the first exceedances are g B/H times PGV/PGA, their moments the curve's."""
         levels = np.geomspace(0.02, 3.0, 800)
         (curve,) = run_fragility(records, SHELF, "rock", limits="rock", im="pgv", method="ida", levels=levels, bootstrap=20).curves
@@ -291,7 +291,7 @@ class TestRuns:
         with pytest.raises(ParameterError, match=r"never exceeded up to 2[34].* gal, always from 2[45]"):
             run_fragility(records, SHELF, "rock", limits="rock", im="pga", levels=[2.3, 2.4, 2.5, 2.6], bootstrap=2)
 
-    def test_three_methods_agree_on_what_is_monotone(self, records):
+    def test_stripes_and_ida_agree_for_sliding(self, records):
         """Sliding farther than a length is monotone: stripes and first exceedances give one median and beta within their intervals."""
         found = {
             method: run_fragility(records, 0.1, "slide", limits="slip=5cm", im="pgv", method=method, bootstrap=200).curves[0]
@@ -302,25 +302,25 @@ class TestRuns:
         assert low < found["ida"].median < high
         assert found["ida"].beta == pytest.approx(found["stripes"].beta, rel=0.15)
 
-    def test_a_cloud_is_a_regression_on_the_records_as_they_are(self, records):
+    def test_cloud_fit_equals_statsmodels(self, records):
         """What happened under the records unscaled, on the logarithm of the intensity, as statsmodels regresses it."""
         factors = np.exp(np.random.default_rng(5).normal(0.4, 0.3, 20))
         uneven = [Preparation(scale=float(factor)).apply(record) for record, factor in zip(records, factors, strict=True)]
         (curve,) = run_fragility(uneven, SHELF, "rock", im="pgd", method="cloud", bootstrap=50).curves
         motions = [motion_of(record, "EW") for record in uneven]
         fell = np.array([float(solve_rock(SHELF, motion).outcome.overturned) for motion in motions])
-        a, b = by_statsmodels(with_ones(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
+        a, b = by_statsmodels(add_constant(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
         assert curve.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert curve.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
         assert sum(level.exceeding for level in curve.levels) == fell.sum()
 
-    def test_levels_are_chosen_where_it_happens(self, records):
+    def test_default_levels_span_the_transition(self, records):
         """Nobody says levels: hardly any fall at the lowest, nearly all at the highest."""
         (curve,) = run_fragility(records, SHELF, "rock", im="pgv", steps=15, bootstrap=2).curves
         shares = [level.exceeding / level.runs for level in curve.levels]
         assert len(shares) == 15 and shares[0] <= 0.02 and shares[-1] >= 0.95
 
-    def test_limits_are_states_one_beyond_the_other(self, records):
+    def test_nested_damage_states_share_beta(self, records):
         """Rocking, a lean and a fall share a beta; their medians rise, and so do the counts from state to state at every level."""
         study = run_fragility(records, SHELF, "rock", limits=("overturn", "rock", "lean=0.5"), im="pgv", steps=20, bootstrap=20)
         assert [curve.limit for curve in study.curves] == ["rock", "lean=0.5", "overturn"]
@@ -330,7 +330,7 @@ class TestRuns:
         assert (np.diff(counts, axis=0) <= 0).all()
         assert len({curve.beta_alone for curve in study.curves}) == 3
 
-    def test_the_same_seed_gives_the_same_intervals(self, records):
+    def test_fragility_is_reproducible_by_seed(self, records):
         """Versions and samples are seeded; another seed moves them."""
 
         def ask(seed):
@@ -339,7 +339,7 @@ class TestRuns:
         assert ask(1) == ask(1)
         assert ask(1).median_interval != ask(2).median_interval
 
-    def test_components_of_a_record_are_drawn_together(self, records):
+    def test_bootstrap_draws_components_of_record_together(self, records):
         """The interval is over records: the same shaking twice in each of them says nothing new."""
         twice = [
             Record(station=r.station, start=None, dt=r.dt, components=(r.components[0], Component("NS", r.components[0].acceleration, 0.0)))
@@ -366,7 +366,7 @@ class TestRuns:
             ({"confidence": 1.5}, r"must lie in \(0, 1\)"),
         ],
     )
-    def test_what_cannot_be_asked_is_a_sentence(self, change, says, records):
+    def test_run_fragility_rejects_invalid_requests(self, change, says, records):
         """One record, levels that say nothing, and words that mean nothing."""
         asked = {"im": "pgv", "bootstrap": 2, **change}
         some = records[: asked.pop("records", 20)]
@@ -374,14 +374,14 @@ class TestRuns:
         with pytest.raises(ParameterError, match=says):
             run_fragility(some, 0.2 if solver == "slide" else SHELF, solver, **asked)
 
-    def test_a_record_without_shaking_is_named(self, records):
+    def test_run_fragility_names_zero_record(self, records):
         """No factor brings stillness to a level."""
         still = Record(station="Q", start=None, dt=0.02, components=(Component("EW", np.zeros(100), 90.0),), source="still.csv")
         with pytest.raises(ParameterError, match=r"still.csv, EW: the motion is zero"):
             run_fragility([*records, still], SHELF, "rock")
 
 
-def passed_of(log_capacities, levels):
+def exceedances_from(log_capacities, levels):
     """Return runs, (m, n, v, 1), of motions and versions that happen from their own intensity on."""
     return (log_capacities[:, None, :] <= np.log(levels)[:, None])[..., None]
 
@@ -391,7 +391,11 @@ def one_curve(log_capacities, levels, *, method="stripes", measures=(PGV,), valu
     count = len(log_capacities)
     suite = make_suite(synthetic_suite(count, seconds=3.0), (), Preparation())
     runs = Exceedances(
-        "shelf", (limit_state("overturn"),), passed_of(log_capacities, levels), np.tile(levels, (count, 1)), values or [np.ones(count)]
+        "shelf",
+        (limit_state("overturn"),),
+        exceedances_from(log_capacities, levels),
+        np.tile(levels, (count, 1)),
+        values or [np.ones(count)],
     )
     ((curve, _),) = estimate_curves(runs, suite, FitOptions(method, measures, 0.95, 20, 0))
     return curve
@@ -399,7 +403,7 @@ def one_curve(log_capacities, levels, *, method="stripes", measures=(PGV,), valu
 
 class TestScatter:
     @pytest.mark.parametrize("method", ["stripes", "ida"])
-    def test_the_law_of_total_variance(self, method):
+    def test_scatter_obeys_law_of_total_variance(self, method):
         """Motions of beta 0.4, versions whose medians differ by 0.3: both are found, and their squares add up to that of all runs."""
         dice = np.random.default_rng(2)
         motions, versions = dice.normal(0.0, 0.4, 60), dice.normal(0.0, 0.3, 40)
@@ -408,7 +412,7 @@ class TestScatter:
         assert curve.dispersion.beta_parameter == pytest.approx(versions.std(ddof=1), rel=0.02)
         assert curve.beta == pytest.approx(curve.dispersion.beta_sum, rel=0.05)
 
-    def test_versions_of_the_body_are_those_that_perturb_makes(self, records):
+    def test_fragility_samples_equal_perturb_samples(self, records):
         """The share of versions that fall at a factor of 1 is that of `perturb` with the shaking left alone."""
         motion = motion_of(records[4], "EW")
         (placed,) = prepare_bodies([SHELF], "rock", {})
@@ -419,14 +423,14 @@ class TestScatter:
         assert int(ends.overturned.sum()) == same.overturned
         assert 0 < same.overturned < 60
 
-    def test_a_motion_that_stops_falling_is_not_monotone(self):
+    def test_non_monotone_motion_is_counted(self):
         """It falls at one level and stands at the next: counted, and its first exceedance is what `ida` takes."""
         passed = np.array([[False, True, False, True], [False, False, True, True], [False, False, False, False]])
         found = capacities(passed, np.log([1.0, 2.0, 4.0, 8.0]))
         assert found.monotone.tolist() == [False, True, True]
         assert np.exp(found.log_factor) == pytest.approx([np.sqrt(2.0), np.sqrt(8.0), np.inf])
 
-    def test_a_better_measure_scatters_less(self):
+    def test_efficiency_slope_equals_scipy_regression(self):
         """Capacities that depend on the shape of the motion: the slope that is left is that put in, as scipy's regression has it."""
         dice = np.random.default_rng(1)
         shape = dice.normal(0.0, 0.5, 40)
@@ -438,7 +442,7 @@ class TestScatter:
         better = efficiency_of_capacities(PGV, np.exp(-0.8 * shape), logs[:, None], [("ln(pgv/pga)", shape)])
         assert better.beta < 0.5 * found.beta and better.sufficiency[0].probability > 0.05
 
-    def test_a_cloud_has_a_slope_too(self):
+    def test_cloud_slope_equals_statsmodels(self):
         """A property that matters comes out of the ratio of the likelihoods as statsmodels has it."""
         dice = np.random.default_rng(4)
         x, z = dice.normal(0.0, 0.6, 120), dice.normal(0.0, 1.0, 120)
@@ -448,10 +452,10 @@ class TestScatter:
         assert found.sufficiency[0].slope_ratio == pytest.approx(-c / b, rel=INDEPENDENT)
         assert found.sufficiency[0].probability < 1e-4 and a == a
 
-    def test_what_is_lognormal_fits_and_what_is_not_does_not(self):
+    def test_goodness_of_fit_rejects_bimodal_data(self):
         """Forty draws of a lognormal pass, two humps far apart do not: in stripes, first exceedances and clouds."""
         levels = np.geomspace(0.02, 20.0, 60)
-        one, two = np.log(drawn(40)), np.log(np.concatenate([drawn(30, median=0.1, beta=0.1), drawn(10, median=3.0, beta=0.1)]))
+        one, two = np.log(sample(40)), np.log(np.concatenate([sample(30, median=0.1, beta=0.1), sample(10, median=3.0, beta=0.1)]))
         for logs, fits in ((one, True), (two, False)):
             counts = (np.exp(logs)[:, None] <= levels).sum(axis=0).astype(float)
             dice = np.random.default_rng(0)
@@ -465,7 +469,7 @@ class TestScatter:
             assert goodness_of_cloud(fit_fragility(x, fell, 1), x, fell, 1.0, dice).fits is fits
 
 
-def test_every_direction_counts_where_they_are_asked_for():
+def test_all_azimuths_counts_any_direction():
     """A record passes where the block falls in any of 36 directions, at the largest intensity of them; two-sided in 72; it is said."""
     few = [
         Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(seed)[1], strict=True)), 0.005 * (1 + seed))
@@ -489,7 +493,7 @@ def test_every_direction_counts_where_they_are_asked_for():
         run_fragility(few, seisblock.load_pile("wagata"), "stack", components="all-azimuths")
 
 
-def test_on_a_storey_the_intensity_is_that_of_the_ground():
+def test_floor_motion_intensity_is_that_of_ground():
     """Of what stands on a storey: each run is that of the storey's motion times the same factor, at a level of the ground."""
     storey = Storey(0.5, height=0.9)
     records = synthetic_suite(3)

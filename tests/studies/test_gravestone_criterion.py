@@ -31,7 +31,7 @@ SAO = Pile("sao", (PileStone("sao", 8 * SUN, 8 * SUN, 20 * SUN),), mu=2.0)
 SMALL = {"frequencies": (1.0,), "pgas": (2.0, 4.0), "ratios": (2.0, 3.0, 4.0), "points": 2, "duration": 3.0}
 
 
-def test_the_grid_is_the_papers():
+def test_study_grid_equals_paper():
     """13 amplitudes of 100 to 1300 gal, 6 frequencies, 29 stones of H/B 1.25 to 6.5 (section 3, table 1)."""
     assert (len(PGAS), PGAS[0], PGAS[-1]) == (13, pytest.approx(1.0), pytest.approx(13.0))
     assert (FREQUENCIES_HZ[0], FREQUENCIES_HZ[-1], len(FREQUENCIES_HZ)) == (0.5, 3.0, 6)
@@ -40,7 +40,7 @@ def test_the_grid_is_the_papers():
     assert sine_base(1.0, 3.0).time[-1] == pytest.approx(20.0)
 
 
-def test_exact_thresholds_give_their_level_back():
+def test_fit_of_exact_thresholds_recovers_level():
     """Thresholds on a hyperbola of level a(f) fit a(f), and levels of eq. (9) fit its p, q, r."""
     levels = {f: float(overturning_level(f, PLAIN)) for f in FREQUENCIES_HZ}
     thresholds = [Threshold(f, a, levels[f] / a) for f in FREQUENCIES_HZ for a in PGAS]
@@ -50,7 +50,7 @@ def test_exact_thresholds_give_their_level_back():
     assert fit_criterion({1.0: 8.0, 2.0: 12.0}) is None
 
 
-def test_a_study_can_be_taken_up_again(tmp_path):
+def test_study_resumes_from_checkpoint(tmp_path):
     """Finished sines are not run again, a half-written last line is, and the answer is the same."""
     held = tmp_path / "study.jsonl"
     whole = criterion_study(SAO, **SMALL, resume=held)
@@ -67,7 +67,7 @@ def test_a_study_can_be_taken_up_again(tmp_path):
     assert len(held.read_text(encoding="utf-8").splitlines()) == 2  # nothing is left of the half-written line
 
 
-def test_files_of_another_study_are_refused(tmp_path):
+def test_study_rejects_checkpoint_of_another_study(tmp_path):
     """What belongs to another pile, or is no study, is one sentence, and stays as it is."""
     held = tmp_path / "study.jsonl"
     criterion_study(SAO, **SMALL, resume=held)
@@ -86,14 +86,14 @@ def test_files_of_another_study_are_refused(tmp_path):
         criterion_study(SAO, pgas=())
 
 
-def test_one_stone_falls_where_the_rigid_block_does():
+def test_single_stone_level_is_near_rigid_block():
     """At 1 Hz the level of one stone on 5 x 5 points is near that of a rigid block with pivots at 0.8."""
     study = criterion_study(SAO, frequencies=(1.0,), pgas=(3.0, 5.0), ratios=RATIOS, duration=6.0)
     rigid = rigid_levels(study, SAO, points=5)
     assert study.levels[1.0] == pytest.approx(rigid[1.0], rel=0.06)
 
 
-def test_a_dowelled_top_is_one_rigid_block():
+def test_dowelled_stones_form_one_rigid_block():
     """Sao and jodai as one body: its mass, its centre of gravity and its inertia are those of both stones."""
     pile = load_pile("wagata", reinforced=True)
     block = rigid_top(pile, 5)
@@ -108,7 +108,7 @@ def test_a_dowelled_top_is_one_rigid_block():
     assert (block.total_mass, block.centroid_height, block.centroid_inertia) == pytest.approx((mass, height, inertia))
 
 
-def test_a_sine_as_a_record_has_the_threshold_of_the_sine():
+def test_sine_record_has_threshold_of_sine():
     """A record that is a sine topples the stones that the sine does, at its own equivalent frequency."""
     # a cosine taper keeps its velocity free of an offset
     motion = sine_base(2.0, 1.0, 6.0)

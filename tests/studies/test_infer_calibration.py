@@ -49,7 +49,7 @@ def shakings():
 
 
 @pytest.fixture(scope="module")
-def fallen():
+def stones_overturned():
     """Which of Aoyama's stones fall as rigid blocks, sharp and worn, under each shaking at each level."""
     found = []
     for (motion, peak, frequency), inset, level in itertools.product(shakings(), (0.0, 0.1), LEVELS):
@@ -59,61 +59,61 @@ def fallen():
     return found
 
 
-def holds(interval, truth):
+def contains(interval, truth):
     """Whether an interval, or a bound, holds the truth."""
     low, high = interval
     return (low is None or low <= truth) and (high is None or truth <= high)
 
 
-def share_held(fallen, edges=None, *, known=True):
+def coverage(stones_overturned, edges=None, *, known=True):
     """Return the share of surveys of 60 stones whose 90 % interval holds the PGA."""
     rng, held = np.random.default_rng(3), []
-    for inset, frequency, pga, falls in fallen:
+    for inset, frequency, pga, falls in stones_overturned:
         if (edges is not None and inset != edges) or not 1 < falls.sum() < falls.size - 1:
             continue
         chosen = rng.integers(0, falls.size, 60)
         told = frequency if known else frequency * float(np.exp(rng.normal(0.0, 0.2)))
         estimate = estimate_shaking(counted_survey(AOYAMA, int(falls[chosen].sum()), 60), told)
-        held.append(holds(estimate.pga_interval_m_s2, pga))
+        held.append(contains(estimate.pga_interval_m_s2, pga))
     return float(np.mean(held))
 
 
 @pytest.mark.slow
-def test_blocks_on_records_are_held_as_often_as_is_claimed(fallen):
+def test_infer_coverage_for_rigid_blocks_under_records(stones_overturned):
     """N9: rigid blocks, sharp and worn, under recorded and synthetic motions: 85 to 95 % of the 90 % intervals hold the PGA.
 
     So few surveys leave 2 % more open; those of which nothing or all fell, which any bound holds, do not count.
     """
-    assert len(fallen) >= 60
-    assert 0.85 <= share_held(fallen) <= 0.97
-    assert share_held(fallen, known=False) >= 0.83
+    assert len(stones_overturned) >= 60
+    assert 0.85 <= coverage(stones_overturned) <= 0.97
+    assert coverage(stones_overturned, known=False) >= 0.83
     for edges in (0.0, 0.1):
-        assert share_held(fallen, edges) >= 0.82
+        assert coverage(stones_overturned, edges) >= 0.82
 
 
 @pytest.mark.slow
-def test_without_the_bias_sharp_blocks_are_missed(fallen):
+def test_infer_without_bias_misses_sharp_blocks_high(stones_overturned):
     """What was wrong: with eq. (9) taken at its word every miss lies above the interval."""
     bare = Assumptions(bias=0.0, common_error=0.3, stone_error=0.1, frequency_error=0.0)
     missed = []
-    for inset, frequency, pga, falls in fallen:
+    for inset, frequency, pga, falls in stones_overturned:
         low, high = estimate_shaking(counted_survey(AOYAMA, int(falls.sum()), 100), frequency, bare).pga_interval_m_s2
-        if inset == 0.0 and not holds((low, high), pga):
+        if inset == 0.0 and not contains((low, high), pga):
             missed.append(high is not None and pga > high)
-    assert len(missed) > 0.2 * len(fallen) / 2 and np.mean(missed) > 0.9
+    assert len(missed) > 0.2 * len(stones_overturned) / 2 and np.mean(missed) > 0.9
 
 
-def test_the_surveyed_rates_of_tottori_are_held():
+def test_infer_intervals_contain_tottori_pga():
     """[Furukawa2009]_ table 6: of six recorded PGAs, the rates taken as of 100 stones, five or six lie in the interval; Hino is one."""
     held = {}
     for survey in SURVEYS:
         estimate = estimate_shaking(counted_survey(AOYAMA, round(100 * survey.rate), 100), survey.frequency)
-        held[survey.name] = holds(estimate.pga_interval_m_s2, survey.pga)
+        held[survey.name] = contains(estimate.pga_interval_m_s2, survey.pga)
     assert sum(held.values()) >= 5 and len(held) == 6
     assert held["Hino"]
 
 
-def test_known_edges_narrow_the_interval():
+def test_infer_known_edges_narrow_the_interval():
     """Sharp stones need more than worn ones, and either is known better than something between."""
     from seisblock.bodies.edge_wear import EdgeWear
 
@@ -124,29 +124,29 @@ def test_known_edges_narrow_the_interval():
     assert width[0] < width[1]
 
 
-def marked(falls):
+def mark_stones(falls):
     """Return Aoyama's stones, marked."""
     return replace(AOYAMA, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(AOYAMA.stones, falls, strict=True)))
 
 
-def test_an_impossible_survey_is_named():
+def test_infer_warns_of_impossible_survey():
     """N10: squat stones fell and slender ones stand; a survey that follows the criterion, with its scatter, is not named."""
-    upside_down = marked_survey(marked(AOYAMA.ratios < np.median(AOYAMA.ratios)))
+    upside_down = marked_survey(mark_stones(AOYAMA.ratios < np.median(AOYAMA.ratios)))
     assert check_consistency(upside_down).is_inconsistent
     assert "survey inconsistent with the criterion" in consistency_warning("Aoyama", upside_down)
     rng = np.random.default_rng(2)
     limits = np.log(fitted_limits(AOYAMA, 1.5))
     for _ in range(20):
         falls = np.median(limits) + rng.normal(0.0, 0.2, limits.size) > limits
-        assert consistency_warning("Aoyama", marked_survey(marked(falls))) is None
+        assert consistency_warning("Aoyama", marked_survey(mark_stones(falls))) is None
 
 
-def test_a_count_cannot_be_impossible():
+def test_infer_from_count_is_never_impossible():
     """Whichever stones they were is not known."""
     assert check_consistency(counted_survey(AOYAMA, 35, 100)) is None
 
 
-def test_one_cemetery_together_is_itself():
+def test_combining_one_cemetery_changes_nothing():
     """The product of one likelihood is that likelihood."""
     survey = counted_survey(AOYAMA, 35, 100)
     joint, alone = joint_estimate([("one", survey)], 2.0), estimate_shaking(survey, 2.0)
@@ -155,7 +155,7 @@ def test_one_cemetery_together_is_itself():
     assert joint.agreement == 1.0
 
 
-def test_cemeteries_that_agree_narrow_the_estimate():
+def test_agreeing_cemeteries_narrow_the_estimate():
     """Four places of the same rate, each with its own error, halve the width in ln PGA that they do not share."""
     survey = counted_survey(AOYAMA, 350, 1000)
     rules = Assumptions(frequency_error=0.0)
@@ -165,7 +165,7 @@ def test_cemeteries_that_agree_narrow_the_estimate():
     assert four.agreement > 0.99 and four.contradicts == ()
 
 
-def test_cemeteries_that_contradict_each_other_are_named():
+def test_contradicting_cemeteries_are_named():
     """One place without a fallen stone and one without a standing one are not of one shaking."""
     joint = joint_estimate([("A", counted_survey(AOYAMA, 1, 100)), ("B", counted_survey(AOYAMA, 97, 100))], 2.0)
     assert joint.agreement < 0.01 and joint.contradicts == (("A", "B"),)

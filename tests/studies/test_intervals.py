@@ -10,14 +10,14 @@ from seisblock.studies.intervals import clopper_pearson, wilson_interval
 
 
 @given(st.integers(1, 400).flatmap(lambda runs: st.tuples(st.integers(0, runs), st.just(runs))), st.sampled_from([0.5, 0.9, 0.95, 0.999]))
-def test_both_are_those_of_scipy(counted, confidence):
+def test_intervals_equal_scipy(counted, confidence):
     """Any count, any level; none and all included."""
     test = binomtest(*counted)
     for interval, method in ((clopper_pearson, "exact"), (wilson_interval, "wilson")):
         assert interval(*counted, confidence) == pytest.approx(tuple(test.proportion_ci(confidence, method)), rel=1e-8, abs=1e-12)
 
 
-def test_the_exact_interval_is_of_the_binomial_tails():
+def test_clopper_pearson_ends_have_binomial_tails():
     """Each end is where the binomial tail holds half of what is left out; none and all have one-sided closed forms."""
     low, high = clopper_pearson(35, 100)
     assert binom.sf(34, 100, low) == pytest.approx(0.025, rel=1e-9)
@@ -28,7 +28,7 @@ def test_the_exact_interval_is_of_the_binomial_tails():
 
 @pytest.mark.parametrize("interval", [clopper_pearson, wilson_interval])
 @pytest.mark.parametrize(("count", "runs", "level"), [(3, 2, 0.9), (-1, 2, 0.9), (0, 0, 0.9), (1, 2, 1.0)])
-def test_impossible_counts_are_refused(count, runs, level, interval):
+def test_intervals_reject_invalid_counts(count, runs, level, interval):
     """Counts that make no share, and a level outside (0, 1), are one sentence."""
     with pytest.raises(ParameterError, match=r"an interval requires|the confidence must"):
         interval(count, runs, level)

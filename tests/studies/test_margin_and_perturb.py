@@ -29,7 +29,7 @@ def one_sine(x, samples=400):
     return Motion.from_arrays(x * G * ALPHA * shape, math.pi / (5 * P) / samples)
 
 
-def test_every_window_of_one_sine_is_found():
+def test_margin_finds_every_window_of_one_sine():
     """[Zhang2001]_: safe to 3.019, unsafe to 6.318, safe to 7.168, unsafe above; scaled from X = 4."""
     margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
     assert [window.overturned for window in margin.windows] == [False, True, False, True]
@@ -41,7 +41,7 @@ def test_every_window_of_one_sine_is_found():
     assert all(one.last == other.first for one, other in pairwise(margin.windows))
 
 
-def test_verdicts_on_both_sides_of_each_flip():
+def test_outcomes_differ_on_both_sides_of_each_flip():
     """Just below and just above each factor the verdicts differ."""
     motion = one_sine(4.0)
     for flip in find_margin(BLOCK, motion, restitution=0.9).flips:
@@ -49,7 +49,7 @@ def test_verdicts_on_both_sides_of_each_flip():
         assert below != above
 
 
-def test_the_first_fall_found_and_how_often_it_falls_above():
+def test_margin_reports_first_fall_and_share_above():
     """The boundary is fractal: the margin names the first fall that it found, and the share of factors above at which it falls (N11)."""
     margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
     assert margin.first_fall == margin.flips[0]
@@ -58,7 +58,7 @@ def test_the_first_fall_found_and_how_often_it_falls_above():
     assert margin.falls_above_first == pytest.approx(falls, abs=2e-3)
 
 
-def test_block_that_never_falls_has_one_window():
+def test_margin_of_stable_block_has_one_window():
     """No flip, no nearest flip, no first fall."""
     margin = find_margin(BLOCK, Motion.from_arrays(0.01 * np.ones(50), 0.01))
     assert margin.flips == ()
@@ -66,7 +66,7 @@ def test_block_that_never_falls_has_one_window():
     assert len(margin.windows) == 1
 
 
-def test_fragile_verdicts_are_flagged():
+def test_outcome_within_2_percent_of_flip_is_flagged():
     """Within 2 % of a flip the response says so and warns; further away it says no; before it is looked for it says nothing."""
     for x, fragile in ((3.019 * 1.015, True), (3.019 * 0.985, True), (3.019 * 1.05, False)):
         motion = one_sine(x)
@@ -84,7 +84,7 @@ def test_fragile_verdicts_are_flagged():
             assert nearer.overturned is response.outcome.overturned
 
 
-def test_a_margin_knows_the_flips_near_the_record():
+def test_margin_includes_flips_near_factor_one():
     """However coarse the scan, what a look at 2 % finds is among its windows, and the share is that of the even factors."""
     x = 3.019 * 0.985
     near = nearest_flip(BLOCK, one_sine(x), restitution=0.9, linear=True)
@@ -95,13 +95,13 @@ def test_a_margin_knows_the_flips_near_the_record():
 
 
 @pytest.mark.parametrize(("limit", "step"), [(0.0, 0.1), (-1.0, 0.1), (1.0, 2.0), (math.inf, 0.1), (math.nan, 0.1)])
-def test_impossible_scans_are_refused(limit, step):
+def test_margin_rejects_invalid_scan(limit, step):
     """The scan needs 0 < step <= limit."""
     with pytest.raises(ParameterError, match="0 < `step` <= `limit`"):
         find_margin(BLOCK, one_sine(1.0), limit=limit, step=step)
 
 
-def test_probability_far_from_any_flip_is_certain():
+def test_perturb_far_from_flip_is_certain():
     """All or none of the runs overturn, and the interval says what so few runs can tell."""
     sure = perturb(BLOCK, one_sine(4.5), 60, restitution=0.9)
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
@@ -110,7 +110,7 @@ def test_probability_far_from_any_flip_is_certain():
     assert (never.overturned, never.probability_interval[0]) == (0, 0.0)
 
 
-def test_probability_at_a_flip_is_a_half():
+def test_perturb_at_flip_gives_one_half():
     """With the amplitude alone changing, half of the runs lie on each side of a flip."""
     flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
@@ -119,7 +119,7 @@ def test_probability_at_a_flip_is_a_half():
 
 
 @pytest.mark.parametrize(("above", "share"), [(0.01, 0.25), (-0.01, 0.75), (0.021, 0.0), (-0.021, 1.0)])
-def test_changes_are_uniform_within_their_half_width(above, share):
+def test_perturb_amplitudes_are_uniform(above, share):
     """Amplitudes within 2 % lie evenly: a quarter of them beyond a flip 1 % above the middle, none beyond one at 2.1 %."""
     flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
@@ -128,7 +128,7 @@ def test_changes_are_uniform_within_their_half_width(above, share):
     assert found.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
 
 
-def test_what_the_interval_is_of():
+def test_perturb_states_what_its_interval_covers():
     """The share is one among versions of the model, and says so; it is not the chance of the stone (N12)."""
     assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "parameter variation only"
 
@@ -157,7 +157,7 @@ def test_perturb_varies_a_known_inset_by_a_share_of_itself():
     assert perturb(BLOCK.with_wear(1.11 * share), motion, 50, restitution=0.9, spread=replace(only, inset=0.05)).overturned == 50
 
 
-def test_same_seed_same_runs():
+def test_perturb_is_reproducible_by_seed():
     """The seed decides."""
     motion = one_sine(3.0)
     assert perturb(BLOCK, motion, 50, seed=7) == perturb(BLOCK, motion, 50, seed=7)
@@ -175,19 +175,19 @@ def test_resized_block_keeps_its_shape():
 
 
 @pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}, {"inset": 1.0}])
-def test_impossible_spreads_are_refused(spread):
+def test_perturb_rejects_invalid_spreads(spread):
     """Shares lie in [0, 1), degrees in [0, 180]."""
     with pytest.raises(ParameterError, match="spread"):
         Spread(**spread)
 
 
-def test_no_runs_are_refused():
+def test_perturb_rejects_zero_runs():
     """At least one."""
     with pytest.raises(ParameterError, match="an integer of at least 1, found 0"):
         perturb(BLOCK, one_sine(1.0), 0)
 
 
-def test_threads_answer_in_order():
+def test_map_threads_keeps_order_and_raises():
     """Answers come in the order of the items, also of more than are under way at a time, and an error of one run reaches the caller."""
     items = list(range(2 * MAX_PENDING + 7))
     assert list(map_threads(lambda i: i * i, items)) == [i * i for i in items]

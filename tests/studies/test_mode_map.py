@@ -11,15 +11,15 @@ from seisblock.core.errors import ParameterError
 from seisblock.models.respond import solve_respond
 from seisblock.records import Motion
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, VISIBLE_SLIP_M, mode_map
-from tests.solvers.respond.cases import shaking
-from tests.solvers.respond.cases import steady as pulse
+from tests.models.respond.cases import constant_push as pulse
+from tests.models.respond.cases import shaking
 
 MU = np.array([0.05, 0.11, 0.17, 0.23, 0.29, 0.35, 0.41, 0.47, 0.55, 0.65, 0.8, 1.1])
 RATIO = np.array([0.08, 0.14, 0.2, 0.26, 0.32, 0.38, 0.44, 0.52, 0.6, 0.7, 0.9, 1.2])
 REST, SLIDE = MODES_BY_SEVERITY.index("rest"), MODES_BY_SEVERITY.index("slide")
 
 
-def test_cells_obey_the_limits_of_rest_and_of_sliding_exactly():
+def test_mode_map_cells_obey_initiation_limits():
     """Under a record with vertical motion, at rest, sliding, or turning: which of them A, mu and b/h alone decide, without exception."""
     found = mode_map(MU, 0.8, np.arctan(RATIO), shaking(4, 4.0, seconds=12.0))
     assert found.b_over_h == pytest.approx(RATIO, rel=1e-14)
@@ -33,7 +33,7 @@ def test_cells_obey_the_limits_of_rest_and_of_sliding_exactly():
     assert {MODES_BY_SEVERITY[index] for index in np.unique(found.governing)} >= {"rest", "slide", "rock", "overturned"}
 
 
-def test_under_a_jump_a_corner_slips_where_the_closed_form_says():
+def test_mode_map_slip_under_pulse_follows_closed_form():
     """A rectangular pulse: a rocking body has slid, to the last bit, if its friction is below (A - h q)/(1 + b q), and only then."""
     found = mode_map(np.linspace(0.105, 0.995, 40), 2.0, np.arctan(RATIO), pulse(6.0, seconds=0.05), settle_s=0.0)
     assert found.loading == pytest.approx(6.0 / 9.80665, rel=1e-14)
@@ -42,7 +42,7 @@ def test_under_a_jump_a_corner_slips_where_the_closed_form_says():
     np.testing.assert_array_equal(np.isnan(found.friction_to_rock), found.loading <= RATIO)
 
 
-def test_each_cell_is_a_run_of_respond():
+def test_mode_map_cells_equal_solve_respond():
     """Mode, lean, path and end are those of the body by itself, edges worn and impacts elastic as given."""
     motion = shaking(4, 5.0, seconds=8.0)
     found = mode_map([0.2, 0.6], 1.0, np.arctan([0.15, 0.3, 0.6]), motion, inset=EdgeWear(share=0.05), restitution=0.2, vertical=False)
@@ -58,7 +58,7 @@ def test_each_cell_is_a_run_of_respond():
             assert found.max_rotation_ratio[i, j] == pytest.approx(one.max_rotation_ratio, rel=1e-14)
 
 
-def test_what_one_could_not_see_does_not_govern():
+def test_mode_map_ignores_invisible_motion():
     """A rocking body that slides by less than half a millimetre rocks, and hops too short to be seen are no flights."""
     motion = shaking(4, 9.0, seconds=12.0)
     found = mode_map(np.linspace(0.5, 1.0, 12), 2.0, np.arctan(np.linspace(0.45, 0.9, 12)), motion, restitution=0.1)
@@ -70,7 +70,7 @@ def test_what_one_could_not_see_does_not_govern():
     assert MODES_BY_SEVERITY[falling.governing[0, 0]] == "flight" and math.isinf(falling.loading)
 
 
-def test_rows_may_be_sizes_of_one_shape_and_progress_is_told():
+def test_mode_map_over_sizes_obeys_similarity_and_reports_progress():
     """Length L and time sqrt(L): the same modes for a body four times as large under a motion half as fast."""
     motion = shaking(4, 4.0, seconds=6.0)
     told = []
@@ -93,7 +93,7 @@ def test_rows_may_be_sizes_of_one_shape_and_progress_is_told():
         ([], 1.0, 0.3, "at least one cell"),
     ],
 )
-def test_what_is_no_map_is_refused(frictions, sizes, alphas, says):
+def test_mode_map_rejects_invalid_numbers(frictions, sizes, alphas, says):
     """One sentence for each number out of its range."""
     with pytest.raises(ParameterError, match=says):
         mode_map(frictions, sizes, alphas, shaking(4, 4.0, seconds=1.0))

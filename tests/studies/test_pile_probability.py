@@ -23,13 +23,13 @@ NOTHING_VARIES = PileVariation(size=0.0, inset=0.0, mu=0.0, amplitude=0.0, azimu
 
 
 @pytest.fixture(scope="module")
-def found():
+def probability():
     """The answer of sixteen versions, of which some fall and some do not."""
     return stack_probability(PILE, PULSE, runs=16, seed=3, workers=1)
 
 
 @pytest.mark.parametrize("factor", [0.6, 2.0])
-def test_versions_that_do_not_differ_are_the_verdict(factor):
+def test_pile_probability_without_variation_equals_outcome(factor):
     """With nothing varied every share is that of the single run, 0 or 1, and the mean fall is its fall."""
     motion = Motion.from_arrays(factor * PULSE.horizontal, PULSE.dt, name="20")
     outcome = solve_stack(PILE, motion).outcome
@@ -45,25 +45,25 @@ def test_versions_that_do_not_differ_are_the_verdict(factor):
             assert chance.fell_alike_ratio == pytest.approx(1.0)
 
 
-def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(found):
+def test_pile_probability_is_independent_of_thread_count(probability):
     """Versions are drawn before they are handed out; another seed draws others."""
-    assert stack_probability(PILE, PULSE, runs=16, seed=3, workers=3) == found
-    assert replace(stack_probability(PILE, PULSE, runs=16, seed=4), seed=3) != found
+    assert stack_probability(PILE, PULSE, runs=16, seed=3, workers=3) == probability
+    assert replace(stack_probability(PILE, PULSE, runs=16, seed=4), seed=3) != probability
 
 
-def test_shares_are_counts_with_their_interval(found):
+def test_pile_shares_are_counts_with_clopper_pearson_interval(probability):
     """The share of any stone is at least that of each, and its interval Clopper and Pearson's."""
-    count = round(found.overturned * found.runs)
-    assert 0 < count < found.runs
-    assert found.interval == clopper_pearson(count, found.runs)
-    assert found.overturned >= max(stone.overturned for stone in found.stones)
-    assert found.moved >= max(stone.moved for stone in found.stones)
-    upper = found.stones[-1]
-    assert upper.interval == clopper_pearson(round(upper.overturned * found.runs), found.runs)
+    count = round(probability.overturned * probability.runs)
+    assert 0 < count < probability.runs
+    assert probability.interval == clopper_pearson(count, probability.runs)
+    assert probability.overturned >= max(stone.overturned for stone in probability.stones)
+    assert probability.moved >= max(stone.moved for stone in probability.stones)
+    upper = probability.stones[-1]
+    assert upper.interval == clopper_pearson(round(upper.overturned * probability.runs), probability.runs)
     assert upper.overturned > 0.0 and 0.0 < upper.fell_alike_ratio <= 1.0
 
 
-def test_versions_stay_within_their_half_widths():
+def test_pile_samples_stay_within_half_widths():
     """All lengths change by one factor, edges by one share, each joint's friction by its own; the pile stands as it did."""
     draws = np.random.default_rng(1).uniform(-1.0, 1.0, (50, 6))
     changed = [perturb_pile(PILE, PileVariation(), draw) for draw in draws]
@@ -83,7 +83,7 @@ def test_versions_stay_within_their_half_widths():
     assert all(len(pile.joints()) == len(PILE.joints()) for pile in changed)
 
 
-def test_shaking_is_scaled_and_turned():
+def test_sampled_shaking_is_scaled_and_rotated():
     """A version of the shaking is the record's along an azimuth next to it, times a factor; one horizontal alone is never turned."""
     record = read("synthetic_jma.csv")
     draw = np.array([0.0, 0.5, 0.7, 0.0, 0.0, 0.0])
@@ -99,7 +99,7 @@ def test_shaking_is_scaled_and_turned():
     ("wrong", "says"),
     [({"runs": 0}, "number of runs"), ({"runs": 2, "moved_m": 0.0}, "counts as moved must be positive"), ({"runs": 2, "seed": -1}, "seed")],
 )
-def test_what_makes_no_sense_is_refused(wrong, says):
+def test_pile_probability_rejects_invalid_options(wrong, says):
     """No runs, no distance, no seed."""
     with pytest.raises(ParameterError, match=says):
         stack_probability(PILE, PULSE, **wrong)
@@ -119,7 +119,7 @@ def test_samples_of_a_pile_vary_about_the_inset_of_each_stone():
     assert kept.stones[1].insets()[0] == pytest.approx(1.1 * 0.04)
 
 
-def test_worn_stones_fall_sooner():
+def test_pile_samples_with_more_wear_fall():
     """Of a worn pile shaken near its limit, samples that are worn more fall, and only these."""
     motion, worn = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt), PILE.with_wear(0.15)
     assert not solve_stack(PILE, motion).outcome.overturned
@@ -127,13 +127,13 @@ def test_worn_stones_fall_sooner():
     assert 0.0 < stack_probability(worn, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.9)).overturned < 1.0
 
 
-def test_a_grid_of_points_has_no_worn_edges():
+def test_contact_grid_varies_no_inset():
     """Its points stand inside by themselves: the answer says that no inset was varied."""
     asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVariation(inset=0.3))
     assert asked.versions.inset == 0.0
 
 
-def test_versions_are_worn_no_further_than_they_stand():
+def test_sampled_wear_keeps_pile_standing():
     """A stone whose load is near an edge varies by less than asked, and the answer says by how much; each sample stands at rest."""
     edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0)))).with_wear(0.25)
     widest = widest_wear(edgy, 0.9)
@@ -147,13 +147,13 @@ def test_versions_are_worn_no_further_than_they_stand():
 
 
 @pytest.mark.parametrize("width", [("size", 1.0), ("inset", 1.0), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
-def test_impossible_widths_are_refused(width):
+def test_pile_probability_rejects_invalid_half_widths(width):
     """Shares lie below 1, azimuths within half a turn."""
     with pytest.raises(ParameterError, match="spread"):
         PileVariation(**dict([width]))
 
 
-def test_versions_that_create_energy_are_left_out_and_counted(monkeypatch):
+def test_pile_samples_that_create_energy_are_excluded(monkeypatch):
     """One bad version takes neither the others nor the answer away; where all are bad the reason is told."""
     calls = iter(range(8))
 
@@ -171,7 +171,7 @@ def test_versions_that_create_energy_are_left_out_and_counted(monkeypatch):
         stack_probability(PILE, PULSE, runs=2, workers=1)
 
 
-def test_kinetic_friction_of_versions_stays_in_proportion():
+def test_sampled_kinetic_friction_keeps_ratio():
     """A joint that clings more slides less easily by as much, whatever its own friction; nothing is refused."""
     draws = np.random.default_rng(5).uniform(-1.0, 1.0, (40, 6))
     for draw in draws:

@@ -44,14 +44,14 @@ def quadrature(fragility, curve, low, high):
     power=st.floats(0.3, 6.0),
     rate=st.floats(1e-6, 10.0),
 )
-def test_a_power_law_has_the_closed_form(median, beta, power, rate):
+def test_rate_of_power_law_has_closed_form(median, beta, power, rate):
     """rate(median) exp(k² beta²/2), wherever the levels of the table lie."""
     levels = np.array([0.03, 0.1, 0.11, 1.0, 4.0])
     found = find_risk(Lognormal(median, beta), site(HazardCurve(levels, rate * levels**-power)))
     assert found.annual_rate == pytest.approx(rate * median**-power * math.exp(0.5 * (power * beta) ** 2), rel=1e-9)
 
 
-def test_each_stretch_of_a_bent_curve_is_its_integral():
+def test_contributions_equal_quadrature():
     """Between two levels what quadrature finds there; the shares have the sum one, and the chance in 50 years follows."""
     fragility = Lognormal(0.6, 0.45)
     found = find_risk(fragility, site())
@@ -64,12 +64,12 @@ def test_each_stretch_of_a_bent_curve_is_its_integral():
     assert found.probability.value == pytest.approx(1.0 - (1.0 - found.annual_rate / 1e4) ** (50.0 * 1e4), rel=1e-4)
 
 
-def test_a_sharp_fragility_is_the_hazard_at_its_median():
+def test_rate_of_step_fragility_is_hazard_at_median():
     """With beta to zero it happens whenever the median is exceeded."""
     assert find_risk(Lognormal(0.7, 1e-4), site()).annual_rate == pytest.approx(float(BENT.rate(0.7)), rel=1e-5)
 
 
-def test_what_is_far_away_has_no_rounding():
+def test_rate_far_above_table_is_finite_and_positive():
     """A fragility 40 standard deviations above the table neither overflows nor turns negative."""
     found = find_risk(Lognormal(1e4, 0.1), site())
     assert 0.0 < found.annual_rate < 1e-20 and found.beyond_levels_share > 0.999
@@ -77,7 +77,7 @@ def test_what_is_far_away_has_no_rounding():
     assert "far from all levels" in found.notes[0]
 
 
-def test_branches_and_what_stood():
+def test_branches_are_reweighted_by_survival():
     """The mean of the branches; P(standing) = exp(-T rate) weighs them anew (Bayes)."""
     half = dataclasses.replace(BENT, rates=np.asarray(BENT.rates) / 2, name="half", weight=0.3)
     whole = dataclasses.replace(BENT, name="whole", weight=0.7)
@@ -91,7 +91,7 @@ def test_branches_and_what_stood():
     assert found.annual_rate_after == pytest.approx(after @ [alone, alone / 2])
 
 
-def test_branches_with_other_levels_are_cut_alike():
+def test_branches_with_different_levels_are_merged():
     """Stretches of the union of the levels; the sum is that of each alone."""
     other = HazardCurve([0.02, 0.9, 5.0], [0.1, 1e-3, 1e-6], "other", 0.5)
     found = find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(BENT, weight=0.5), other))
@@ -112,7 +112,7 @@ TABLES = {
 
 
 @pytest.mark.parametrize("text", TABLES)
-def test_tables_as_people_keep_them(text, tmp_path):
+def test_hazard_table_accepts_headings_units_and_order(text, tmp_path):
     """Units in headings, rates or probabilities, Japanese headings, any order; levels never or surely exceeded are left out, and said."""
     (tmp_path / "h.csv").write_text("# from somewhere\n" + text, encoding="utf-8")
     found = read_hazard(tmp_path / "h.csv")
@@ -150,7 +150,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("text", WRONG)
-def test_a_wrong_table_is_one_sentence(text, tmp_path):
+def test_hazard_table_rejects_invalid_values(text, tmp_path):
     """What is wrong, and where; never a curve drawn through nothing."""
     (tmp_path / "h.csv").write_text(text, encoding="utf-8")
     with pytest.raises(HazardError) as caught:
@@ -158,14 +158,14 @@ def test_a_wrong_table_is_one_sentence(text, tmp_path):
     assert WRONG[text] in str(caught.value) and str(caught.value).startswith("h.csv: ")
 
 
-def test_one_of_several_measures_is_asked_for(tmp_path):
+def test_hazard_table_with_several_measures_requires_choice(tmp_path):
     """A table of two measures says which there are; asked for one, the other is named as passed over."""
     (tmp_path / "h.csv").write_text("pgv_m_s,pga_g,annual_rate\n0.2,0.1,0.01\n0.6,0.4,0.001\n", encoding="utf-8")
     found = read_hazard(tmp_path / "h.csv", im="pga")
     assert found.im == "pga" and "pgv_m_s" in str(found.notes[0])
 
 
-def test_files_that_are_none(tmp_path):
+def test_hazard_rejects_folders_and_binary_files(tmp_path):
     """A folder, bytes, nothing."""
     (tmp_path / "b.csv").write_bytes(b"\0\1\2")
     for name in (".", "gone.csv", "b.csv"):
@@ -173,7 +173,7 @@ def test_files_that_are_none(tmp_path):
             read_hazard(tmp_path / name)
 
 
-def test_a_median_without_unit_beside_a_table_in_gal(tmp_path):
+def test_median_without_unit_is_rejected_with_table_in_gal(tmp_path):
     """A number that could be gal, g or m/s² is refused; with its unit, or where all is SI, it is taken."""
     (tmp_path / "h.csv").write_text("pga_gal,annual_rate\n100,0.01\n400,0.001\n", encoding="utf-8")
     gal = read_hazard(tmp_path / "h.csv")
@@ -188,20 +188,20 @@ def test_a_median_without_unit_beside_a_table_in_gal(tmp_path):
         fragility_from_median(site(), "-0.6", 0.4)
 
 
-def written(tmp_path, **changed):
+def write_fragility(tmp_path, **changed):
     """Write a document as `seisblock fragility --json` does, in so far as it is read."""
     entry = {"body": "stone", "limit": "overturn", "im": "pgv", "unit": "m/s", "median": 0.5, "beta": 0.3} | changed
     (tmp_path / "f.json").write_text(json.dumps({"schema": "seisblock/fragility/1", "results": [entry]}), encoding="utf-8")
     return tmp_path / "f.json"
 
 
-def test_a_fragility_is_read_back(tmp_path):
+def test_fragility_document_round_trips(tmp_path):
     """Its body, limit and curve; what is in another measure than the hazard is refused."""
-    (found,) = read_fragility(written(tmp_path))
+    (found,) = read_fragility(write_fragility(tmp_path))
     assert (found.body, found.limit, found.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
     assert check_measure((found,), site()) == (found,)
     with pytest.raises(ParameterError, match=r"the fragility is in sa=0\.5 and the hazard in pgv"):
-        check_measure(read_fragility(written(tmp_path, im="sa=0.5", unit="m/s^2")), site())
+        check_measure(read_fragility(write_fragility(tmp_path, im="sa=0.5", unit="m/s^2")), site())
 
 
 @pytest.mark.parametrize(
@@ -209,21 +209,21 @@ def test_a_fragility_is_read_back(tmp_path):
     [{"median": "0.5"}, {"beta": -1.0}, {"unit": "cm/s"}, {"im": "pgx"}, {"median": None}],
     ids=str,
 )
-def test_a_damaged_document_is_one_sentence(damage, tmp_path):
+def test_damaged_fragility_document_is_rejected(damage, tmp_path):
     """Other types, other units, no curve."""
     with pytest.raises(ParameterError, match=r"f\.json (is a damaged fragility document|contains no fragility curve)"):
-        read_fragility(written(tmp_path, **damage))
+        read_fragility(write_fragility(tmp_path, **damage))
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "seisblock/rock/1"}', "[" * 100_000, "\0"], ids=len)
-def test_what_is_no_document_is_one_sentence(text, tmp_path):
+def test_foreign_fragility_document_is_rejected(text, tmp_path):
     """Empty, another command's, nested without end."""
     (tmp_path / "f.json").write_text(text, encoding="utf-8")
     with pytest.raises(ParameterError, match=r"f\.json is not a (JSON|fragility) document"):
         read_fragility(tmp_path / "f.json")
 
 
-def test_the_bundled_hazard_is_what_its_script_makes():
+def test_bundled_hazard_equals_script_output():
     """Synthetic, and says so."""
     assert make_hazard.make().encode() == sample_path(make_hazard.NAME).read_bytes()
     assert "SYNTHETIC" in make_hazard.HEADER

@@ -18,7 +18,7 @@ MOTION = motion_of(read("synthetic_jma.csv"), "EW")
 PULSE = Motion.from_arrays(np.concatenate([np.full(101, 4.0), np.zeros(300)]), 0.01, name="pulse")
 
 
-def test_a_rectangular_pulse_has_its_closed_form():
+def test_scale_factor_of_rectangular_pulse_has_closed_form():
     """A pulse a for T moves an object by (a - mu g) a T^2 / (2 mu g): the factor is the root of a quadratic."""
     mu, g, observed = 0.2, 9.80665, 1.0
     # the last sample's fall from a to zero takes one interval more: its impulse is that of half an interval
@@ -32,7 +32,7 @@ def test_a_rectangular_pulse_has_its_closed_form():
 
 
 @pytest.mark.parametrize("largest", [False, True])
-def test_the_slip_of_a_record_gives_its_factor_back(largest):
+def test_scale_factors_recover_factor_of_slip(largest):
     """What a scaled record does is found at that factor, for the residual and for the largest slip."""
     outcome = solve_slide(0.3, scale_motion(MOTION, 0.8)).outcome
     observed = outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
@@ -44,7 +44,7 @@ def test_the_slip_of_a_record_gives_its_factor_back(largest):
 
 
 @pytest.mark.parametrize("first", [False, True])
-def test_the_jump_of_a_record_gives_its_factor_back(first):
+def test_scale_factors_recover_factor_of_jump(first):
     """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
     chosen = two_layer_choice({}, default="chozusha")
     chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, first=first).outcome.chains
@@ -56,7 +56,7 @@ def test_the_jump_of_a_record_gives_its_factor_back(first):
     assert found.displacement_at_1_m == pytest.approx(observed)
 
 
-def test_all_solutions_and_leaps_are_found():
+def test_scale_factors_find_solutions_and_discontinuities():
     """A displacement that rises, falls and leaps has three factors, one of them met by none."""
 
     def displacement(s: float) -> float:
@@ -66,7 +66,7 @@ def test_all_solutions_and_leaps_are_found():
     assert [(round(f.scale, 8), f.leaps) for f in found] == [(0.5, False), (1.5, False), (2.0, True)]
 
 
-def test_an_object_that_never_moves_so_far_has_no_factor():
+def test_unreachable_displacement_has_no_factor():
     """The largest displacement of the scan is told instead."""
     found = scale_factors(slide_displacement(0.2, PULSE), 1e3, PULSE)
     assert found.scale_factors == ()
@@ -74,7 +74,7 @@ def test_an_object_that_never_moves_so_far_has_no_factor():
     assert found.largest_displacement_m == pytest.approx(solve_slide(0.2, scale_motion(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
 
 
-def test_impossible_questions_are_refused():
+def test_scale_factors_reject_invalid_input():
     """A displacement, limit or number of steps that is not positive, friction that is none, a vertical that is not there."""
     for words, message in (
         ((0.0, 3.0, 10), "observed displacement must be positive"),
@@ -91,7 +91,7 @@ def test_impossible_questions_are_refused():
 
 
 @pytest.mark.parametrize("factor", [0.3, 1.0, 1.7])
-def test_the_slip_at_a_factor_is_that_of_the_scaled_record(factor):
+def test_slip_at_factor_equals_scaled_record(factor):
     """Only the end is followed, with the vertical motion scaled alike: the numbers of `solve_slide` on the record times the factor."""
     base = SlidingBase(0.15, 0.1, 4.0)
     outcome = solve_slide(base, scale_motion(MOTION, factor), vertical=0.5).outcome

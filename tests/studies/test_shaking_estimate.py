@@ -35,25 +35,25 @@ PLAIN = Assumptions(bias=0.0, frequency_error=0.0)
 """The criterion as printed, at a frequency that is known."""
 
 
-def marked(cemetery: Cemetery, falls) -> Cemetery:
+def mark_stones(cemetery: Cemetery, falls) -> Cemetery:
     """Return a cemetery whose stones are marked."""
     return replace(cemetery, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(cemetery.stones, falls, strict=True)))
 
 
-def simulated(rng, cemetery: Cemetery, pga: float, frequency: float) -> np.ndarray:
+def simulate_falls(rng, cemetery: Cemetery, pga: float, frequency: float) -> np.ndarray:
     """Return which stones fall when the errors of the model are drawn at random."""
     common = rng.normal(0.0, COMMON_ERROR)
     own = rng.normal(0.0, STONE_ERROR, cemetery.size)
     return np.log(pga) - BIAS + common + own > np.log(fitted_limits(cemetery, frequency))
 
 
-def holds(estimate, truth: float) -> bool:
+def contains(estimate, truth: float) -> bool:
     """Return whether the interval, or the bound, holds the truth."""
     low, high = estimate.pga_interval_m_s2
     return (low is None or low <= truth) and (high is None or truth <= high)
 
 
-def held_of_200(form: str, seed: int) -> float:
+def coverage_of_200(form: str, seed: int) -> float:
     """Return the share of 200 simulated surveys whose 90 % interval holds the PGA behind them, which overturns 5 to 90 % on average."""
     rng, held = np.random.default_rng(seed), 0
     for _ in range(200):
@@ -62,30 +62,30 @@ def held_of_200(form: str, seed: int) -> float:
         told = frequency * float(np.exp(rng.normal(0.0, FREQUENCY_ERROR)))
         if form == "counted":
             place = Cemetery(tuple(AOYAMA.stones[i] for i in rng.integers(0, 100, 60)))
-            survey = counted_survey(AOYAMA, int(simulated(rng, place, truth, frequency).sum()), 60)
+            survey = counted_survey(AOYAMA, int(simulate_falls(rng, place, truth, frequency).sum()), 60)
         else:
-            survey = marked_survey(marked(AOYAMA, simulated(rng, AOYAMA, truth, frequency)))
-        held += holds(estimate_shaking(survey, told), truth)
+            survey = marked_survey(mark_stones(AOYAMA, simulate_falls(rng, AOYAMA, truth, frequency)))
+        held += contains(estimate_shaking(survey, told), truth)
     return held / 200
 
 
 @pytest.mark.parametrize("form", all_but_slow(["stone by stone", "counted"], {"stone by stone"}))
-def test_the_interval_holds_the_truth_as_often_as_it_claims(form):
+def test_shaking_interval_has_nominal_coverage(form):
     """Of 200 simulated surveys the 90 % interval holds the truth in 85 to 95 %; where none or all fell the bound counts."""
-    assert 0.85 <= held_of_200(form, 20001006) <= 0.95
+    assert 0.85 <= coverage_of_200(form, 20001006) <= 0.95
 
 
-def test_an_exact_survey_gives_the_threshold_back():
+def test_exact_survey_recovers_threshold():
     """Stones that fall above one H/B and stand below give the PGA of that H/B, and its PGV, when stones have little error of their own."""
     falls = AOYAMA.ratios > 2.84
-    found = estimate_shaking(marked_survey(marked(AOYAMA, falls)), 2.75, SHARP)
+    found = estimate_shaking(marked_survey(mark_stones(AOYAMA, falls)), 2.75, SHARP)
     assert found.threshold_ratio == pytest.approx(2.84, rel=0.02)
     assert found.pga_m_s2 == pytest.approx(float(overturning_level(2.75)) / 2.84, rel=0.02)
     assert found.pgv_m_s == pytest.approx(found.pga_m_s2 / (2 * np.pi * 2.75))
     assert (found.fallen, found.standing, found.bound) == (35, 65, None)
 
 
-def test_the_common_error_is_in_the_interval():
+def test_interval_includes_common_error():
     """However many stones are counted, the interval stays as wide as the error common to the cemetery: 1.645 times 0.3 in ln PGA."""
     low, high = estimate_shaking(counted_survey(AOYAMA, 35_000, 100_000), 2.0, PLAIN).pga_interval_m_s2
     assert np.log(high / low) == pytest.approx(2 * 1.6449 * COMMON_ERROR, rel=2e-3)
@@ -93,7 +93,7 @@ def test_the_common_error_is_in_the_interval():
     assert wider[1] / wider[0] > high / low
 
 
-def test_pga_and_frequency_trade_off_as_a_of_f():
+def test_pga_contour_follows_eq_8():
     """A survey pins PGA/a(f): along the contour PGA follows eq. (8), and the threshold H/B stays."""
     found = frequency_contour(counted_survey(AOYAMA, 35, 100), PLAIN)
     level = [e.pga_m_s2 / float(overturning_level(e.frequency_hz)) for e in found]
@@ -101,7 +101,7 @@ def test_pga_and_frequency_trade_off_as_a_of_f():
     np.testing.assert_allclose([e.threshold_ratio for e in found], found[0].threshold_ratio, rtol=1e-6)
 
 
-def test_without_a_frequency_the_band_is_averaged():
+def test_estimate_without_frequency_averages_band():
     """The interval over 0.5 to 3 Hz is wider than at any frequency in it, and reaches neither beyond its lowest nor its highest."""
     survey = counted_survey(AOYAMA, 35, 100)
     whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in frequency_contour(survey, PLAIN_FREQUENCY)]
@@ -111,28 +111,28 @@ def test_without_a_frequency_the_band_is_averaged():
     assert estimate_shaking(survey).threshold_ratio is None
 
 
-def test_none_and_all_give_bounds():
+def test_none_or_all_fallen_gives_bound():
     """When no stone fell there is an upper bound, at which that had the probability of one tail; when all did, a lower one."""
-    survey = marked_survey(marked(AOYAMA, np.zeros(100)))
+    survey = marked_survey(mark_stones(AOYAMA, np.zeros(100)))
     none = estimate_shaking(survey, 2.0, PLAIN_FREQUENCY)
     assert none.bound == "upper"
     assert none.pga_m_s2 is None
     assert none.pga_interval_m_s2[0] is None
     rng, bound = np.random.default_rng(1), none.pga_interval_m_s2[1]
-    seen = np.mean([not simulated(rng, AOYAMA, bound, 2.0).any() for _ in range(4000)])
+    seen = np.mean([not simulate_falls(rng, AOYAMA, bound, 2.0).any() for _ in range(4000)])
     assert seen == pytest.approx(0.05, abs=0.015)
-    every = estimate_shaking(marked_survey(marked(AOYAMA, np.ones(100))), 2.0)
+    every = estimate_shaking(marked_survey(mark_stones(AOYAMA, np.ones(100))), 2.0)
     assert every.bound == "lower"
     assert every.pga_interval_m_s2[1] is None
     assert every.pga_interval_m_s2[0] > bound
     assert every.jma_classes[1] is None
 
 
-def test_reinforced_stones_are_kept_apart():
+def test_reinforced_stones_are_estimated_separately():
     """Stones of each kind are judged by their own criterion, apart and together."""
     f, pga = 1.5, 4.5
     mixed = Cemetery(tuple(replace(s, reinforced=i % 2 == 0) for i, s in enumerate(AOYAMA.stones)))
-    survey = marked_survey(marked(mixed, pga > fitted_limits(mixed, f)))
+    survey = marked_survey(mark_stones(mixed, pga > fitted_limits(mixed, f)))
     found = {name: estimate_shaking(part, f, SHARP, stones=name) for name, part in stone_groups(survey)}
     assert list(found) == [PLAIN_STONES, DOWELLED_STONES, ALL_STONES]
     assert [found[name].fallen + found[name].standing for name in found] == [50, 50, 100]
@@ -141,7 +141,7 @@ def test_reinforced_stones_are_kept_apart():
     assert found[DOWELLED_STONES].threshold_ratio > 1.3 * found[PLAIN_STONES].threshold_ratio
 
 
-def test_stones_that_are_not_marked_are_left_out():
+def test_unmarked_stones_are_ignored():
     """A stone of unknown fate changes nothing; rows that stand for several count as often."""
     known = Cemetery((Stone(3.0, fallen=True, count=3), Stone(2.0, fallen=False)))
     spread = Cemetery((*([Stone(3.0, fallen=True)] * 3), Stone(2.0, fallen=False), Stone(5.0)))
@@ -151,11 +151,11 @@ def test_stones_that_are_not_marked_are_left_out():
 
 
 @pytest.mark.parametrize("limits", all_but_slow([fitted_limits, rigid_limits], {fitted_limits}))
-def test_the_likelihood_is_the_integral_over_the_common_error(limits):
+def test_likelihood_equals_quadrature_over_common_error(limits):
     """The convolution agrees with adaptive quadrature, at whatever frequency it was asked for before."""
     from scipy.integrate import quad
 
-    survey = marked_survey(marked(AOYAMA, AOYAMA.ratios > 2.84))
+    survey = marked_survey(mark_stones(AOYAMA, AOYAMA.ratios > 2.84))
     likelihood(survey, 0.6, bias=0.0, limits=limits)
     found = likelihood(survey, 2.0, bias=0.0, limits=limits)
     around = np.log([4.2, 4.8] if limits is fitted_limits else [6.3, 7.2])
@@ -170,7 +170,7 @@ def test_the_likelihood_is_the_integral_over_the_common_error(limits):
     assert ratio[1] / ratio[0] == pytest.approx(direct[1] / direct[0], rel=1e-8)
 
 
-def test_intensity_goes_with_pgv():
+def test_jma_intensity_follows_pgv():
     """The JMA intensity is that of the median PGV; its interval is wider than the PGV's alone, its classes are those of its ends."""
     found = estimate_shaking(counted_survey(AOYAMA, 35, 100), 1.0)
     low, high = found.jma_intensity_interval
@@ -183,7 +183,7 @@ def test_intensity_goes_with_pgv():
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: marked_survey(AOYAMA), BodyError, "no stone is marked fallen or standing"),
+        (lambda: marked_survey(AOYAMA), BodyError, "no stone is marked overturned or standing"),
         (lambda: counted_survey(AOYAMA, 5, 4), ParameterError, "0 <= fallen <= stones"),
         (lambda: counted_survey(AOYAMA, 0, 0), ParameterError, "at least one stone"),
         (lambda: parse_rate("35%"), ParameterError, "give both numbers"),
@@ -194,7 +194,7 @@ def test_intensity_goes_with_pgv():
         (lambda: intensity_from_velocity(0.0), ParameterError, "peak velocity must be positive"),
     ],
 )
-def test_impossible_questions_are_refused(call, error, message):
+def test_estimate_rejects_invalid_surveys(call, error, message):
     """Surveys that say nothing, counts that make no rate, numbers out of range: one sentence."""
     with pytest.raises(error, match=message):
         call()

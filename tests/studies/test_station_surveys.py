@@ -25,7 +25,7 @@ AROUND = Stations((*(station(*each) for each in NEAREST), StationReport("e.csv",
 """Four stations, and one that is nowhere."""
 
 
-def test_a_survey_stands_beside_the_nearest_three_stations():
+def test_survey_is_compared_with_three_nearest_stations():
     """The estimate is that of `infer`; the stations' intensities are weighted by the inverse of their distance."""
     (answer,) = compare_surveys([SurveyedPlace("temple", 35.02, 139.0, 100, 35)], AROUND, AOYAMA)
     assert answer.estimate == estimate_shaking(counted_survey(AOYAMA, 35, 100))
@@ -38,7 +38,7 @@ def test_a_survey_stands_beside_the_nearest_three_stations():
     assert answer.residual == pytest.approx(answer.estimate.jma_intensity - expected)
 
 
-def test_where_no_stone_fell_there_is_a_bound_and_no_residual():
+def test_survey_without_falls_has_bound_and_no_residual():
     """So it is without any station with an intensity, and where all are further away than shaking is alike."""
     (none,) = compare_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
     assert none.residual is None and none.expected_intensity is not None
@@ -48,7 +48,7 @@ def test_where_no_stone_fell_there_is_a_bound_and_no_residual():
         assert (answer.neighbours, answer.expected_intensity, answer.residual) == ((), None, None)
 
 
-def test_pairs_that_contradict_each_other_are_named():
+def test_contradicting_pairs_are_named():
     """A place and a station, and two places, within ten kilometres; not further apart, nor where intervals nearly meet."""
     told = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
     places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in told]
@@ -61,7 +61,7 @@ def test_pairs_that_contradict_each_other_are_named():
     assert contradictions(agreeing) == []
 
 
-def test_lists_in_either_language(tmp_path):
+def test_survey_list_accepts_both_languages(tmp_path):
     """Names of columns, their order, other columns and Shift-JIS are as people write them."""
     path = tmp_path / "調査.csv"
     path.write_bytes("場所,転倒,墓石,緯度,経度,備考\n光明寺,60,80,37.30,138.90,x\n\n".encode("cp932"))
@@ -79,7 +79,7 @@ def test_lists_in_either_language(tmp_path):
         ("place,latitude,longitude,stones,fallen\nA,nan,139,10,1\n", "not a valid position"),
     ],
 )
-def test_lists_that_cannot_be(text, says, tmp_path):
+def test_survey_list_rejects_invalid_rows(text, says, tmp_path):
     """A column, a row, a number or a place that is missing or impossible is named with its line."""
     path = tmp_path / "surveys.csv"
     path.write_text(text, encoding="utf-8")

@@ -38,25 +38,25 @@ def event(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(event):
+def station_results(event):
     """Return those stations with a block at each."""
     return survey_stations(event, BODY)
 
 
-def prepared(event, station):
+def prepared_record(event, station):
     """Return the record of one station of a bundle, as it is judged."""
     recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(station))
     return Preparation().apply(read_source(recording, ReadOptions()))
 
 
-def test_a_damaged_member_costs_only_itself(found):
+def test_damaged_station_fails_alone(station_results):
     """Seven stations are answered and one is named with its reason, last."""
-    assert [answer.failure is None for answer in found.answers] == [True] * 7 + [False]
-    assert "SYA003" in found.answers[-1].record and "file truncated" in found.answers[-1].failure
-    assert len(found.mapped) == 7
+    assert [answer.failure is None for answer in station_results.answers] == [True] * 7 + [False]
+    assert "SYA003" in station_results.answers[-1].record and "file truncated" in station_results.answers[-1].failure
+    assert len(station_results.mapped) == 7
 
 
-def test_two_earthquakes_are_two_behind_a_header_that_tells_neither_time_nor_place():
+def test_two_earthquakes_are_detected_behind_incomplete_header():
     """The first record tells a magnitude alone; the next two are of two earthquakes, and refused as if they stood alone."""
     told = ({}, {"event_latitude_deg": 35.0, "event_longitude_deg": 139.0}, {"event_latitude_deg": 38.0, "event_longitude_deg": 143.0})
     row = np.sin(np.arange(200.0))
@@ -66,17 +66,17 @@ def test_two_earthquakes_are_two_behind_a_header_that_tells_neither_time_nor_pla
     assert survey_stations(records[:2]).earthquake.latitude_deg == 35.0
 
 
-def test_the_worst_comes_first(found):
+def test_stations_sort_worst_first(station_results):
     """By the share that falls, then the verdict, then the way, then the shaking."""
-    shown = [(answer.effect.severity, answer.pga_m_s2) for answer in found.answers[:-1]]
+    shown = [(answer.effect.severity, answer.pga_m_s2) for answer in station_results.answers[:-1]]
     assert shown == sorted(shown, reverse=True)
-    assert found.answers[0].effect.probability > 0.5 and found.answers[-2].effect.probability == 0.0
+    assert station_results.answers[0].effect.probability > 0.5 and station_results.answers[-2].effect.probability == 0.0
 
 
-def test_each_station_is_that_of_the_commands_of_one_record(event, found):
+def test_station_equals_measure_and_respond(event, station_results):
     """Peaks and intensity are those of `measure`, the fate that of `respond` in the worst direction."""
-    answer = found.answers[0]
-    record = prepared(event, answer.station)
+    answer = station_results.answers[0]
+    record = prepared_record(event, answer.station)
     told = measure(record)
     horizontal = [m for m in told.components if m.component != "UD"]
     assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
@@ -106,7 +106,7 @@ EFFECTS = {
 
 
 @pytest.mark.parametrize("solver", FOLLOWED)
-def test_every_solver_answers_as_its_batch_does(event, solver):
+def test_stations_of_every_solver_equal_batch(event, solver):
     """What the worst station has is the worst of the rows that a batch of its record has."""
     subject = FOLLOWED[solver]
     strong = Preparation(scale=3.0)
@@ -124,33 +124,33 @@ def test_every_solver_answers_as_its_batch_does(event, solver):
     assert found == max(effects.values(), key=lambda told: tuple(value or 0.0 for value in told))
 
 
-def test_what_no_solver_follows_is_refused():
+def test_survey_stations_rejects_unsupported_options():
     """A solver that follows no body, and versions where there are none, in one sentence."""
     with pytest.raises(ParameterError, match="'stack' is not available for stations"):
         StationBody(Block(0.24, 0.8), {}, solver="stack")
-    with pytest.raises(ParameterError, match="slide has no samples"):
+    with pytest.raises(ParameterError, match="slide does not support samples"):
         StationBody(0.2, {}, runs=5, solver="slide")
 
 
-def test_a_cemetery_is_judged_in_every_direction(event):
+def test_cemetery_rate_is_worst_over_azimuths(event):
     """The rate is at least that of either component, and that of `overturn-rate` towards its azimuth."""
     cemetery = read_cemetery("aoyama.csv")
     answer = survey_stations(event, StationCemetery(cemetery)).answers[0]
-    record = prepared(event, answer.station)
+    record = prepared_record(event, answer.station)
     rates = [assess_cemetery(cemetery, shaking, AssessmentMethod()).rate for shaking in component_shakings(record, ("NS", "EW"))]
     assert answer.effect.rate >= max(rates) > 0.0
     (towards,) = component_shakings(record, (f"{answer.effect.azimuth_deg:g}",))
     assert assess_cemetery(cemetery, towards, AssessmentMethod()).rate == answer.effect.rate
 
 
-def test_threads_change_nothing(event, found):
+def test_survey_stations_is_independent_of_thread_count(event, station_results):
     """One worker gives the same stations in the same order."""
     again = survey_stations(event, BODY, workers=1)
-    assert again == found
+    assert again == station_results
 
 
 @pytest.mark.parametrize("asked", ["SYA005", " sya005 "])
-def test_one_station_is_answered_where_it_is_asked_for(event, tmp_path, asked):
+def test_survey_stations_selects_one_station(event, tmp_path, asked):
     """Of a bundle and of a folder; what cannot be read is named all the same."""
     for name, data in {**station_files(4), **station_files(5)}.items():
         (tmp_path / name).write_bytes(data)
@@ -162,21 +162,21 @@ def test_one_station_is_answered_where_it_is_asked_for(event, tmp_path, asked):
         survey_stations(tmp_path, read_options=ReadOptions(station="NOWHERE"))
 
 
-def test_two_earthquakes_are_refused(tmp_path):
+def test_survey_stations_rejects_two_earthquakes(tmp_path):
     """Another origin time, or an epicentre far away, with the stations that tell them; three minutes are one earthquake."""
     for number, changes in ((1, {}), (2, {"Origin Time": "2004/10/23 18:34:00", "time": "2004/10/23 18:34:20"})):
         for name, data in station_files(number, **changes).items():
             (tmp_path / name).write_bytes(data)
     with pytest.raises(ParameterError, match=r"two earthquakes: 2004-10-23 08:56 UTC .SYA001. and 2004-10-23 09:34 UTC .SYA002."):
         survey_stations(tmp_path)
-    near, far = (read_all_of(tmp_path / part, station_files(3, **header)) for part, header in (("a", {}), ("b", {"Lat.": "35.000"})))
+    near, far = (read_files(tmp_path / part, station_files(3, **header)) for part, header in (("a", {}), ("b", {"Lat.": "35.000"})))
     with pytest.raises(ParameterError, match="two earthquakes"):
         survey_stations([near, far])
-    soon = read_all_of(tmp_path / "c", station_files(4, **{"Origin Time": "2004/10/23 17:57:00"}))
+    soon = read_files(tmp_path / "c", station_files(4, **{"Origin Time": "2004/10/23 17:57:00"}))
     assert len(survey_stations([near, soon]).answers) == 2
 
 
-def read_all_of(folder, files):
+def read_files(folder, files):
     """Return the record of some files, written to a folder."""
     folder.mkdir()
     for name, data in files.items():
@@ -185,17 +185,17 @@ def read_all_of(folder, files):
     return record
 
 
-def test_a_station_without_a_place_is_listed_and_not_mapped(found):
+def test_station_without_coordinates_is_listed_only(station_results):
     """JMA's zeros and a table's nothing are no coordinates; with one horizontal of unknown azimuth there is no worst direction."""
     listed = survey_stations([read("synthetic_jma"), read("elcentro_1940_ns")], BODY)
     assert listed.mapped == ()
     jma, table = listed.answers
     assert (jma.latitude, jma.failure) == (None, None) and jma.pga_m_s2 > 9.0
     assert table.pga_m_s2 == pytest.approx(3.12656, abs=1e-4) and table.failure is not None and table.effect.azimuth_deg is None
-    assert found.earthquake.magnitude == 6.8 and found.origin_told == "2004-10-23 17:56:00 JST"
+    assert station_results.earthquake.magnitude == 6.8 and station_results.origin_told == "2004-10-23 17:56:00 JST"
 
 
-def test_nothing_to_survey():
+def test_survey_stations_rejects_empty_input():
     """No record at all, and stones that are to be simulated, are refused."""
     with pytest.raises(ParameterError, match="no records"):
         survey_stations([])
@@ -203,7 +203,7 @@ def test_nothing_to_survey():
         StationCemetery(read_cemetery("aoyama.csv"), AssessmentMethod("simulate"))
 
 
-def test_every_direction_is_looked_in():
+def test_survey_stations_finds_worst_azimuth():
     """A shaking along 45 degrees does its worst there, though both components are smaller."""
     record = read("synthetic_jma")
     north = record.component("NS").acceleration

@@ -4,7 +4,7 @@ from seisblock.core.i18n import get_locale, use_locale
 from seisblock.studies.parallel import MAX_PENDING_RECORDS, map_threads
 
 
-def test_threads_speak_the_language_of_who_asks():
+def test_map_threads_uses_locale_of_caller():
     """What is said while a kernel is compiled in a thread was English, whatever `--lang` said."""
     with use_locale("ja"):
         assert set(map_threads(lambda _: get_locale(), range(8), workers=4)) == {"ja"}
@@ -12,7 +12,7 @@ def test_threads_speak_the_language_of_who_asks():
         assert set(map_threads(lambda _: get_locale(), range(8), workers=4)) == {"en"}
 
 
-def test_items_are_taken_as_they_are_needed():
+def test_map_threads_consumes_items_lazily():
     """However many there are, no more are taken than are asked to be under way: they may hold a record each."""
     taken = []
     answers = map_threads(lambda item: item, (taken.append(n) or n for n in range(1000)), workers=2, max_pending=MAX_PENDING_RECORDS)

@@ -13,7 +13,7 @@ import numpy as np
 
 from seisblock.core import checks
 from seisblock.core.errors import BodyError
-from seisblock.core.i18n import N_
+from seisblock.core.i18n import N_, join_alternatives
 from seisblock.core.io.files import read_bytes
 from seisblock.core.limits import check_limit
 from seisblock.core.typing import FloatArray, IntArray
@@ -111,7 +111,9 @@ def _read_mesh_file(name: str | Path) -> bytes:
     bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
     path = path if bundled is None else bundled
     if path.suffix.lower() not in SUFFIXES:
-        raise BodyError("{name}: the file name of a mesh must end in {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
+        raise BodyError(
+            "{name}: the file name of a mesh must end in {suffixes}", name=str(name)[:200], suffixes=join_alternatives(SUFFIXES)
+        )
     data = read_bytes(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty", name=str(name))

@@ -84,7 +84,9 @@ def choose_block(params: Mapping[str, Any]) -> BlockChoice:
             restitution = table_restitution(table, params["block"])
         check_side(params, table.get("kind"))
         body = body_from_table(table, side=params.get("side") or "short")
-        origin = lazy_gettext("{name}, from {file}", name=lazy_gettext(body.name), file=params["block"])
+        origin = lazy_gettext(body.name)
+        if origin != params["block"]:
+            origin = lazy_gettext("{name}, from {file}", name=origin, file=params["block"])
     else:
         check_side(params, None)
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]

@@ -59,7 +59,7 @@ _FRICTION = (
         type=LENGTH,
         default=0.0,
         section="Body",
-        help="Depth of tenons, which hold the feet until they leave the holes in flight, m or with a unit (2cm). [default: none]",
+        help="Length of the tenons, which hold the feet until they leave the mortises, m or with a unit (2cm). [default: none]",
     ),
 )
 

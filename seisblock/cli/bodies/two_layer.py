@@ -71,7 +71,7 @@ def two_layer_choice(params: Mapping[str, Any], *, default: str) -> TwoLayerChoi
 def _from_sizes(params: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
     missing = [f"--{key}" for key, value in sizes.items() if value is None]
     if missing:
-        raise BodyError("a two-layer block given by its sizes requires also {missing}", missing=missing)
+        raise BodyError("a two-layer block given by its sizes also requires {missing}", missing=missing)
     for key in ("heights", "masses"):
         if len(sizes[key]) != 2:
             raise BodyError("--{key} requires two values, upper and lower layer; found {count}", key=key, count=len(sizes[key]))

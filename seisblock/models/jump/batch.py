@@ -183,6 +183,7 @@ def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, drops:
         active_rows, onset = active_rows[has_onset], Instants(search.end.sample[has_onset], search.end.tau[has_onset])
         if not active_rows.size:
             break
+        # a backward chain is the forward chain of the mirrored motion
         sign = np.where(search.final_mode[has_onset] == rocking.ROSE_FORWARD, 1.0, -1.0)
         step = _run_chain(rows, motion, active_rows, floor_drop[active_rows], sign, sign[:, None] * gains[has_onset], onset)
         gave_up[active_rows[step.gave_up]] = True
@@ -199,6 +200,7 @@ def _run_chains(rows: _RowParameters, motion: Motion, factor: FloatArray, drops:
             np.isin(step.chains.outcome_code, (IMPACT, JUMP)) & ~step.jammed & ~step.gave_up & (step.end.sample < motion.samples - 1)
         )
         active_rows = active_rows[continues & (not first)]
+    # a last chain without a jump does not undo an earlier jump, as in the single run
     codes[(codes == IMPACT) & has_jumped] = JUMP
     threshold = rows.rocking[:, rocking.THRESHOLD_FORWARD]
     return JumpBatchResult(codes, jammed, total, displacement, friction, threshold, rows.ratio, concatenate_chains(tables), gave_up)
@@ -237,6 +239,7 @@ def _run_chain(
     displacement, end = sizes.radius * np.sin(lean) - sizes.width / 2, rocking_run.end
     jammed, landing_time = np.zeros(active_rows.size, dtype=np.bool_), np.full(active_rows.size, np.nan)
     friction, energy_before, energy_after = (np.full(active_rows.size, np.nan) for _ in range(3))
+    # both lower corners leave the support only if e_y > |theta'_2/theta'_1| (eq. (8b))
     jump_rows = np.flatnonzero(has_impact & ~gave_up & (omega < 0.0) & (lift > abs(ratio)))
     if jump_rows.size:
         p = rows.flight[active_rows[jump_rows]]

@@ -235,6 +235,7 @@ def _time_above_threshold(path: ChainPath) -> float:
     for begin in range(start.sample + 1, motion.samples, CHUNK_SIZE):
         samples_below = np.flatnonzero(path.sign * motion.horizontal[begin : begin + CHUNK_SIZE] <= threshold)
         if samples_below.size:
+            # the crossing lies in the interval that ends at the first sample below
             i = begin - 1 + int(samples_below[0])
             break
     else:

@@ -156,6 +156,7 @@ def jump_histories(motion: Motion, block: TwoLayerBlock, segments: Sequence[Segm
         Channel("rotation", "rad", theta, "θ"),
         Channel("displacement", "m", x, "x_G"),
         Channel("height", "m", block.centroid_height + rise, "y_G"),
+        # at rest after the record
         Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal, right=0.0), "z''"),
     )
     return Histories(time, channels)

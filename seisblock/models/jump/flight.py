@@ -89,17 +89,20 @@ def _flight_series(y, f, p, order, c, g):
     """Write the cubic series of [Sugimoto2017]_ eqs. (9), and the heights of both lower corners as guards (eq. (11))."""
     c[THETA, 0], c[THETA, 1], c[THETA, 2], c[THETA, 3] = y[THETA], y[OMEGA], 0.0, 0.0
     c[OMEGA, 0], c[OMEGA, 1], c[OMEGA, 2], c[OMEGA, 3] = y[OMEGA], 0.0, 0.0, 0.0
+    # relative to the ground: x'' = -z'' with z'' = f0 + f1 t; y'' = -g
     c[X, 0], c[X, 1], c[X, 2], c[X, 3] = y[X], y[VX], -f[0, 0] / 2, -f[0, 1] / 6
     c[VX, 0], c[VX, 1], c[VX, 2], c[VX, 3] = y[VX], -f[0, 0], -f[0, 1] / 2, 0.0
     c[Y, 0], c[Y, 1], c[Y, 2], c[Y, 3] = y[Y], y[VY], -p[GRAVITY] / 2, 0.0
     c[VY, 0], c[VY, 1], c[VY, 2], c[VY, 3] = y[VY], -p[GRAVITY], 0.0, 0.0
     g[LIFT, 0] = g[FRICTION, 0] = g[FRICTION_BACKWARD, 0] = OFF
+    # y is concave, so its least value is at an end of the sample; a corner lies at most B/2 |theta| below it, as H (1 - cos theta) >= 0
     dt = p[DT]
     lowest_height = min(y[Y], y[Y] + dt * (y[VY] - dt * p[GRAVITY] / 2)) + p[DROP]
     if lowest_height > p[HALF_WIDTH] * (abs(y[THETA]) + abs(y[OMEGA]) * dt):
         # no corner can reach the ground within the sample, at any tilt
         g[LEFT, 0] = g[RIGHT, 0] = OFF
         return 3
+    # with a constant spin the recurrence of sine and cosine has a single term
     c[SIN, 0], c[COS, 0] = np.sin(y[THETA]), np.cos(y[THETA])
     for k in range(1, order + 1):
         c[SIN, k] = y[OMEGA] * c[COS, k - 1] / k
@@ -108,6 +111,7 @@ def _flight_series(y, f, p, order, c, g):
         if k > 3:
             for i in range(6):
                 c[i, k] = 0.0
+        # middle of the base at y + H - H cos theta, corners at -+ B/2 sin theta from it
         centre = c[Y, k] - p[HEIGHT] * c[COS, k]
         g[LEFT, k] = centre - p[HALF_WIDTH] * c[SIN, k]
         g[RIGHT, k] = centre + p[HALF_WIDTH] * c[SIN, k]
@@ -126,6 +130,7 @@ def _flat_sliding_series(slip, y, f, p, c, g):
     c[X, 1], c[X, 2], c[X, 3] = y[VX], pull / 2, -f[0, 1] / 6
     c[VX, 1], c[VX, 2] = pull, -f[0, 1] / 2
     g[TOUCH, 0] = g[TOPPLE, 0] = g[LIFT, 0] = g[FRICTION_BACKWARD, 0] = OFF
+    # sliding ends where the velocity changes its sign
     for k in range(4):
         g[FRICTION, k] = slip * c[VX, k]
     return 3
@@ -134,6 +139,7 @@ def _flat_sliding_series(slip, y, f, p, c, g):
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
     """Write the series of flight, of motion about the corner in contact, or of flat sliding; return the degree."""
+    # the record of the landings is constant: its rows are not advanced
     c[SIDE, 1] = c[FRICTION_NEEDED, 1] = c[ENERGY_BEFORE, 1] = c[ENERGY_AFTER, 1] = OFF
     if mode == FLIGHT:
         return _flight_series(y, f, p, order, c, g)
@@ -152,15 +158,19 @@ def flight_series(mode, y, f, p, order, c, g):
     c[THETA, 0], c[OMEGA, 0] = y[THETA], y[OMEGA]
     c[PSI, 0] = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     c[SIN, 0], c[COS, 0] = np.sin(c[PSI, 0]), np.cos(c[PSI, 0])
+    # tau is the tilt towards the corner in contact: -side theta
     c[TAU1, 0] = -side * y[OMEGA]
     c[X, 0], c[VX, 0], c[Y, 0], c[VY, 0] = y[X], y[VX], y[Y], y[VY]
     corner_inertia = p[CENTROID_INERTIA] + p[MASS] * r * r
     for k in range(order + 1):
+        # the left corner is the mirror image: ground motion and velocities along x change their signs
         shake = side * f[0, k] if k < 2 else 0.0
         c[SPEED2, k] = product(c[TAU1], c[TAU1], k)
+        # g - R s tau'^2
         c[SINK, k] = -r * product(c[SIN], c[SPEED2], k)
         if k == 0:
             c[SINK, 0] += p[GRAVITY]
+        # D = I_G + m R^2 (c^2 - mu' sigma s c)
         c[INERTIA, k] = p[MASS] * r * r * (product(c[COS], c[COS], k) - friction * product(c[SIN], c[COS], k))
         if k == 0:
             c[INERTIA, 0] += p[CENTROID_INERTIA]
@@ -185,6 +195,7 @@ def flight_series(mode, y, f, p, order, c, g):
             g[FRICTION, k] = p[MU_KINETIC] * c[NORMAL, k] / p[MASS] - need
             g[FRICTION_BACKWARD, k] = p[MU_KINETIC] * c[NORMAL, k] / p[MASS] + need
             foot = 0.0
+        # the tilt towards the corner returns to zero, or reaches pi/2
         g[TOUCH, k] = -side * c[THETA, k]
         g[TOPPLE, k] = side * c[THETA, k]
         g[LIFT, k] = c[NORMAL, k]
@@ -200,6 +211,7 @@ def flight_series(mode, y, f, p, order, c, g):
         sine_cosine(c[PSI], c[SIN], c[COS], k + 1)
     g[TOPPLE, 0] += 0.5 * np.pi
     if kind == STICK:
+        # static friction is tested at the landing only, as in the paper
         g[FRICTION, 0] = g[FRICTION_BACKWARD, 0] = OFF
     elif slides:
         g[FRICTION_BACKWARD, 0] = OFF
@@ -237,6 +249,7 @@ def _stick_or_slip_mode(corner, y, f, p, mu, stick_kind):
     turning = -p[MASS] * r * (p[GRAVITY] * c + side * f[0, 0] * s) / (p[CENTROID_INERTIA] + p[MASS] * r * r)
     normal = p[GRAVITY] - r * s * tilting**2 + r * c * turning
     need = side * f[0, 0] + r * s * turning + r * c * tilting**2
+    # eq. (14), H and N per unit mass
     if abs(need) <= mu * normal:
         return contact_mode(corner, stick_kind)
     # the foot slips against the direction of the force that it lacks
@@ -273,6 +286,7 @@ def flight_reset(mode, guard, y, f, p):
         return END
     if contact_kind(mode) == HOLD:
         side = 2 * corner - 1
+        # FRICTION fires where the foot lacks force towards +x of the mirrored frame: it slips the other way
         return contact_mode(corner, SLIP_BACKWARD if (guard == FRICTION) == (side > 0) else SLIP_FORWARD)
     return _stick_or_slip_mode(corner, y, f, p, p[MU_KINETIC], HOLD)
 

@@ -51,6 +51,7 @@ def _shift_time(trajectory: Trajectory, samples: int) -> Trajectory:
     """Return a trajectory shifted in time by `samples` samples."""
     seconds = samples * trajectory.dt
     extrema = trajectory.extrema.copy()
+    # columns 1 and 3 are the times of maximum and minimum
     extrema[:, 1::2] += seconds
 
     def walk() -> Iterator[Path]:

@@ -119,6 +119,7 @@ def launch_velocities(
 
 def centroid_rise(speed: float, gravity: float, flight_s: float) -> float:
     """Return the largest rise of the centroid within `flight_s` after launch at vertical velocity `speed`, m ([Sugimoto2017]_ eq. (9b))."""
+    # the top of the parabola, unless a landing ends the flight before
     top = min(speed / gravity, flight_s)
     return speed * top - gravity * top**2 / 2
 

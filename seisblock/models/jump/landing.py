@@ -47,6 +47,7 @@ def touch_down(corner, y, p):
     """Convert the flight state into that of the landed corner, without slip ([Sugimoto2017]_ section 3.10)."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    # displacement of the foot instead of the centroid; the two agree at zero tilt
     y[X] += side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
     y[VX] = 0.0
     y[Y] = 0.0
@@ -69,6 +70,7 @@ def record_landing(corner, vx, vy, omega, y, p):
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     tilting = -side * y[OMEGA]
+    # velocity of the centroid after the landing, from that of the foot and the spin
     horizontal = y[VX] + side * p[RADIUS] * np.sin(psi) * tilting
     vertical = p[RADIUS] * np.cos(psi) * tilting
     push = horizontal - vx
@@ -122,11 +124,13 @@ def touch_down_by_friction(corner, y, p):
         if v != 0.0:
             friction_ratio = -np.sign(v) * mu
         elif abs(a_tn) <= mu * a_tt:
+            # ratio T/P that leaves no slip; it sticks where this lies within the cone
             friction_ratio = -a_tn / a_tt
         else:
             friction_ratio = -np.sign(a_tn) * mu
         rise = a_nn + a_tn * friction_ratio
         gain = a_tn + a_tt * friction_ratio
+        # normal impulses at which the corner stops falling, and at which its slip stops
         end_impulse = -u / rise if rise > 0.0 else np.inf
         stop_impulse = -v / gain if v * gain < 0.0 else np.inf
         impulse = max(min(end_impulse, stop_impulse), 0.0)
@@ -146,6 +150,7 @@ def touch_down_by_friction(corner, y, p):
 @kernel(_t.void(VECTOR, VECTOR), inline=True)
 def land_flat_by_friction(y, p):
     """Convert the state about a corner at zero tilt into flat sliding after a plastic impact of the base ([Moreau1988]_)."""
+    # the centroid stops from its fall speed about the corner; friction changes its horizontal velocity by at most mu' times that
     fall_speed = p[HALF_WIDTH] * abs(y[OMEGA])
     slip_speed = y[VX] - p[HEIGHT] * y[OMEGA]
     y[THETA] = 0.0

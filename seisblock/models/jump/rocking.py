@@ -55,6 +55,7 @@ def rocking_series(mode, y, f, p, order, c, g):
         c[SIN, k + 1] = sine / (k + 1)
         c[COS, k + 1] = cosine / (k + 1)
     for k in range(order + 1):
+        # return to zero tilt, and quarter turn
         g[0, k] = c[THETA, k]
         g[1, k] = -c[THETA, k]
     g[1, 0] += 0.5 * np.pi
@@ -69,6 +70,7 @@ def rocking_skip(mode, acceleration, gains, sample, p):
     index = sample
     while index < acceleration.shape[1] and -p[THRESHOLD_BACKWARD] < gains[0] * acceleration[0, index] < p[THRESHOLD_FORWARD]:
         index += 1
+    # the threshold may be crossed before sample `index`: the interval that ends there is not skipped
     return max(index - 1, sample)
 
 

@@ -176,6 +176,7 @@ def solve_jump(
     outcome = JumpOutcome(
         _final_outcome(chains),
         chains,
+        # plain additions, as in the batch: sum() compensates round-off from Python 3.12 on
         functools.reduce(operator.add, (chain.total_displacement_m or 0.0 for chain in chains), 0.0),
         final_displacement(parts),
         landing,
@@ -237,6 +238,7 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
     paths: list[ChainPath] = []
     current_instant, floor_drop = Instant(), drop
     for begin, finish in sorted(windows, key=lambda window: (window[0].sample, window[0].tau)):
+        # a chain that still moves when a window opens ends first
         current_instant = max(current_instant, begin, key=lambda instant: (instant.sample, instant.tau))
         while current_instant.sample < run.motion.samples - 1 and (onset := _next_onset(run, direction, current_instant)) is not None:
             if onset[0].sample * run.motion.dt + onset[0].tau > finish:
@@ -245,6 +247,7 @@ def _run_chains(run: _RunContext, direction: str, drop: float, first: bool, wind
             path = paths[-1]
             if not path.is_complete or summarise_chain(path).outcome not in (NO_JUMP, JUMPED):
                 return paths
+            # after a landing the block stands on the ground: no further drop
             current_instant, floor_drop = path.end, floor_drop if path.first_landing is None else 0.0
             if first:
                 break

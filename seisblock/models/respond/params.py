@@ -157,7 +157,7 @@ class RespondParams:
             fraction(N_("`rocking_restitution` (ratio of angular velocities)"), self.rocking_restitution)
         in_interval(N_("`rocking_share` (ratio to Housner's restitution)"), self.rocking_share, "(0, 1]")
         check_gravity(self.gravity)
-        non_negative(N_("`tenon` (depth)"), self.tenon, "m")
+        non_negative(N_("`tenon` (length)"), self.tenon, "m")
         for point in self.further_points:
             if len(point) != 2 or not all(math.isfinite(value) for value in point):
                 raise ParameterError(

@@ -176,12 +176,12 @@ def _check_bases(body: Pile, contact: PileContact | None, points: int) -> None:
     for stone in body.stones:
         if stone.is_round and (contact is not None or points != CORNER_POINTS):
             raise ParameterError(
-                "the stone {name} is a cylinder, which requires rigid contact at the edges: leave out `contact` and `points`",
+                "the stone {name} is a cylinder, which requires rigid contact at the edges: omit `contact` and `points`",
                 name=stone.name,
             )
         if points != CORNER_POINTS and stone.inset != SHARP_EDGES:
             raise ParameterError(
-                "edge wear requires contact at the edges: leave out `points` ({points} along each side of a joint)",
+                "edge wear requires contact at the edges: omit `points` ({points} along each side of a joint)",
                 points=points,
             )
 
@@ -200,6 +200,7 @@ def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArra
         for i, mass in zip(group, masses, strict=True):
             stone, arm = body.stones[i], centres[i] - centroid
             size = np.array(stone.size)
+            # box with sides a, b, c: (b^2 + c^2)/12 about the first axis
             moments = stone.gyration_squared if stone.is_round else (size @ size - size**2) / 12.0
             # parallel-axis theorem
             tensor += mass * (np.diag(moments) + (arm @ arm) * np.eye(3) - np.outer(arm, arm))
@@ -264,6 +265,7 @@ def _joint_points(points: int, x: tuple[float, float], y: tuple[float, float], c
 
     The four entries of an orbit are mirror images of each other.
     """
+    # centres of equal segments: the outermost ones stand half a segment inside
     ends = 1.0 if points == CORNER_POINTS else 1.0 - 1.0 / points
     ticks = np.linspace(-ends, ends, points)[(points // 2) :] if points > 1 else np.zeros(1)
     middle = (0.5 * (x[0] + x[1]) - centre[0], 0.5 * (y[0] + y[1]) - centre[1])
@@ -300,6 +302,7 @@ def _pair_constants(
         mass = min(inertias[owner[i], MASS] for i in (a, b) if owner[i] < len(inertias))
         sizes = [(4.0 * boxes[i, 0] * boxes[i, 1], i) for i in (a, b) if i < len(heights)]
         length = 0.5 * sum(heights[i] for _, i in sizes)
+        # n^2 points at a mean square distance of 1/3 of the corners', shared by four corners: n^2/12
         if contact is not None:
             rows[p, :FRICTION] = np.array(contact.point_coefficients(float(mass), min(sizes)[0], length, points**2)) * points**2 / 12.0
         rows[p, [FRICTION, KINETIC]] = body.friction()

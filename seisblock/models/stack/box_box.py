@@ -72,6 +72,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
     """
     d0, d1, d2 = rel[REL_D], rel[REL_D + 1], rel[REL_D + 2]
     max_gap = -math.inf
+    # normals of the partner: its own axes
     for i in range(3):
         d = rel[REL_D + i]
         side = 1.0 if d > 0.0 else -1.0
@@ -79,6 +80,7 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
         if gap > max_gap:
             max_gap = gap
             _set_axis(side if i == 0 else 0.0, side if i == 1 else 0.0, side if i == 2 else 0.0, i, axis)
+    # normals of the carrier: columns of its rotation matrix
     for j in range(3):
         x, y, z = rel[j], rel[3 + j], rel[6 + j]
         d = x * d0 + y * d1 + z * d2
@@ -104,11 +106,13 @@ def separating_axis(rel, carrier_half, partner_half, cutoff, axis):
             else:
                 x, y, z = -y, x, 0.0
             square = x * x + y * y + z * z
+            # parallel edges give no axis of their own: where it would separate, a face normal does
             if square < PARALLEL_TOLERANCE:
                 continue
             d = x * d0 + y * d1 + z * d2
             scale = (1.0 if d > 0.0 else -1.0) / math.sqrt(square)
             x, y, z = scale * x, scale * y, scale * z
+            # the axis in the carrier's axes
             a = x * rel[0] + y * rel[3] + z * rel[6]
             b = x * rel[1] + y * rel[4] + z * rel[7]
             c = x * rel[2] + y * rel[5] + z * rel[8]
@@ -213,6 +217,7 @@ def face_manifold(rel, carrier_half, partner_half, axis, view, points, buffer):
             count = _clip_polygon(count, buffer, k, -1.0, reference_half[k] + FACE_MARGIN, points)
     for q in range(count):
         a0, a1, a2 = points[q, 0], points[q, 1], points[q, 2]
+        # contact points stay on the incident face; the gap is measured along the reference normal
         points[q, 3] = side * points[q, i] - reference_half[i]
         if is_carrier_face:
             for p in range(3):

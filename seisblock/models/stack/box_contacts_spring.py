@@ -164,6 +164,7 @@ def add_edge_forces(n, rel, corners, edges, half, k, dt, slots, work, total):
         for axis in range(3):
             e[axis] = b[axis] - a[axis]
             if e[axis] == 0.0:
+                # parallel to this pair of faces and outside them: no intersection
                 if abs(a[axis]) >= half[axis]:
                     t_enter = 2.0
                 continue

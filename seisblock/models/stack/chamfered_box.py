@@ -47,6 +47,7 @@ def _min_distance(plane, corners, count, cutoff):
     min_height = math.inf
     for i in range(count):
         min_height = min(min_height, plane_distance(plane, corners[i]))
+        # only the widest gap counts: a face below the best one needs no exact value
         if min_height <= cutoff:
             break
     return min_height
@@ -65,6 +66,7 @@ def _projects_onto_face(face, gap, hull, n_hull, corners, count):
         for f in range(n_hull - 2):
             side = hull[f, PLANE:]
             alignment = side[0] * plane[0] + side[1] * plane[1] + side[2] * plane[2]
+            # the projection, corner - distance * normal, lies on the inner side of every other face
             is_over = is_over and (f == face or plane_distance(side, corner) <= distance * alignment)
         if is_over:
             return True
@@ -85,6 +87,7 @@ def _facing_mask(x, y, z, hull, count):
 def _transform_edges(count, partner_hull, n_partner, carrier_hull):
     """Write the carrier's edges in the partner's axes, and for each the mask of partner faces that face along it."""
     for j in range(2 * count - RING_SIZE):
+        # c corners: c edges in the rings and c - 4 posts between them
         start, end, face_a, face_b = edge_topology(j, count)
         row, k = carrier_hull[j // 2], EDGE_DIRECTION + 3 * (j % 2)
         row[k], row[k + 1], row[k + 2] = (

@@ -68,6 +68,7 @@ def add_contact(count, c, p, slot, gap, max_gap, k, bodies, dt, pile, memory):
     row, first, second, box = memory.constraint_rows[count], bodies[a], bodies[b], pile.boxes[p]
     y0, y1, y2 = slot[POSITION] + box[BOX_CENTRE], slot[POSITION + 1] + box[BOX_CENTRE + 1], slot[POSITION + 2] + box[BOX_CENTRE + 2]
     for i in range(3):
+        # the same point from both centres: rotated from the partner's axes, then shifted by the distance of the centres
         r = R + 3 * i
         row[ARM_B + i] = second[r] * y0 + second[r + 1] * y1 + second[r + 2] * y2
         row[ARM_A + i] = row[ARM_B + i] + second[X + i] - first[X + i]

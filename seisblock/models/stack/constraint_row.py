@@ -66,6 +66,7 @@ VELOCITY_COLUMNS = 15
 def _add_body_response(body, arm, inertias, inverses, spins, sign, row):
     """Add the response of a body to a unit impulse at `arm` to a row: velocity of the point, and spin."""
     x, y, z = arm[0], arm[1], arm[2]
+    # spin per unit impulse p: J^-1 (arm x p)
     j = inverses[body]
     m = 1.0 / inertias[body, 0]
     for i in range(3):

@@ -93,6 +93,7 @@ def load_directions(slots, rel, radius, x):
     if total != 0.0:
         p0, p1, p2 = p0 / total, p1 / total, p2 / total
     min_offset_squared = (CENTRED_RATIO * radius) ** 2
+    # direction in the partner's face, then in the carrier's face
     x[3], x[4], x[5] = rel[REL_D] + p0, rel[REL_D + 1] + p1, 0.0
     projection = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
     x[0], x[1], x[2] = p0 - projection * rel[2], p1 - projection * rel[5], p2 - projection * rel[8]
@@ -156,6 +157,7 @@ def rolling_bias(row, x, y, z, step, bias):
     u0, u1, u2 = u0 / sine, u1 / sine, u2 / sine
     d0, d1, d2 = w1 * a2 - w2 * a1, w2 * a0 - w0 * a2, w0 * a1 - w1 * a0
     turning = n0 * d0 + n1 * d1 + n2 * d2
+    # m = -(sine u)'; its component along u is the rate of n u = -sine, the height of the lowest point over the radius
     m0, m1, m2 = -turning * a0 - cosine * d0, -turning * a1 - cosine * d1, -turning * a2 - cosine * d2
     sine_rate = u0 * m0 + u1 * m1 + u2 * m2
     # s = u' - w x u: velocity of the contact point relative to the stone, over the radius
@@ -211,6 +213,7 @@ def faces_opposed(rel, carrier_half, partner_half, rims, partner_rims):
     if abs(rel[8]) <= MIN_FACING_COSINE or abs(rel[REL_D + 2]) <= partner_half[2] + MIN_JOINT_HEIGHT_RATIO * carrier_half[2]:
         return False
     is_above = rel[REL_D + 2] > 0.0
+    # tangent of the angle between the axes
     lean = math.sqrt(max(1.0 - rel[8] * rel[8], 0.0)) / abs(rel[8])
     lower_down = is_above == (rel[8] > 0.0)
     return _rim_touches(lean, partner_rims, 1 if is_above else 0) and _rim_touches(lean, rims, 0 if lower_down else 1)

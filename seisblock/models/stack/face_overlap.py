@@ -81,6 +81,7 @@ def _common_normal(side, u, v, normal):
 @kernel(_t.float64(_t.float64, _t.float64, VECTOR, _t.float64), inline=True)
 def _plane_height(x, y, view, height):
     """Return the height of the upper face's plane above a point of the lower face, in the lower stone's axes, m."""
+    # the point at which the height in the upper stone's axes is that of its face, solved for z
     d0, d1 = x - view[REL_D], y - view[REL_D + 1]
     return view[REL_D + 2] + (height - view[2] * d0 - view[5] * d1) / view[8]
 
@@ -88,6 +89,7 @@ def _plane_height(x, y, view, height):
 @kernel(_t.float64(_t.float64, VECTOR, VECTOR, VECTOR))
 def _face_gap(side, view, lower_face, upper_face):
     """Return the gap between the lower face and the lowest point of the upper outline, m."""
+    # distance of the lowest point of the outline below its centre
     reach = (
         upper_face[0] * math.sqrt(view[6] ** 2 + view[7] ** 2)
         if upper_face[0] > 0.0
@@ -114,6 +116,7 @@ def _contained_points(count, side, view, lower_face, upper_face, work, points):
     work : (7, 18) array
         The four axes of :func:`lowest_rim_point`, two rows of scratch, and the direction of the first point of the lower rim, x and y.
     """
+    # points of the upper outline inside the lower one, with the lower normal
     y, normal = work[4], work[5]
     normal[0], normal[1], normal[2] = 0.0, 0.0, side
     for q in range(4):
@@ -162,6 +165,7 @@ def _rim_rim_points(count, side, view, lower_face, upper_face, work, points):
     if distance < max(FACE_MARGIN, abs(upper_face[0] - lower_face[0])):  # one lies within the other, or they are one
         return count
     arc = 2.0 * math.pi / ARC_COUNT
+    # arcs centred on the lowest point, so that none ends there
     first = _rim_excess(-0.5 * arc, view, lower_face, upper_face, work)
     for i in range(ARC_COUNT):
         low, high, at_low = (i - 0.5) * arc, (i + 0.5) * arc, first
@@ -204,6 +208,7 @@ def _side_rim_points(count, side, view, lower_face, upper_face, work, points):
                     end[i] += view[3 * j + i] * (end[3 + j] - view[REL_D + j])
     for q in range(4):
         start, finish = ends[q], ends[(q + 1) % 4]
+        # crossings are sought in plan, where the rim is a circle; columns 3 to 5 of an end hold the point in the lower stone's axes
         e0, e1 = finish[0] - start[0], finish[1] - start[1]
         a, b, c = e0 * e0 + e1 * e1, start[0] * e0 + start[1] * e1, start[0] ** 2 + start[1] ** 2 - radius * radius
         # side and circle intersect where |start + s e| = radius, a quadratic in s
@@ -272,6 +277,7 @@ def face_overlap_points(c, p, rel, pile, axis, work, points):
     for i in range(3):
         axes[1, i] = rel[i] * upper_axis[0] + rel[3 + i] * upper_axis[1] + rel[6 + i] * upper_axis[2] if is_flipped else upper_axis[i]
         first[i] = rel[i] * lower_axis[0] + rel[3 + i] * lower_axis[1] + rel[6 + i] * lower_axis[2] if is_flipped else lower_axis[i]
+    # with a lean, the points of the lower rim begin in the direction of the lowest point of the upper one
     if lowest_rim_point(0.0, 0.0, side, axes) > 0.0:
         first[0], first[1] = axes[2, 0], axes[2, 1]
     size = math.sqrt(first[0] * first[0] + first[1] * first[1])

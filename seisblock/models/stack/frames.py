@@ -42,6 +42,7 @@ def update_rotation_matrix(b):
 @kernel(_t.void(VECTOR, VECTOR), inline=True)
 def update_spin(b, inertia):
     """Write a body's spin from its angular momentum and its rotation matrix."""
+    # into the body's axes, where the inverse inertia is constant, and back
     l0 = b[R] * b[L] + b[R + 3] * b[L + 1] + b[R + 6] * b[L + 2]
     l1 = b[R + 1] * b[L] + b[R + 4] * b[L + 1] + b[R + 7] * b[L + 2]
     l2 = b[R + 2] * b[L] + b[R + 5] * b[L + 1] + b[R + 8] * b[L + 2]
@@ -60,6 +61,7 @@ def rotate(b, dt):
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
     h = 0.5 * dt
     p0, p1, p2 = h * b[W], h * b[W + 1], h * b[W + 2]
+    # (1 + w dt / 2) q: a rotation by 2 atan(|w| dt / 2) once normalised
     b[Q] = w - (p0 * x + p1 * y + p2 * z)
     b[Q + 1] = x + (p0 * w + (p1 * z - p2 * y))
     b[Q + 2] = y + (p1 * w + (p2 * x - p0 * z))
@@ -97,6 +99,7 @@ def relative_state(carrier, partner, bodies, boxes, owner, arms, rel):
     # from the partner's body to the carrier box, then from the partner box
     e0, e1, e2 = c[X] - p[X] + rc[0], c[X + 1] - p[X + 1] + rc[1], c[X + 2] - p[X + 2] + rc[2]
     d0, d1, d2 = e0 - rp[0], e1 - rp[1], e2 - rp[2]
+    # velocity relative to the partner's material at the same place, hence the partner's spin with the arm e
     u0 = c[V] - p[V] + (c[W + 1] * rc[2] - c[W + 2] * rc[1]) - (p[W + 1] * e2 - p[W + 2] * e1)
     u1 = c[V + 1] - p[V + 1] + (c[W + 2] * rc[0] - c[W] * rc[2]) - (p[W + 2] * e0 - p[W] * e2)
     u2 = c[V + 2] - p[V + 2] + (c[W] * rc[1] - c[W + 1] * rc[0]) - (p[W] * e1 - p[W + 1] * e0)
@@ -123,6 +126,7 @@ def apply_contact_force(c, p, arms, total):
     c[T] += t0 + (r1 * f2 - r2 * f1)
     c[T + 1] += t1 + (r2 * f0 - r0 * f2)
     c[T + 2] += t2 + (r0 * f1 - r1 * f0)
+    # the opposite force acts at the same point: arm from the partner's centre
     r0 += c[X] - p[X]
     r1 += c[X + 1] - p[X + 1]
     r2 += c[X + 2] - p[X + 2]

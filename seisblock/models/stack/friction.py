@@ -119,6 +119,8 @@ def max_turn_time(count, duration, time_before, time_left, memory):
         lateral_rate = math.sqrt(max(u0 * u0 + u1 * u1 + u2 * u2 - normal_speed * normal_speed - slip_speed * slip_speed, 0.0)) / duration
         deceleration = (row[SLIP_SPEED] - slip_speed) / duration
         if lateral_rate > MIN_TURN_RATIO * deceleration and lateral_rate + MAX_SLIP_TURN * deceleration > 0.0:
+            # the limit is reached where lateral_rate t = MAX_SLIP_TURN (speed - deceleration t); the velocity is that of the middle of the
+            # step, hence twice the time
             min_time = min(min_time, 2.0 * (row[SLIP_SPEED] * MAX_SLIP_TURN / (lateral_rate + MAX_SLIP_TURN * deceleration) - time_before))
     # a lower bound keeps a slip that nearly stops from cutting the step to nothing
     return min(time_left, max(min_time, MIN_STEP_RATIO * memory.step_info[FULL_STEP]))
@@ -156,6 +158,7 @@ def _previous_friction_ratio(i, count, x, y, z, memory):
     for j in range(count):
         if contact_ids[j, BODY_IDS] != contact_ids[i, BODY_IDS] or contact_ids[j, BODY_IDS + 1] != contact_ids[i, BODY_IDS + 1]:
             continue
+        # the slots still hold the forces of the previous step
         o, p, q = contact_ids[j, 3], contact_ids[j, 4], contact_ids[j, 5]
         slot = memory.joint_slots[o, p, q] if contact_ids[j, 2] == FROM_JOINT else memory.corner_slots[o, p, q]
         normal_force += slot[CACHED_FORCE] * n[NORMAL] + slot[CACHED_FORCE + 1] * n[NORMAL + 1] + slot[CACHED_FORCE + 2] * n[NORMAL + 2]

@@ -51,6 +51,7 @@ def build_hulls(body: Pile, boxes: FloatArray, wear: WearDepths) -> tuple[FloatA
                 rims[i, side] = radius - wear.get((i, side), (0.0, 0.0))[0], up * hz
         for side, up in enumerate((-1.0, 1.0)):
             if (i, side) in wear:
+                # 45 degrees: as high as the smaller wear is deep, at most a quarter of the stone's height
                 bevel = min(*wear[i, side], 0.5 * hz)
                 posts[side] = [len(points) + c for c in range(4)]
                 points += [(sx * hx, sy * hy, up * (hz - bevel)) for sx, sy in _SIGNS]

@@ -105,11 +105,13 @@ def _simulate_restitution(stone: PileStone, points: int, width_ratio: float, con
     single_stone = Pile("alone", (replace(stone, on=GROUND, offset=(0.0, 0.0), bottom=None, mu=HIGH_FRICTION),))
     alpha = math.atan2(width_ratio * stone.width, stone.height)
     radius = 0.5 * math.hypot(width_ratio * stone.width, stone.height)
+    # 4/p: longer than the swing to the impact and the rebound
     duration = 4.0 * math.sqrt(4.0 * radius / (3.0 * gravity))
     zero_motion = Motion.from_arrays(np.zeros(300), duration / 300)
     pile = pile_arrays(single_stone, contact, points)
     steps = steps_per_sample(pile, zero_motion.dt, None)
     result = Simulation(pile, zero_motion, (1.0, 0.0), gravity, steps, False, True, {stone.name: RELEASE_TILT_RATIO * alpha}).run()
+    # the stone rotates about y only
     lean = 2.0 * np.arctan2(result.track.quaternions[:, 0, 2], result.track.quaternions[:, 0, 0])
     # first passage through the upright position, then the first maximum on the other side
     crossing = int(np.argmax(lean < 0.0))

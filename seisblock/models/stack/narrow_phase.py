@@ -74,6 +74,7 @@ def _contacts_joint_points(count, j, rel, bodies, dt, pile, memory):
                 slot[ACTIVE] = 0.0
                 continue
             s2 = rel[11] + rel[6] * x + rel[7] * y + rel[8] * z
+            # overlap with the partner's face
             depth = half[2] + sigma * s2
             slot[POSITION] = s0
             slot[POSITION + 1] = s1
@@ -134,6 +135,7 @@ def _contacts_box_box(count, pair, rel, max_gap, bodies, dt, pile, memory):
             match_point(slots[0], old_slots, max_points)
             new_count = add_contact(count, c, p, slots[0], gap, max_gap, k, bodies, dt, pile, memory)
             count = register_slot(count, new_count, FROM_PAIR, pair, 0, 0, slots[0], memory.contact_ids)
+        # the first slot belongs to the crossing of the edges
         first_slot = 1
     points = faces_overlap(rel, c, p, pile, axis, scratch, max_gap, candidates, scratch[20:29])
     for i in range(points):
@@ -271,6 +273,7 @@ def _contacts_pair(count, pair, bodies, dt, pile, memory):
     memory.pair_states[pair] = FACE_PAIR if faces >= 0 else BOX_PAIR
     restitution = pile.pair_constants[pair, RESTITUTION]
     if rel[8] > MIN_FACING_COSINE:
+        # one stone stands on the other: restitution of the joint, and thresholds of impact by the load
         for i in range(start, count):
             row = memory.constraint_rows[i]
             row[RESTITUTION_RATIO] = restitution
@@ -316,6 +319,7 @@ def find_contacts(bodies, dt, refresh_bounds, pile, memory):
     Joints with points of their own use these while their stones face each other; all other pairs are tested as separate hulls.
     """
     count, memory.step_info[MAX_SPEED] = 0, max_corner_speed(bodies, pile.boxes, pile.owner)
+    # joints first: they decide which pairs are left to the test of the hulls
     for j in range(pile.joints.shape[0]):
         pair = pile.joints[j, PAIR]
         if pile.constants[j, POINT + CLAMP_TO_EDGE] == 0.0 and not _both_sleeping(pair, pile, memory):

@@ -151,6 +151,7 @@ def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
 def rotate_vectors(q: FloatArray, v: FloatArray) -> FloatArray:
     """Return vectors (..., 3) rotated by quaternions (..., 4)."""
     w, u = q[..., :1], q[..., 1:]
+    # q v q^-1 of a unit quaternion, without the rotation matrix
     return v + 2.0 * _cross_product(u, _cross_product(u, v) + w * v)
 
 
@@ -177,6 +178,7 @@ def _joint_centre(pile: PileArrays, i: int, support: int) -> FloatArray:
     if support >= 0:
         centre, support_centre = (pile.bodies[pile.owner[k], X : X + 2] + pile.boxes[k, BOX_CENTRE : BOX_CENTRE + 2] for k in (i, support))
         half, support_half = pile.boxes[i, :2], pile.boxes[support, :2]
+        # middle of the rectangle that both faces share
         joint_centre[:2] = (
             0.5 * (np.maximum(centre - half, support_centre - support_half) + np.minimum(centre + half, support_centre + support_half))
             - centre
@@ -197,12 +199,14 @@ def _slip(pile: PileArrays, track: Track, i: int) -> FloatArray:
 def tilt_angle(track: Track, i: int) -> FloatArray:
     """Return the angle between a stone's axis and the vertical, (rows,), rad."""
     q = track.quaternions[:, i]
+    # from the half angle, which stays accurate near zero, unlike the arc cosine of the axis
     return 2.0 * np.arctan2(np.hypot(q[:, 1], q[:, 2]), np.hypot(q[:, 0], q[:, 3]))
 
 
 def twist_angle(track: Track, i: int) -> FloatArray:
     """Return a stone's rotation about the vertical, (rows,), rad."""
     q = track.quaternions[:, i]
+    # twist of the swing-twist decomposition; undefined for a stone upside down
     return 2.0 * np.arctan2(q[:, 3], q[:, 0]) * np.where(np.hypot(q[:, 0], q[:, 3]) > 0.0, 1.0, np.nan)
 
 

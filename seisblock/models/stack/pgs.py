@@ -76,6 +76,7 @@ def _solve_sliding(row, c0, c1, c2):
         u0 = c0 + row[W] * q0 + row[W + 1] * q1 + row[W + 2] * q2
         u1 = c1 + row[W + 3] * q0 + row[W + 4] * q1 + row[W + 5] * q2
         u2 = c2 + row[W + 6] * q0 + row[W + 7] * q1 + row[W + 8] * q2
+        # projected-gradient step of the friction about the centre of the cone: its direction is the new slip direction
         u0, u1, u2 = q0 - p * s0 - gain * u0, q1 - p * s1 - gain * u1, q2 - p * s2 - gain * u2
         normal_part = u0 * n0 + u1 * n1 + u2 * n2
         u0 -= normal_part * n0
@@ -84,9 +85,11 @@ def _solve_sliding(row, c0, c1, c2):
         size = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
         if size > 0.0:
             d0, d1, d2 = u0 / size, u1 / size, u2 / size
+        # normal velocity per unit p of the impulse p (n + s + mu d), as W is symmetric
         response = cone_response + mu * (d0 * wn0 + d1 * wn1 + d2 * wn2)
         # with high friction the response may vanish or change sign (Painleve): the bound keeps the impulse finite
         p = target / max(response, MIN_NORMAL_RATIO * normal)
+        # inside the disc of radius mu p the projected friction itself remains
         friction = min(mu * p, size) if p > 0.0 else 0.0
         q0, q1, q2 = p * (n0 + s0) + friction * d0, p * (n1 + s1) + friction * d1, p * (n2 + s2) + friction * d2
     return q0, q1, q2
@@ -120,6 +123,7 @@ def _projected_gradient_step(row, c0, c1, c2):
 def _solve_bilateral(row, c0, c1, c2):
     """Return the impulse along the normal of a bilateral row that gives the required normal velocity; it may pull."""
     n0, n1, n2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2]
+    # n W n with the symmetric W
     response = n0 * (row[W] * n0 + 2.0 * (row[W + 1] * n1 + row[W + 2] * n2)) + n1 * (row[W + 4] * n1 + 2.0 * row[W + 5] * n2)
     p = (row[MIN_NORMAL_VELOCITY] - (c0 * n0 + c1 * n1 + c2 * n2)) / (response + row[W + 8] * n2 * n2)
     return p * n0, p * n1, p * n2
@@ -141,7 +145,9 @@ def _relax_contact(a, b, ground, inertias, row, minimise_energy, velocities):
     q0, q1, q2 = 0.0, 0.0, 0.0
     if row[BILATERAL] > 0.0:
         q0, q1, q2 = _solve_bilateral(row, c0, c1, c2)
+    # an open contact has no impulse; in the cone law a sliding one may press although it opens (u_n - b >= mu |u_t|)
     elif (minimise_energy and bound > -math.inf) or c0 * n0 + c1 * n1 + c2 * n2 < bound:
+        # sticking: the impulse that leaves the velocity bound n, without slip
         e0, e1, e2 = bound * n0 - c0, bound * n1 - c1, bound * n2 - c2
         q0 = row[WI] * e0 + row[WI + 1] * e1 + row[WI + 2] * e2
         q1 = row[WI + 3] * e0 + row[WI + 4] * e1 + row[WI + 5] * e2
@@ -202,6 +208,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities):
         max_change = 0.0
         for i in range(n):
             row = rows[i]
+            # impulses before the sweep; below, their change by the sweep
             for k in range(3):
                 row[SEARCH_DIRECTION + k] = row[IMPULSE + k]
             max_change = max(max_change, _relax_contact(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, False, velocities))
@@ -227,6 +234,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities):
                 for k in range(3):
                     row[SEARCH_DIRECTION + 3 + k] = row[SEARCH_DIRECTION + k]
                 continue
+            # step along the conjugate direction; the velocities follow, since the next sweep reads them
             p0, p1, p2 = beta * row[SEARCH_DIRECTION + 3], beta * row[SEARCH_DIRECTION + 4], beta * row[SEARCH_DIRECTION + 5]
             row[SEARCH_DIRECTION + 3] = p0 + row[SEARCH_DIRECTION]
             row[SEARCH_DIRECTION + 4] = p1 + row[SEARCH_DIRECTION + 1]
@@ -235,6 +243,7 @@ def solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities):
             row[IMPULSE + 1] += p1
             row[IMPULSE + 2] += p2
             apply_impulse(contact_ids[i, 0], contact_ids[i, 1], ground, inertias, row, p0, p1, p2, velocities)
+    # nearly converged: used, and counted as unconverged by the run
     if max_change < UNCONVERGED_RATIO * tolerance:
         return MAX_SWEEPS
     _save_state(n, ground, rows, velocities, True)
@@ -264,6 +273,7 @@ def impulse_work(n, contact_ids, rows, ground, inertias, tolerance, velocities):
 
     Velocities are known to a tolerance, m/s: an impact that conserves energy then counts as creating none.
     """
+    # the velocity is linear in the impulse: with half of it, it is the mean, whose product with the impulse is the work
     apply_impulses(n, contact_ids, rows, ground, inertias, -0.5, velocities)
     work = 0.0
     for i in range(n):
@@ -305,4 +315,5 @@ def solve_contacts(n, contact_ids, rows, ground, inertias, tolerance, velocities
     sweeps = solve_pgs(n, contact_ids, rows, ground, inertias, tolerance, velocities)
     if sweeps > 0 and not creates_energy(n, contact_ids, rows, tolerance, velocities):
         return sweeps
+    # a number above MAX_SWEEPS, so that the step counts as unconverged
     return MAX_SWEEPS + _solve_projected_gradient(n, contact_ids, rows, ground, inertias, tolerance, velocities)

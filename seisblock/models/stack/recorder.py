@@ -77,6 +77,7 @@ def detect_falls(n, bodies, time, fall_states):
         fall_states[i, MIN_COSINE] = min(fall_states[i, MIN_COSINE], cosine)
         if fall_states[i, FALL_TIME] < 0.0 and (cosine < fall_states[i, TILT_LIMIT] or bodies[i, X + 2] < fall_states[i, HEIGHT_LIMIT]):
             fall_states[i, FALL_TIME] = time
+            # horizontal part of the stone's axis, the third column of its rotation matrix
             fall_states[i, FALL_X] = bodies[i, R + 2]
             fall_states[i, FALL_Y] = bodies[i, R + 5]
             has_fallen = True
@@ -149,6 +150,7 @@ def steps_to_take(motion, settings, state):
     s = counters[SAMPLE]
     if s < settings.last and s - counters[FIRST_SAMPLE] + 1 >= motion.shape[1]:
         return 0
+    # the last sample has a single step, which records the end and does not move the stones
     steps = min((settings.steps if s < settings.last else 1) - counters[STEP], counters[STEPS_REMAINING])
     counters[STEPS_REMAINING] -= steps
     return steps

@@ -60,6 +60,7 @@ def _update_inertia(n, bodies, inertias, memory):
         b, v, j = bodies[i], memory.body_velocities[i], memory.inverses[i]
         for p in range(3):
             r0, r1, r2 = b[R + 3 * p], b[R + 3 * p + 1], b[R + 3 * p + 2]
+            # R J^-1 R^T: the inverse inertia is constant in the body's axes only
             c = INVERSE
             s0 = r0 * inertias[i, c] + r1 * inertias[i, c + 3] + r2 * inertias[i, c + 6]
             s1 = r0 * inertias[i, c + 1] + r1 * inertias[i, c + 4] + r2 * inertias[i, c + 7]
@@ -170,6 +171,7 @@ def _solve_impacts(count, n, time_before, pile, memory):
     record_slip(count, True, memory)
     for i in range(count):
         for k in range(3):
+            # the load just before the impact is the first guess of the load after it
             contact_rows[i, IMPULSE + k] = mean_force(contact_rows[i, PRIOR_IMPULSE + k], time_before, 0.0, memory)
             contact_rows[i, PRIOR_IMPULSE + k] += contact_rows[i, IMPACT_IMPULSE + k]
 
@@ -182,10 +184,12 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
     _update_inertia(n, bodies, pile.inertias, memory)
     count = find_contacts(bodies, time_left, refresh_bounds, pile, memory)
     record_slip(count, False, memory)
+    # the velocities are half a step behind: advance them to the step, with the extrapolated forces
     _advance_velocities(count, n, half_last_step, a0, a1, a2, pile, memory)
     has_impact = detect_impacts(count, memory)
     if has_impact:
         _solve_impacts(count, n, half_last_step, pile, memory)
+        # gap rates and bounds after the impacts
         detect_impacts(count, memory)
     _advance_velocities(count, n, 0.5 * time_left, a0, a1, a2, pile, memory)
     # after an impact the slip was recorded at the step, else half a step before
@@ -199,6 +203,7 @@ def _solve_contacts(bodies, a0, a1, a2, time_left, refresh_bounds, pile, memory)
     # after an impact the resting forces act over the second half only
     press_time = 0.5 * step if has_impact else step_info[KICK_TIME]
     for i in range(count):
+        # the rows held forces so far, the solver needs impulses
         for j in range(IMPULSE, IMPULSE + 3):
             rows[i, j] *= press_time
     set_velocity_bounds(count, step, memory)

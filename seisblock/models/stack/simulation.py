@@ -203,6 +203,7 @@ def _tilt_body(pile: PileArrays, bodies: FloatArray, name: str, angle: float) ->
     box = pile.boxes[first]
     pivot_x = pile.rims[first, 0, RADIUS] if pile.body.stones[first].is_round else pile.corners[first, 1, 0]
     pivot = np.array([math.copysign(pivot_x, angle), 0.0, -box[2]]) + box[3:]
+    # rotation about y: x' = c x + s z, z' = -s x + c z
     rotation = np.array([math.cos(angle), math.sin(angle)])
     rotated_pivot = np.array([rotation[0] * pivot[0] + rotation[1] * pivot[2], 0.0, -rotation[1] * pivot[0] + rotation[0] * pivot[2]])
     # the pivot stays in place

@@ -176,8 +176,10 @@ def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
     n0, n1, n2 = head[SUPPORT_NORMAL], head[SUPPORT_NORMAL + 1], head[SUPPORT_NORMAL + 2]
     m0, m1, m2 = t0 - (y * f2 - z * f1), t1 - (z * f0 - x * f2), t2 - (x * f1 - y * f0)
     weight, twist = f0 * n0 + f1 * n1 + f2 * n2, m0 * n0 + m1 * n1 + m2 * n2
+    # the stone would lift off
     if weight <= 0.0:
         return False
+    # pressures q d at the points d balance the moment M where n x M = I q, with I the second moments of the points
     e0, e1, e2 = n1 * m2 - n2 * m1, n2 * m0 - n0 * m2, n0 * m1 - n1 * m0
     s = SUPPORT_MOMENTS
     # linear distribution of the normal forces: gradient from the tilting moment
@@ -196,8 +198,10 @@ def _distribute_load(points, f0, f1, f2, t0, t1, t2, support_points):
         c0, c1, c2 = c0 + pressure * d[0], c1 + pressure * d[1], c2 + pressure * d[2]
         polar += pressure * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
     c0, c1, c2 = c0 / weight, c1 / weight, c2 / weight
+    # parallel axes: polar moment about the centre of pressure
     polar -= weight * (c0 * c0 + c1 * c1 + c2 * c2)
     g0, g1, g2 = (f0 - weight * n0) / weight, (f1 - weight * n1) / weight, (f2 - weight * n2) / weight
+    # friction proportional to the pressure acts in its centre; a rotation about that centre takes the remaining twist
     twist -= weight * (n0 * (c1 * g2 - c2 * g1) + n1 * (c2 * g0 - c0 * g2) + n2 * (c0 * g1 - c1 * g0))
     rotation = twist / polar if polar > 0.0 else 0.0
     for k in range(1, points + 1):
@@ -231,6 +235,7 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
         if points == 0:
             continue
         b, m = bodies[i], pile.inertias[i, MASS]
+        # force and moment that bring the stone to rest within the kick; F and T hold what already acts, from the stones above
         w0, w1, w2 = m * (a0 - b[V] / kick_time), m * (a1 - b[V + 1] / kick_time), m * (a2 - b[V + 2] / kick_time)
         f0, f1, f2 = w0 - b[F], w1 - b[F + 1], w2 - b[F + 2]
         t0, t1, t2 = -b[L] / kick_time - b[T], -b[L + 1] / kick_time - b[T + 1], -b[L + 2] / kick_time - b[T + 2]
@@ -241,6 +246,7 @@ def can_support(n, bodies, a0, a1, a2, pile, memory):
         b[F + 2] = w2
         for k in range(3):
             b[T + k] = -b[L + k] / kick_time
+        # reaction on the support, with its moment about the support's centre
         c = bodies[s]
         x, y, z = b[X] - c[X], b[X + 1] - c[X + 1], b[X + 2] - c[X + 2]
         c[F] -= f0
@@ -269,6 +275,7 @@ def wake(n, bodies, memory):
                 slot[CACHED_FORCE + m] = point[POINT_SIDE] * point[LAST_FORCE + m]
                 slot[PREVIOUS_FORCE + m] = slot[CACHED_FORCE + m]
         memory.sleep_states[i, SUPPORT_POINTS] = 0
+        # negative: twice as many steps until it may sleep again
         memory.sleep_states[i, STILL_STEPS] = -SLEEP_DELAY_STEPS
 
 
@@ -280,6 +287,7 @@ def put_to_sleep(count, n, pile, memory):
         if memory.sleep_states[i, SUPPORT_POINTS] > 0:
             continue
         v, inertia, sleep_state = memory.body_velocities[i], pile.inertias[i], memory.sleep_states[i]
+        # spins count as speeds at a radius of gyration
         gyration_squared = (inertia[INERTIA] + inertia[INERTIA + 4] + inertia[INERTIA + 8]) / inertia[MASS]
         speed_squared = v[0] ** 2 + v[1] ** 2 + v[2] ** 2 + gyration_squared * (v[3] ** 2 + v[4] ** 2 + v[5] ** 2)
         sleep_state[STILL_STEPS] = sleep_state[STILL_STEPS] + 1 if speed_squared < limit else min(sleep_state[STILL_STEPS], 0)

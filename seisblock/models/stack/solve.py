@@ -210,14 +210,14 @@ def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
     if law not in (None, RIGID, SPRINGS):
         raise ParameterError("`law` must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
     if law == RIGID and contact is not None:
-        raise ParameterError("`contact` has no effect with rigid contact: leave it out, or give the law {springs!r}", springs=SPRINGS)
+        raise ParameterError("`contact` has no effect with rigid contact: omit it, or give the law {springs!r}", springs=SPRINGS)
     return contact is None if law is None else law == RIGID
 
 
 def _with_kinetic_friction(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
     """Return the pile with the given kinetic friction; raise ParameterError for options that springs do not support."""
     if not rigid and not (mu_kinetic is None and restitution is None):
-        raise ParameterError("`mu_kinetic` and `restitution` have no effect with contact springs: leave them out, or give the law 'rigid'")
+        raise ParameterError("`mu_kinetic` and `restitution` have no effect with contact springs: omit them, or give the law 'rigid'")
     if mu_kinetic is not None:
         body = body.with_kinetic_friction(mu_kinetic)
     if not rigid and body.has_lower_kinetic_friction:
@@ -235,7 +235,7 @@ def _joint_restitution(points: int, restitution: float | None) -> float:
         checks.fraction(N_("the restitution of the joints"), restitution)
         if points != EDGE_POINTS:
             raise ParameterError(
-                "`restitution` requires contact at the edges: leave out `points` ({points} along each side of a joint)", points=points
+                "`restitution` requires contact at the edges: omit `points` ({points} along each side of a joint)", points=points
             )
     return PLASTIC_RESTITUTION if restitution is None else float(restitution)
 

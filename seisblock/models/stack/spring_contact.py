@@ -104,6 +104,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
             if points[o, q, 2] > 0.0:
                 rx, ry = points[o, q, 0], points[o, q, 1]
                 s2 = a20 * rx + a21 * ry + a22
+                # positive inside the partner
                 depth = partner_half[2] + sigma * (d2 + s2)
                 if is_engaged > 0.0:
                     s0 = a00 * rx + a01 * ry + a02
@@ -122,9 +123,11 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                     elif abs(d0 + s0) > partner_half[0] or abs(d1 + s1) > partner_half[1]:
                         is_outside = 1.0
                     if is_outside == 0.0 and depth > 0.0:
+                        # the dashpot acts on the rate of the depth along the normal
                         f2 = kn * depth + cn * sigma * n2 * (v2 + w0 * s1 - w1 * s0)
                         if n2 < 1.0:
                             f2 += cn * sigma * (n0 * (v0 + w1 * s2 - w2 * s1) + n1 * (v1 + w2 * s0 - w0 * s2))
+                # no tension: where the dashpot outweighs the spring in a separation, nothing is carried
                 if f2 > 0.0:
                     u0 = v0 + w1 * s2 - w2 * s1
                     u1 = v1 + w2 * s0 - w0 * s2
@@ -136,6 +139,7 @@ def add_joint_forces(n_orbits, rel, points, sigma, carrier_half, partner_half, l
                         f0 *= mu * f2 / size
                         f1 *= mu * f2 / size
                         # the slider yields: the stretch that remains under the limiting force
+                        # from f = kt e' + ct (e' - e)/dt, solved for the stretch e'
                         e0 = (f0 * dt + ct * e0) / shear_impedance
                         e1 = (f1 * dt + ct * e1) / shear_impedance
                     else:
@@ -210,6 +214,7 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
     u0 -= separation_speed * n0
     u1 -= separation_speed * n1
     u2 -= separation_speed * n2
+    # the normal may have turned since the last step: only the tangential part of the stretch remains
     normal_stretch = slot[0] * n0 + slot[1] * n1 + slot[2] * n2
     e0, e1, e2 = slot[0] - normal_stretch * n0, slot[1] - normal_stretch * n1, slot[2] - normal_stretch * n2
     f0 = kt * (e0 + u0 * dt) + ct * u0
@@ -221,6 +226,7 @@ def add_point_force(rel, y, depth, normal, k, dt, slot, total):
         f0 *= ratio
         f1 *= ratio
         f2 *= ratio
+        # the slider yields, as in a joint
         shear_impedance = kt * dt + ct
         e0 = (f0 * dt + ct * e0) / shear_impedance
         e1 = (f1 * dt + ct * e1) / shear_impedance

@@ -97,8 +97,8 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         checks.positive("the time step", step, "s")
     if step is not None and not step <= limit:
         raise ParameterError(
-            "`step` of {step:g} s exceeds the stability limit of the pile {name}, {limit:.3g} s (stiffest contact): leave it out, "
-            "or give at most {most:.2g} s",
+            "`step` of {step:g} s exceeds the stability limit of the pile {name}, {limit:.3g} s (stiffest contact): omit it, or "
+            "give at most {most:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
@@ -106,8 +106,8 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         )
     if step is not None and step < MIN_STEP_RATIO * limit:
         raise ParameterError(
-            "`step` of {step:g} s is needlessly fine: below 1/1000 of the stability limit of the pile {name}, {limit:.3g} s, the "
-            "error does not decrease; leave it out, or give at least {least:.2g} s",
+            "`step` of {step:g} s is unnecessarily small: below 1/1000 of the stability limit of the pile {name}, {limit:.3g} s, "
+            "the error does not decrease; omit it, or give at least {least:.2g} s",
             step=step,
             name=pile.body.name,
             limit=limit,
@@ -144,8 +144,8 @@ def rigid_steps_per_sample(pile: PileArrays, dt: float, step: float | None, grav
         checks.positive("the time step", step, "s")
         if not RIGID_MIN_STEP_RATIO * swing_time <= step <= RIGID_MAX_STEP_RATIO * swing_time:
             raise ParameterError(
-                "`step` of {step:g} s is out of range for the pile {name} with rigid contact (swing time of the smallest stone "
-                "{swing:.2g} s): leave it out, or give {least:.2g} to {most:.2g} s",
+                "`step` of {step:g} s is out of range for the pile {name} with rigid contact (rocking time scale of the smallest "
+                "stone {swing:.2g} s): omit it, or give {least:.2g} to {most:.2g} s",
                 step=step,
                 name=pile.body.name,
                 swing=swing_time,
@@ -178,6 +178,7 @@ def settle_on_springs(pile: PileArrays, gravity: float, bodies: FloatArray, stre
         except np.linalg.LinAlgError:
             break
         displacements = rows @ u
+        # compressed points: the upper stone has moved down relative to the lower one
         in_contact = displacements[:, 2] < 0.0
         if (in_contact == active_points).all():
             _displace(pile, u, displacements, index, bodies, stretches)
@@ -193,6 +194,7 @@ def _displace(
     for b in range(pile.inertias.shape[0]):
         bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
         half_rotation = 0.5 * u[6 * b + 3 : 6 * b + 6]
+        # small rotation in Cayley's form; below, R = I + 2 w [v] + 2 [v]^2
         bodies[b, Q : Q + 4] = np.array([1.0, *half_rotation]) / math.sqrt(1.0 + half_rotation @ half_rotation)
         w, v = bodies[b, Q], bodies[b, Q + 1 : Q + 4]
         cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])

@@ -175,6 +175,7 @@ def kick(n, bodies, inertias, a0, a1, a2, dt):
     for i in range(n):
         b = bodies[i]
         m = inertias[i, MASS]
+        # weight and inertia of the accelerated frame act at the centre, without a moment
         b[V] += dt * (b[F] / m - a0)
         b[V + 1] += dt * (b[F + 1] / m - a1)
         b[V + 2] += dt * (b[F + 2] / m - a2)

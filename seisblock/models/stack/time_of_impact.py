@@ -127,6 +127,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
     for j in range(count):
         point = table[j]
         if _same_bodies(i, j, memory) and point[MIN_NORMAL_VELOCITY] == 0.0 and not _is_impact(point):
+            # shares by the forces of the last step, else by the impulses until the impact, else equal
             prior_impulse = max(_normal_part(point, PRIOR_IMPULSE), 0.0)
             point[LOAD_SHARE] = (
                 point[PRIOR_NORMAL_FORCE] / prior_force if prior_force > 0.0 else prior_impulse / load if load > 0.0 else 1.0 / touch_count
@@ -136,6 +137,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
             rate += point[LOAD_SHARE] * point[GAP_RATE]
     for j in range(count):
         if table[j, LOAD_SHARE] > 0.0 and _same_bodies(i, j, memory):
+            # replaced by the restitution row
             table[j, MIN_NORMAL_VELOCITY] = -math.inf
     for k in range(3):
         row[IMPULSE + k] = 0.0
@@ -143,6 +145,7 @@ def _add_restitution_row(i, count, row_index, n, pile, memory):
     for k in range(memory.contact_ids.shape[1]):
         memory.contact_ids[row_index, k] = memory.contact_ids[i, k]
     set_delassus_block(memory.contact_ids[row_index, 0], memory.contact_ids[row_index, 1], n, pile.inertias, memory.inverses, row)
+    # separation speed of the centre of pressure relative to the striking points
     row[MIN_NORMAL_VELOCITY] = table[i, RESTITUTION_RATIO] * (rate - closing_rate)
     row[BILATERAL] = 1.0
     return True
@@ -242,6 +245,7 @@ def next_impact_time(count, half, time_left, memory):
             free_fall_speed, max(-gain * full_step, row[IMPACT_SPEED])
         ):
             row[MIN_NORMAL_VELOCITY] = -math.inf
+            # a column that the sweeps overwrite later holds the time until the second pass
             row[SEARCH_DIRECTION] = time
             min_time = min(min_time, time)
     # an impact at the end of the step needs no extra step

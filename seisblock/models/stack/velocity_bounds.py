@@ -28,6 +28,7 @@ def _add_rotation_bias(velocity, arm, half, bias):
     bias[0] += half * (x * projection - square * arm[0])
     bias[1] += half * (y * projection - square * arm[1])
     bias[2] += half * (z * projection - square * arm[2])
+    # above: w x (w x r) = w (w r) - w^2 r; below: w' x r
     x, y, z = velocity[GYROSCOPIC], velocity[GYROSCOPIC + 1], velocity[GYROSCOPIC + 2]
     bias[0] += half * (y * arm[2] - z * arm[1])
     bias[1] += half * (z * arm[0] - x * arm[2])

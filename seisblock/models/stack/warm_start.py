@@ -110,6 +110,7 @@ def _sum_forces(field, slots, frame, load):
     if load[LOAD_NORMAL] != 0.0:
         load[LOAD_CENTRE] /= load[LOAD_NORMAL]
         load[LOAD_CENTRE + 1] /= load[LOAD_NORMAL]
+        # from the moment about the origin to that about the centre of pressure
         load[LOAD_TWIST] -= load[LOAD_CENTRE] * load[LOAD_FORCE + 1] - load[LOAD_CENTRE + 1] * load[LOAD_FORCE]
 
 
@@ -162,6 +163,7 @@ def _barycentric(a, b, c, x, y):
     area = (b0 - a0) * (c1 - a1) - (b1 - a1) * (c0 - a0)
     if abs(area) < MIN_AREA:
         return -math.inf, -math.inf, -math.inf
+    # areas of the partial triangles over that of the whole
     u, v = (b0 * c1 - b1 * c0) / area, (c0 * a1 - c1 * a0) / area
     return u, v, 1.0 - u - v
 
@@ -176,6 +178,7 @@ def _distribute_to_triangle(field, a, b, c, load, frame):
     total, polar = u + v + w, 0.0
     for q in range(3):
         slot, weight = (a if q == 0 else b if q == 1 else c), (u if q == 0 else v if q == 1 else w) / total
+        # polar moment about the centre of pressure, per unit load
         polar += weight * ((slot[POSITION] - x) ** 2 + (slot[POSITION + 1] - y) ** 2)
     rotation = load[LOAD_TWIST] / polar if polar > 0.0 else 0.0
     for q in range(3):
@@ -253,6 +256,7 @@ def project_to_plane(first, count, max_gap, table):
         mean_press += table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
     points = count - first
     c0, c1, c2, mean_press = c0 / points, c1 / points, c2 / points, mean_press / points
+    # axes in the plane of the joint, from its centre to its first point and across
     e0, e1, e2 = table[first, ARM_B] - c0, table[first, ARM_B + 1] - c1, table[first, ARM_B + 2] - c2
     f0, f1, f2 = n1 * e2 - n2 * e1, n2 * e0 - n0 * e2, n0 * e1 - n1 * e0
     xx, xy, yy, mx, my = 0.0, 0.0, 0.0, 0.0, 0.0
@@ -267,6 +271,7 @@ def project_to_plane(first, count, max_gap, table):
         my += y * normal_impulse
     # least-squares plane: mean force and two slopes along axes in the joint's plane
     d = xx * yy - xy * xy
+    # the points lie on a line and define no plane
     if d <= MIN_AREA * xx * yy:
         return
     gx, gy, scale = (mx * yy - my * xy) / d, (my * xx - mx * xy) / d, 1.0

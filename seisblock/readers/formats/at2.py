@@ -30,6 +30,7 @@ _FILE_NAME = re.compile(
 
 def is_at2(head: bytes) -> bool:
     """Return whether bytes begin an AT2 header: NPTS and DT in the first lines, no velocity or displacement."""
+    # a plain table may state npts and dt in its comments
     text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
     if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
         return False
@@ -132,6 +133,7 @@ def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
     """Return event, station and direction from the second header line, else the direction from the file name."""
     fields = [field.strip() for field in line.split(",")]
     name_parts = split_direction(basename)
+    # event, date, station, which may contain commas, and direction
     if len(fields) >= 4:
         return ", ".join(fields[:2]), ", ".join(fields[2:-1]), fields[-1]
     if len(fields) == 3 and parse_orientation(fields[-1])[1:] != (None, 1.0):
@@ -155,6 +157,7 @@ def _recording_key(head: bytes) -> object:
     """Return the title without the direction, and the sampling interval."""
     lines = head[:2000].splitlines()
     interval = re.search(rb"DT\s*=\s*0*([\d.]+)", head[:2000])
+    # .0200 and 0.02 are the same interval
     return lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval and interval[1].rstrip(b"0")
 
 

@@ -15,17 +15,8 @@ from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header import (
-    drop_missing,
-    flag_duration,
-    flag_peak_mismatch,
-    half_last_digit,
-    parse_datetime,
-    parse_magnitude,
-    qc_flag,
-    search_group,
-    utc_datetime,
-)
+from seisblock.readers._header import drop_missing, parse_datetime, parse_magnitude, search_group, utc_datetime
+from seisblock.readers._header_check import flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
 from seisblock.readers.channels import make_component, parse_blocks, parse_location, seed_file_set, split_by_location
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
 from seisblock.readers.lines import line_error, read_trimmed_lines
@@ -113,6 +104,7 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> tuple[_ChannelB
     if title is None:
         raise line_error("expected the title of a channel, found {text!r}", name, begin + 1, text=lines[begin].strip()[:60])
     _check_quantity(name, title[1].decode("latin-1"))
+    # three digits at most: a damaged number must not become a huge one
     line_index = begin + int(title[2][:3])
     integers, line_index = _parse_values(name, lines, line_index, "Integer")
     reals, line_index = _parse_values(name, lines, line_index, "Real")
@@ -171,6 +163,7 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
         unit_code = block.integers[UNIT]
         raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=block.data_line + 1, text=unit_code)
     unit, factor = _UNITS[block.integers[UNIT]]
+    # the real header states the interval in ms
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
         message = "expected a sampling interval above 0 ms in the real header, found {dt:g} ms"

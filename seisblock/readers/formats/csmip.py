@@ -17,19 +17,8 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header import (
-    drop_missing,
-    flag_count,
-    flag_duration,
-    flag_peak_mismatch,
-    half_last_digit,
-    parse_coordinates,
-    parse_datetime,
-    parse_magnitude,
-    parse_number,
-    qc_flag,
-    search_group,
-)
+from seisblock.readers._header import drop_missing, parse_coordinates, parse_datetime, parse_magnitude, parse_number, search_group
+from seisblock.readers._header_check import flag_count, flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
 from seisblock.readers.channels import make_component, parse_blocks, parse_location, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error, read_trimmed_lines
@@ -80,6 +69,7 @@ class _Section(NamedTuple):
 def is_csmip(head: bytes) -> bool:
     """Return whether bytes begin with the title of a CSMIP or USC file."""
     match = _TITLE.match(head)
+    # GeoNet titles begin alike
     if match is None or b"GNS SCIENCE" in head[:200].upper():
         return False
     return match[1][:3].upper() != b"COR" or b"UNCORRECTED ACCELEROGRAM DATA" in head[:400].upper()
@@ -134,6 +124,7 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
     if match is None or interval is None or not step or unit is None:
         message = "expected a line with count, interval and unit of the samples, found {text!r}"
         raise line_error(message, name, line_index + 1, text=text.strip()[:80])
+    # stated as an interval in seconds or as a rate
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
     return _Section(match[2].lower(), dt, unit[1], *parse_fixed_width(name, lines, line_index + 1, count, layout))
@@ -167,6 +158,7 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     )
     places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(station), strict=True))
     places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(hypocentre), strict=True))
+    # entries of one header line are separated by three blanks or more
     has_name = not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE)
     clocks = [word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in UTC_OFFSETS and word != "UTC"]
     return drop_missing(

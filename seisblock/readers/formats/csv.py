@@ -13,7 +13,8 @@ import numpy as np
 from seisblock.core.errors import InputError, ParameterError, RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import JST, qc_flag
+from seisblock.readers._header import JST
+from seisblock.readers._header_check import qc_flag
 from seisblock.readers.lines import map_lines, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
@@ -56,6 +57,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
     """
     lines = read_lines(blob)
     layout = find_layout(blob.name, lines)
+    # comments become empty lines, so that line numbers in messages stay those of the file
     body = map_lines(lines[layout.body :], lambda line: line if is_data_line(line) else "")
     if layout.decimal_comma:
         body = map_lines(body, lambda line: line.replace(",", "."))
@@ -182,6 +184,7 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
     """Return the columns of a table without names: an evenly increasing first column is time, others acceleration."""
     first_column = rows[0]
     steps = np.diff(first_column)
+    # only a guess of the meaning: the interval itself is checked with its own tolerance
     has_time = len(rows) > 1 and first_column.size >= 3 and steps[0] > 0 and np.allclose(steps, steps.mean(), rtol=0.05, atol=0.0)
     names = ["time" if has_time and i == 0 else f"C{i + 1}" for i in range(len(rows))]
     # a single column is named ACC, several C1, C2, ...

@@ -14,7 +14,8 @@ from typing import NamedTuple
 
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import drop_missing, flag_duration, half_last_digit, parse_datetime, parse_number, qc_flag
+from seisblock.readers._header import drop_missing, parse_datetime, parse_number
+from seisblock.readers._header_check import flag_duration, half_last_digit, qc_flag
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
@@ -148,6 +149,7 @@ def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> date
 
 
 def _parse_time(entry: _Entry) -> datetime | None:
+    # date and time are separated by a hyphen, or by a T as in ISO 8601
     day, _, time = re.sub(r"(?<=\d)[T-](?=\d\d?:)", " ", entry.value).partition(" ")
     local_time, _ = parse_datetime(f"{day.replace('-', '/')} {time}")
     return local_time - UTC_OFFSETS[TAIWAN_CLOCK] if local_time is not None and _is_local(entry) else local_time
@@ -175,6 +177,7 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         row, parts = samples[direction.code], [part.strip() for part in entry.value.split("~")]
         stated_extremes = sorted(value for part in parts if (value := parse_number(part)) is not None)
         sample_extremes = [float(row.min()), float(row.max())]
+        # header and table are rounded separately
         slack = 2.0 * max(half_last_digit(part) for part in parts) * (1.0 + 1e-6)
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue

@@ -9,7 +9,8 @@ from datetime import datetime
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_sample_count
-from seisblock.readers._header import drop_missing, flag_duration, flag_peak_mismatch, half_last_digit, parse_number, qc_flag, utc_datetime
+from seisblock.readers._header import drop_missing, parse_number, utc_datetime
+from seisblock.readers._header_check import flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
 from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error

@@ -13,17 +13,8 @@ from typing import NamedTuple
 
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_fixed_width, parse_sample_count
-from seisblock.readers._header import (
-    drop_missing,
-    flag_count,
-    flag_duration,
-    flag_peak_mismatch,
-    half_last_digit,
-    parse_coordinates,
-    parse_number,
-    search_group,
-    utc_datetime,
-)
+from seisblock.readers._header import drop_missing, parse_coordinates, parse_number, search_group, utc_datetime
+from seisblock.readers._header_check import flag_count, flag_duration, flag_peak_mismatch, half_last_digit
 from seisblock.readers.channels import make_component, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import line_error, read_trimmed_lines

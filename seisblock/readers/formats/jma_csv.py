@@ -8,7 +8,8 @@ from datetime import UTC, datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_
-from seisblock.readers._header import JST, drop_missing, parse_number, qc_flag, search_group
+from seisblock.readers._header import JST, drop_missing, parse_number, search_group
+from seisblock.readers._header_check import qc_flag
 from seisblock.readers.lines import line_error, read_lines
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
@@ -125,6 +126,7 @@ def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
     try:
         year, month, day, hour, minute = (int(part) for part in parts[:5])
         second = float(parts[5])
+        # files of 1995 have years of two digits
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):

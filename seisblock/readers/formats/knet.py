@@ -12,7 +12,8 @@ import numpy as np
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, drop_missing, flag_count, parse_jst, parse_number, qc_flag
+from seisblock.readers._header import MAX_COUNT, drop_missing, parse_jst, parse_number
+from seisblock.readers._header_check import flag_count, qc_flag
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
@@ -97,6 +98,7 @@ def _parse_header(name: str, lines: Sequence[str]) -> list[str]:
             actual = lazy_gettext("found {text!r}", text=line.strip()[:40]) if line.strip() else lazy_gettext("found the end of the file")
             message = "{name}, line {line}: expected {wanted!r}, {found}: K-NET header (17 lines) truncated or damaged"
             raise RecordFormatError(message, name=name, line=index + 1, wanted=expected_label, found=actual)
+        # the labels take 18 columns
         values.append(line[18:].strip())
     return values
 
@@ -204,6 +206,7 @@ def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> 
             "offset_gal": {code: float(gal.mean())},
             "level": level,
             **numbers,
+            # a height of -9999 is unknown
             "station_height_m": None if numbers["station_height_m"] == -9999 else numbers["station_height_m"],
             "origin_time": parse_jst(values[ORIGIN]),
             "memo": values[MEMO],

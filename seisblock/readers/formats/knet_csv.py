@@ -11,7 +11,8 @@ import numpy as np
 
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, drop_missing, flag_count, parse_jst, parse_number, qc_flag
+from seisblock.readers._header import MAX_COUNT, drop_missing, parse_jst, parse_number
+from seisblock.readers._header_check import flag_count, qc_flag
 from seisblock.readers.lines import line_error
 from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
@@ -126,6 +127,7 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
     time = parse_jst(text)
     if time is None:
         raise line_error("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", name, line_number, text=text)
+    # the first row need not be at relative time zero
     return time - timedelta(seconds=relative_time)
 
 

@@ -15,7 +15,8 @@ import numpy as np
 from seisblock.core.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.core.format_names import format_names
 from seisblock.core.i18n import lazy_gettext
-from seisblock.readers._header import parse_number, qc_flag
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import qc_flag
 from seisblock.readers.directions import Direction, parse_direction
 from seisblock.readers.lines import read_lines
 from seisblock.readers.registry import FALLBACK, Format, format_titles, list_formats, register
@@ -130,15 +131,13 @@ def _read_traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[
     if waveform in _CRASHING_FORMATS:
         _raise_unsupported(name, waveform)
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
-        raise ParameterError(
-            "unknown format {waveform!r}: expected {known}, or OBSPY: followed by one of {usable}",
-            waveform=waveform,
-            known=[name for name in format_names() if name != FALLBACK],
-            usable=", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _UNSAFE_FORMATS)),
-        )
+        message = "unknown format {waveform!r}: expected {known}, or OBSPY: followed by one of {usable}"
+        known, usable = set(format_names()) - {FALLBACK}, set(ENTRY_POINTS["waveform"]) - _UNSAFE_FORMATS
+        raise ParameterError(message, waveform=waveform, known=sorted(known), usable=", ".join(sorted(usable)))
     try:
         with warnings.catch_warnings(record=True) as warning_list:
             warnings.simplefilter("always", UserWarning)
+            # merge joins contiguous pieces; gaps become masked samples, which are refused later
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # obspy's readers raise bare Exceptions
         reason = " ".join(str(error).split())[:MAX_QUOTED_LENGTH] or type(error).__name__
@@ -166,6 +165,7 @@ def _to_record(name: str, trace: Any, waveform: str, unit: str, flags: tuple[QCF
     direction = parse_direction(stats.channel)
     if direction is None or direction.is_bare_number:
         direction = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
+    # 1970-01-01 is obspy's default for files without a time
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
     return Record(
         (Component(direction.code, to_si_in_place(values, unit, direction.sign), direction.azimuth_deg),),

@@ -14,7 +14,8 @@ from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_fixed_width, parse_sample_count
-from seisblock.readers._header import drop_missing, flag_peak_mismatch, search_group, utc_datetime
+from seisblock.readers._header import drop_missing, search_group, utc_datetime
+from seisblock.readers._header_check import flag_peak_mismatch
 from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
 from seisblock.readers.lines import DOS_EOF, line_error
@@ -83,6 +84,7 @@ def read_smc(blob: RawFile) -> Record:
     _check_title(name, lines[0])
     integer_values, _ = parse_fixed_width(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
     integers = [int(value) for value in integer_values]
+    # the first integer is the one that marks missing integers
     missing_value = integers[0]
     reals, _ = parse_fixed_width(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
@@ -134,6 +136,7 @@ def _station_code(lines: list[str], integers: list[int], missing_value: int) -> 
 def _start_time(integers: list[int], missing_value: int) -> datetime | None:
     year, day, hour, minute = (integers[place] for place in (YEAR, DAY, HOUR, MINUTE))
     second, millisecond = (0 if integers[place] == missing_value else integers[place] for place in (SECOND, MILLISECOND))
+    # the header counts the days of the year
     start = utc_datetime(year, 1, 1, hour, minute, second + millisecond / 1000.0)
     return start + timedelta(days=day - 1) if start is not None and 1 <= day <= 366 else None
 
@@ -157,6 +160,7 @@ def _metadata(lines: list[str], reals: FloatArray) -> dict[str, object]:
 
 def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ...]:
     """Return a flag if the peak differs from the header."""
+    # a missing extreme ranks below any other
     peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
     peak_text = repr(peak) if abs(peak) < MISSING else ""
     return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))
@@ -178,6 +182,7 @@ def _recording_key(head: bytes) -> object:
     lines = head.decode("latin-1").splitlines()
     if not is_smc(head):
         return None
+    # title, event, station, and start among the integers
     return lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[TEXT].split()[1:7]
 
 

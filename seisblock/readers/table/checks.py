@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from seisblock.readers._header import parse_number, qc_flag
+from seisblock.readers._header import parse_number
+from seisblock.readers._header_check import qc_flag
 from seisblock.readers.table.columns import Column
 from seisblock.readers.table.headers import TIME, normalize_unit
 from seisblock.records import QCFlag
@@ -70,6 +71,7 @@ def _count_decimals(cell: str) -> int:
 
 def _may_miss_points(lines: Sequence[str], row_count: int) -> bool:
     """Return whether the total of points is slightly below a multiple of the rows, a cheap prefilter."""
+    # with k columns of decimals each row has k points: the total falls short of a multiple by the lost ones
     missing_count = -sum(line.count(".") for line in lines) % row_count
     return 0 < missing_count <= max(1.0, MAX_MISSING_SHARE * row_count) * 8
 

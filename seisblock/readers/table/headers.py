@@ -123,6 +123,7 @@ def split_unit(text: str) -> tuple[str, str]:
     (('EW', 'gal'), ('ns', 'm_s2'), ('UD', ''), ('Time', 's'))
     """
     cell = normalize_cell(text)
+    # a unit stands in brackets at the end, as a suffix, or in brackets before other words
     match = _BRACKETED_UNIT.match(cell) or _SUFFIXED_UNIT.match(cell)
     if match is None:
         inner_match = _INNER_UNIT.match(cell)

@@ -165,6 +165,7 @@ def _refine_layout(lines: Sequence[str], layout: TableLayout) -> TableLayout:
 
 def find_separator(line: str) -> str | None:
     """Return the separator of a line: semicolon, tab, comma, else None for blanks."""
+    # the comma last: beside semicolons and tabs it may be a decimal comma
     return next((mark for mark in (";", "\t", ",") if mark in line), None)
 
 

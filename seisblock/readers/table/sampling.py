@@ -85,6 +85,7 @@ def seconds_replacer(index: int, separator: str | None, first: Timestamp) -> Cal
         timestamp = parse_timestamp(cells[index]) if index < len(cells) else None
         if timestamp is None or timestamp.has_date != first.has_date or (timestamp.utc_offset_s is None) != (first.utc_offset_s is None):
             return line
+        # a time of day before the first one belongs to the next day
         elapsed_s = timestamp.seconds - first.seconds
         cells[index] = f"{elapsed_s if first.has_date else elapsed_s % DAY_S}.{timestamp.fraction}"
         return (separator or " ").join(cells)

@@ -109,7 +109,9 @@ class PointSource:
         distance = self.effective_distance_m
         constant = RADIATION * FREE_SURFACE * PARTITION / (4.0 * math.pi * DENSITY * SHEAR_VELOCITY**3)
         source = constant * self.moment * (2.0 * math.pi * f) ** 2 / (1.0 + (f / self.corner_hz) ** 2)
+        # body waves decay as 1/R, surface waves as 1/sqrt(R), continuous at the crossover
         spreading = 1.0 / distance if distance <= SPREADING_CROSSOVER else 1.0 / math.sqrt(SPREADING_CROSSOVER * distance)
+        # pi f R/(Q beta) with Q = 180 f^0.45, and kappa
         attenuation = math.pi * distance / (QUALITY * SHEAR_VELOCITY) * f ** (1.0 - QUALITY_POWER) + math.pi * KAPPA * f
         amplification = np.interp(np.log(np.maximum(f, AMPLIFICATION_HZ[0])), np.log(AMPLIFICATION_HZ), AMPLIFICATION)
         return np.asarray(source * spreading * np.exp(-attenuation) * amplification)

@@ -78,6 +78,7 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
     checks.integer("the number of records", count, minimum=1)
     envelope, onset = _envelope(source)
     check_limit(N_("samples of synthetic records"), 3 * count * envelope.size, "SEISBLOCK_READ_SAMPLES")
+    # a discrete transform is the continuous one over the sampling interval
     target = source.spectrum(np.asarray(np.fft.rfftfreq(envelope.size, DT), dtype=np.float64)) / DT
     name = f"synthetic_M{magnitude:g}_R{distance_km:g}"
     entry = lazy_gettext(
@@ -89,6 +90,7 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
         before=onset,
     )
     records = []
+    # a generator per record: a longer suite begins with a shorter one
     for number, rng in enumerate(np.random.default_rng(checks.seed(seed)).spawn(count), start=1):
         waves = _waveforms(rng.standard_normal((3, envelope.size)) * envelope, target)
         components = (Component("NS", waves[0]), Component("EW", waves[1]), Component("UD", waves[2]))
@@ -150,4 +152,5 @@ def _waveforms(noise: FloatArray, target: FloatArray) -> FloatArray:
     """Return the accelerations of one record, (3, n), m/s^2, rounded to the digits written to files."""
     spectra = np.fft.rfft(noise) * target
     spectra[2] *= VERTICAL_RATIO
+    # + 0.0 turns -0.0 into 0.0
     return np.asarray(np.round(ROUNDING_SCALE * np.fft.irfft(spectra, noise.shape[1])) / ROUNDING_SCALE + 0.0)

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from seisblock.core.errors import OutputError
-from seisblock.core.i18n import gettext
+from seisblock.core.i18n import gettext, join_alternatives
 from seisblock.core.typing import Progress
 from seisblock.report.io.atomic import atomic_write, check_animation, find_ffmpeg
 
@@ -112,7 +112,9 @@ def write_frames(frames: Iterable[Image.Image], path: Path | str, *, fps: int = 
     check_animation(target)
     writer = writers.get(target.suffix.lower())
     if writer is None:
-        raise OutputError("cannot save the animation as {target}: the name must end in {suffixes}", target=target, suffixes=list(writers))
+        raise OutputError(
+            "cannot save the animation as {target}: the name must end in {suffixes}", target=target, suffixes=join_alternatives(writers)
+        )
     with atomic_write(target) as temporary:
         writer(frames, temporary, fps)
 

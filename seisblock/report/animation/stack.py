@@ -54,8 +54,8 @@ def stack_animation(response: Response[StackOutcome], times: FloatArray, *, gal:
 
 def _outcome_text(stones: tuple[str, ...]) -> str:
     if not stones:
-        return gettext("no stone overturns")
-    return gettext("{stones} overturns" if len(stones) == 1 else "{stones} overturn", stones=join_list(map(gettext, stones)))
+        return gettext("no stone falls")
+    return gettext("{stones} falls" if len(stones) == 1 else "{stones} fall", stones=join_list(map(gettext, stones)))
 
 
 def _lines(response: Response[StackOutcome], quantity: str, factor: float) -> tuple[Line, ...]:

@@ -58,9 +58,9 @@ def _build_figure(
         _bars(tilt, results, [RIM if result.overturned else min(result.max_rotation_ratio, RIM) for result in results])
         if not any(result.max_rotation_ratio for result in results):
             tilt.annotate(
-                gettext("no rocking in any direction"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
+                gettext("no rocking in any azimuth"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
             )
-        style_rose(tilt, prefix + gettext("peak tilt θ/α, governing: {direction}", direction=worst), RIM)
+        style_rose(tilt, prefix + gettext("peak tilt θ/α, worst: {direction}", direction=worst), RIM)
         if slides:
             path = fig.add_subplot(rows, columns, across * row + 2, projection="polar")
             unit = length_unit((result.max_displacement_m for result in results), gal=gal)

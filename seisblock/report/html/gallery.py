@@ -19,7 +19,7 @@ from seisblock.validation.case import EVIDENCE_KINDS, VERDICTS, CaseResult, coun
 FIELD_TEST = "furukawa-field-worn"
 """Prefix of the keys of the field-test cases, whose place gets the field-test figure."""
 
-VERDICT_WORDS = {"holds": N_("holds"), "differs": N_("differs"), "fails": N_("FAILS")}
+VERDICT_WORDS = {"holds": N_("agrees"), "differs": N_("differs"), "fails": N_("FAILS")}
 COLUMNS = (N_("published"), N_("computed"), N_("error"), N_("tolerance"))
 WORD = re.compile(r"\d+|[A-Z]?[^A-Z\d]+|[A-Z]+")
 """A word or the year of a paper key; lines may break between them."""
@@ -130,7 +130,7 @@ def _kind_counts(results: Sequence[CaseResult]) -> dict[str, Any]:
         }
         for kind, verdict_counts in count_verdicts_by_kind(results).items()
     ]
-    return {"headings": ["", gettext("hold"), gettext("differ"), gettext("fail")], "rows": rows}
+    return {"headings": ["", gettext("agree"), gettext("differ"), gettext("fail")], "rows": rows}
 
 
 def _paper_section(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:

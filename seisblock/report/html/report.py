@@ -75,11 +75,10 @@ def _effects_of_kind(body: BodyAssessment, kind: str) -> list[ModelResponse]:
 
 
 def _tile(body: BodyAssessment) -> dict[str, str]:
-    """Return the card of a body: result in the governing direction, with its probability."""
+    """Return the card of a body: result of the worst component, with its probability."""
     effects = _effects_of_kind(body, GOVERNING_KIND)
-    verdict_word, text = words.card_text(effects)
-    title = gettext("{name}: {what}", name=gettext(body.subject.name), what=verdict_word)
-    return {"level": words.severity_class(effects), "head": title, "text": join_sentences(text)}
+    head, text = words.card_text(effects, gettext(body.subject.name))
+    return {"level": words.severity_class(effects), "head": head, "text": join_sentences(text)}
 
 
 def _record(assessment: Assessment) -> dict[str, Any]:
@@ -95,7 +94,7 @@ def _record(assessment: Assessment) -> dict[str, Any]:
     if measures.horizontal is not None:
         peak = measures.horizontal
         size = format_acceleration(peak.pga_m_s2, gal=True)
-        lead.append(gettext("horizontal resultant PGA {size} at {time:.2f} s", size=size, time=peak.time_s))
+        lead.append(gettext("PGA of the horizontal vector {size} at {time:.2f} s", size=size, time=peak.time_s))
     parts = measures.components
     speed, disp_unit = velocity_unit(gal=True), length_unit((m.pgd_m for m in parts), gal=True)
     rows = [
@@ -158,7 +157,7 @@ def _section(assessment: Assessment, body: BodyAssessment, kind: str) -> dict[st
 
 def _picture(effect: ModelResponse, *, of: int) -> Picture:
     """Return the figure of an effect; the caption marks the governing one of several."""
-    text = N_("{what}, {name}") if of == 1 else N_("{what}, {name} (governing direction)")
+    text = N_("{what}, {name}") if of == 1 else N_("{what}, {name} (worst component)")
     caption = gettext(text, name=effect.response.motion.name, what=gettext(words.SECTIONS[effect.kind]))
     return embed_figure(build_localized(lambda: response_figure([effect.response])), caption)
 

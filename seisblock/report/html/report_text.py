@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.core.i18n import N_, gettext
+from seisblock.core.i18n import N_, gettext, join_list
 from seisblock.models.jump.chain import JUMPED
 from seisblock.report.directions import direction_label, format_displacement, with_direction
 from seisblock.report.text.respond import probability_sentence, variation_text
@@ -104,28 +104,29 @@ def sentences(effect: ModelResponse) -> Iterator[str]:
         return
     name = effect.response.motion.name
     body = {"rock": _rock, "slide": _slide, "jump": _jump, "uplift": _uplift}[effect.kind]
-    yield gettext("{name}:", name=name)
-    yield from body(effect, effect.response.outcome)
+    first, *remaining = body(effect, effect.response.outcome)
+    yield gettext("{name}: {text}", name=name, text=decapitalize(first))
+    yield from remaining
     if effect.onset is not None and math.isfinite(effect.onset):
         yield gettext(_ONSETS[effect.kind], factor=effect.onset)
 
 
-def governing_text(effect: ModelResponse) -> Iterator[str]:
-    """Yield sentences on the full response, its probability, and an assumed friction."""
+def governing_text(effect: ModelResponse, *, name: str = "") -> Iterator[str]:
+    """Yield sentences on the full response, its probability, and an assumed friction; `name` replaces the component at the begin."""
     run = effect.governing
     assert run is not None
-    yield respond_verdict(effect.response)
+    yield respond_verdict(effect.response, name=name)
     if run.probability is not None:
         yield capitalize(probability_sentence(run.probability))
     options = effect.response.options
     if not run.friction_known:
-        yield gettext("Friction not given; assumed coefficient {mu:.2f} (almost no sliding).", mu=options["mu"])
+        yield gettext("Friction coefficient assumed: {mu:.2f} (none given; almost no sliding).", mu=options["mu"])
 
 
-def card_text(effects: Sequence[ModelResponse]) -> tuple[str, list[str]]:
-    """Return head and text of a card: governing direction, other directions with possible overturning, caveats."""
+def card_text(effects: Sequence[ModelResponse], body: str = "") -> tuple[str, list[str]]:
+    """Return head and text of the card of a body: worst component, other components with possible overturning, caveats."""
     worst, *remaining = sorted(effects, key=rank, reverse=True)
-    head, *text = [*governing_text(worst), *share_caveat(worst)]
+    head, *text = [*governing_text(worst, name=join_list(filter(None, (body, worst.response.motion.name)))), *share_caveat(worst)]
     for effect in remaining:
         if effect.response.outcome.overturned or _overturned_share(effect) > 0.0:
             text += [*governing_text(effect), *share_caveat(effect)]
@@ -146,8 +147,13 @@ def scatter_text(effects: Sequence[ModelResponse]) -> str:
     """Return the varied parameters of the samples as a sentence, empty without samples."""
     for effect in effects:
         if effect.governing is not None and effect.governing.probability is not None:
-            return gettext("{varied}.", varied=variation_text(effect.governing.probability, effect.response.body))
+            return variation_text(effect.governing.probability, effect.response.body)
     return ""
+
+
+def decapitalize(text: str) -> str:
+    """Return a text with an initial small letter, for use after a colon."""
+    return text[:1].lower() + text[1:]
 
 
 def capitalize(text: str) -> str:
@@ -158,7 +164,7 @@ def capitalize(text: str) -> str:
 _ONSETS = {
     "rock": N_("Onset of rocking at {factor:.2f} times this record."),
     "slide": N_("Onset of sliding at {factor:.2f} times this record."),
-    "jump": N_("Onset of the rocking-jump sequence at {factor:.2f} times this record."),
+    "jump": N_("Onset of rocking and jump at {factor:.2f} times this record."),
     "uplift": N_("Onset of uplift at {factor:.2f} times this record."),
 }
 
@@ -215,20 +221,21 @@ def _jump(effect: ModelResponse, outcome: Any) -> Iterator[str]:
     """Yield sentences on each rocking-jump sequence."""
     if not outcome.chains:
         yield gettext("The ground acceleration does not exceed the rocking threshold.")
+    unit = length_unit((length for chain in outcome.chains for length in (chain.total_displacement_m, chain.max_rise_m)), gal=True)
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
             displacement = chain.total_displacement_m or 0.0
-            text = N_("Sequence {number}: rocking {rock:.3f} s, flight {fly:.3f} s, displacement {moved}, rise of the centroid {rise}.")
+            text = N_("Chain {number}, rocking {rock:.3f} s, flight {fly:.3f} s, displacement {moved}, rise of the centroid {rise}.")
             yield gettext(
                 text,
                 number=number,
                 rock=chain.rocking_duration_s,
                 fly=chain.jump_duration_s,
-                moved=format_displacement(displacement, effect.response.motion.name),
-                rise=format_length(chain.max_rise_m or 0.0),
+                moved=format_displacement(displacement, effect.response.motion.name, unit),
+                rise=format_length(chain.max_rise_m or 0.0, unit),
             )
         else:
-            yield gettext("Sequence {number}: {outcome}.", number=number, outcome=gettext(chain.outcome))
+            yield gettext("Chain {number}, {outcome}.", number=number, outcome=gettext(chain.outcome))
 
 
 def _uplift(effect: ModelResponse, outcome: Any) -> Iterator[str]:
@@ -238,7 +245,8 @@ def _uplift(effect: ModelResponse, outcome: Any) -> Iterator[str]:
         return
     if not outcome.within_model:
         text = N_(
-            "First uplift at corner {corner}, {time:.2f} s; the subsequent tilt exceeds the range of this model, which neglects P-delta."
+            "First uplift at corner {corner}, {time:.2f} s; the subsequent tilt exceeds the range of this model, which neglects "
+            "the P-delta effect."
         )
         yield gettext(text, corner=outcome.corner, time=outcome.first_uplift_s)
         return

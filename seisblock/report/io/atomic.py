@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.core.errors import OutputError, SeisblockError, os_error_text
+from seisblock.core.i18n import join_alternatives
 from seisblock.core.io.csv_safety import escape_formula, unescape_formula
 from seisblock.core.io.locking import PREFIX, file_lock, remove_stale
 from seisblock.core.io.overwrite import check_not_input, mark_written
@@ -134,7 +135,7 @@ def check_figure(path: Path | str) -> None:
     """
     if Path(path).suffix.lower() not in FIGURE_SUFFIXES:
         raise OutputError(
-            "cannot save the figure as {target}: the name must end in {suffixes}", target=path, suffixes=list(FIGURE_SUFFIXES)
+            "cannot save the figure as {target}: the name must end in {suffixes}", target=path, suffixes=join_alternatives(FIGURE_SUFFIXES)
         )
 
 
@@ -149,7 +150,9 @@ def check_animation(path: Path | str) -> None:
     suffix = Path(path).suffix.lower()
     if suffix not in ANIMATION_SUFFIXES:
         raise OutputError(
-            "cannot save the animation as {target}: the name must end in {suffixes}", target=path, suffixes=list(ANIMATION_SUFFIXES)
+            "cannot save the animation as {target}: the name must end in {suffixes}",
+            target=path,
+            suffixes=join_alternatives(ANIMATION_SUFFIXES),
         )
     if suffix == ".mp4" and find_ffmpeg() is None:
         text = "cannot write {suffix}: ffmpeg not found; install ffmpeg or the package imageio-ffmpeg, or write .gif or .html"

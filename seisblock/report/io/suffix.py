@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from seisblock.core.errors import OutputError
+from seisblock.core.i18n import join_alternatives
 from seisblock.report.io.atomic import ANIMATION_SUFFIXES, FIGURE_SUFFIXES
 
 TEXT_SUFFIXES = {"CSV": (".csv", ".txt"), "HTML": (".html", ".htm"), "GeoJSON": (".geojson", ".json")}
@@ -37,10 +38,10 @@ def check_text_suffix(path: Path | str, form: str) -> None:
     --------
     >>> check_text_suffix("table.xlsx", "CSV")
     Traceback (most recent call last):
-    seisblock.core.errors.OutputError: cannot write CSV to table.xlsx: the name must end in .csv, .txt
+    seisblock.core.errors.OutputError: cannot write CSV to table.xlsx: the name must end in .csv or .txt
     """
     target, fitting = Path(path), TEXT_SUFFIXES[form]
     foreign_suffixes = OTHER_SUFFIXES.union(FIGURE_SUFFIXES, ANIMATION_SUFFIXES, *TEXT_SUFFIXES.values()).difference(fitting)
     if target.suffix.lower() in foreign_suffixes and (target.is_file() or not target.exists()):
         text = "cannot write {form} to {target}: the name must end in {suffixes}"
-        raise OutputError(text, target=target, form=form, suffixes=list(fitting))
+        raise OutputError(text, target=target, form=form, suffixes=join_alternatives(fitting))

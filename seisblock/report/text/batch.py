@@ -16,12 +16,12 @@ MAX_REASONS = 5
 """Most reasons listed for rows without a result."""
 
 _EVENT_COUNT_TEXTS = {
-    "respond": N_("overturned in {happened} of {answers} runs"),
-    "rock": N_("overturned in {happened} of {answers} runs"),
-    "slide": N_("slid in {happened} of {answers} runs"),
-    "jump": N_("jumped in {happened} of {answers} runs"),
-    "uplift": N_("uplift in {happened} of {answers} runs"),
-    "stack": N_("at least one stone fell in {happened} of {answers} runs"),
+    "respond": N_("overturned in {happened} of {answers} cases"),
+    "rock": N_("overturned in {happened} of {answers} cases"),
+    "slide": N_("slid in {happened} of {answers} cases"),
+    "jump": N_("jumped in {happened} of {answers} cases"),
+    "uplift": N_("uplift in {happened} of {answers} cases"),
+    "stack": N_("at least one stone fell in {happened} of {answers} cases"),
 }
 _EVENT_HEADINGS = {
     "respond": N_("overturned"),
@@ -49,7 +49,7 @@ def tables(tally: Tally, messages: Mapping[str, str]) -> Iterator[Any]:
     )
     bodies = tally.sorted_counts()
     if bodies and tally.answers:
-        header = [gettext("body"), gettext("runs"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no result")]
+        header = [gettext("body"), gettext("total"), gettext(_EVENT_HEADINGS[solver]), gettext("share"), gettext("no result")]
         rows = [
             [gettext(c.body), c.answers, c.events, format_share(c.events / c.answers) if c.answers else None, c.failures]
             for c in bodies[:MAX_BODIES]

@@ -63,7 +63,7 @@ def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:
     yield N_("volume (m³)"), [format_number(scan.volume)]
     yield N_("height (m)"), [format_number(body.height)]
     yield N_("centre of gravity x, y, z (m)"), [", ".join(format_fixed(value, 4) for value in body.centre)]
-    yield N_("inertia about it xx, yy, zz (kg m²)"), [", ".join(format_number(body.inertia[i][i]) for i in range(3))]
+    yield N_("moments of inertia xx, yy, zz (kg m²)"), [", ".join(format_number(body.inertia[i][i]) for i in range(3))]
     yield N_("  xy, xz, yz (kg m²)"), [", ".join(format_number(body.inertia[i][k]) for i, k in ((0, 1), (0, 2), (1, 2)))]
     yield N_("base: corners, contact points"), [f"{len(body.base)}, {scan.touching}"]
     unit = length_unit([body.inset_m, scan.tolerance], gal=gal)

@@ -13,7 +13,7 @@ from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_cri
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.model_comparison import agreement_line
-from seisblock.report.text.respond import verdict as fate
+from seisblock.report.text.respond import outcome_text
 from seisblock.report.text.rock import verdict
 from seisblock.report.text.tables import format_number, group_answers, styled_line, table
 from seisblock.report.units_display import acceleration_unit, velocity_unit
@@ -63,10 +63,10 @@ def respond_text(card: CriteriaComparison, best_estimate: BestEstimate, *, gal: 
     outcome, mu = best_estimate.response.outcome, best_estimate.response.options["mu"]
     right = sum(row.overturns == outcome.overturned for row in rows)
     if best_estimate.friction_known:
-        text = N_("Full response (respond) with friction {mu:g}: {verdict} {right} of {all} criteria agree.")
+        text = N_("{name}, full response (respond, friction {mu:g}): {verdict}. {right} of {all} criteria agree.")
     else:
-        text = N_("Full response (respond) with non-sliding feet, friction {mu:.2f}: {verdict} {right} of {all} criteria agree.")
-    return gettext(text, mu=mu, verdict=fate(best_estimate.response, gal=gal), right=right, all=len(rows))
+        text = N_("{name}, full response (respond, assumed friction {mu:.2f}): {verdict}. {right} of {all} criteria agree.")
+    return gettext(text, name=card.component, mu=mu, verdict=outcome_text(best_estimate.response, gal=gal), right=right, all=len(rows))
 
 
 def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
@@ -87,8 +87,8 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
     for row in frequency_free:
         size, unit = shaking if row.unit == ACCELERATION else speed
         threshold_text = f"{format_number(row.threshold / size)} {unit}"
-        cells.append([gettext(row.criterion), _formula(row), threshold_text, format_ratio(row), _verdict(row, card)])
-    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio"), gettext("verdict")], cells)
+        cells.append([gettext(row.criterion), _formula(row), threshold_text, _ratio_cell(row, card)])
+    yield table(title, [gettext("criterion"), gettext("formula"), gettext("threshold"), gettext("ratio")], cells)
 
     frequencies = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
     columns = [f"{gettext(HEADINGS.get(key, key))}\n{hz:.2f} Hz" for key, hz in frequencies.items() if hz is not None]
@@ -99,10 +99,13 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
         row_cells = [gettext(name), formula]
         for key in frequencies:
             match = rows_by_key.get((name, key))
-            row_cells.append("-" if match is None else f"{format_ratio(match)} {_verdict(match, card)}")
+            row_cells.append("-" if match is None else _ratio_cell(match, card))
         body.append(row_cells)
     if body:
-        caption = gettext("ratio: demand over threshold; !: differs from the simulation. Thresholds of the lower table: --csv, --json")
+        caption = gettext(
+            "ratio: demand over threshold; yes: overturning predicted; !: differs from the simulation. Thresholds of the lower table: "
+            "--csv, --json"
+        )
         yield table("", [gettext("ratio at f ="), gettext("formula"), *columns], body, caption=caption)
 
 
@@ -125,10 +128,10 @@ def _formula(row: CriterionResult) -> str:
     return row.where.replace("[", "").replace("]_", "")
 
 
-def _verdict(row: CriterionResult, card: CriteriaComparison) -> str:
-    """Return the prediction of a criterion, marked "!" where it differs from the simulation."""
+def _ratio_cell(row: CriterionResult, card: CriteriaComparison) -> str:
+    """Return ratio and prediction of a criterion, marked "!" where it differs from the simulation."""
     mark = " " if row.overturns == card.outcome.overturned else "!"
-    return (gettext("falls ") if row.overturns else gettext("stands")) + mark
+    return f"{format_ratio(row)} {gettext('yes') if row.overturns else gettext('no')}{mark}"
 
 
 def write_csv(path: Path, cards: Sequence[CriteriaComparison]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.core.i18n import N_, format_percent, gettext
-from seisblock.report.text.tables import DASH, format_number, styled_line, table
+from seisblock.report.text.tables import DASH, format_number, format_range, format_share_interval, styled_line, table
 from seisblock.studies.fit.cross_validation import HeldOutScores
 from seisblock.studies.fit.dataset import FELL, MOVED
 from seisblock.studies.fit.fit import BlockFit
@@ -25,7 +25,7 @@ NAMES = {
     TURNING_ALPHA: N_("alpha, worn (rad)"),
     TURNING_P: N_("p, worn (rad/s)"),
     SCATTER: N_("scatter"),
-    LAPSE: N_("lapses"),
+    LAPSE: N_("lapse rate"),
 }
 """Parameter names in tables."""
 
@@ -47,7 +47,7 @@ _TOTALS = {
     FELL: N_("{table}: {outcomes} outcomes of {records} records, overturned in {happened}."),
     MOVED: N_("{table}: {outcomes} outcomes of {records} records, moved in {happened}."),
 }
-_HEADING = {FELL: N_("fell"), MOVED: N_("moved")}
+_HEADING = {FELL: N_("overturned"), MOVED: N_("moved")}
 
 
 def verdict(fit: BlockFit) -> str:
@@ -111,8 +111,8 @@ def _row(marginal: Marginal) -> list[str]:
     return [
         gettext(NAMES[marginal.name]),
         texts["median"],
-        f"{texts['low']} - {texts['high']}",
-        f"{low} - {high}",
+        format_range(texts["low"], texts["high"]),
+        format_range(low, high),
         format_percent(marginal.narrowed),
     ]
 
@@ -125,7 +125,7 @@ def _prediction_tables(fit: BlockFit, held_out: HeldOutScores, outcomes: Outcome
         [
             gettext("fitted block"),
             format_percent(held_out.accuracy),
-            f"{format_percent(low)} - {format_percent(high)}",
+            format_share_interval((low, high)),
             f"{held_out.brier:.3f}",
         ],
         [gettext("PGV threshold"), format_percent(held_out.threshold_accuracy), DASH, DASH],
@@ -134,11 +134,11 @@ def _prediction_tables(fit: BlockFit, held_out: HeldOutScores, outcomes: Outcome
     yield table(title, [gettext("predictor"), gettext("correct"), gettext("95 % interval"), gettext("Brier score")], rows)
     steps = [
         [
-            f"{step.low:g} - {step.high:g}",
+            format_range(f"{step.low:g}", f"{step.high:g}"),
             step.outcomes,
             format_percent(step.mean_probability),
             format_percent(step.share),
-            f"{format_percent(step.share_interval[0])} - {format_percent(step.share_interval[1])}",
+            format_share_interval(step.share_interval),
         ]
         for step in held_out.calibration
     ]

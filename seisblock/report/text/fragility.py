@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.text.tables import DASH, format_number, styled_line, table
+from seisblock.report.text.tables import DASH, format_number, format_range, styled_line, table
 from seisblock.report.units_display import length_unit
 from seisblock.studies.fragility.damage_states import SLIP, describe_limit
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
@@ -119,7 +119,7 @@ def _curve_table(study: FragilityStudy, *, gal: bool) -> Any:
 def _format_interval(value: float | None, interval: Interval | None, formatter: Callable[[float], str]) -> str:
     if value is None:
         return DASH
-    return formatter(value) if interval is None else f"{formatter(value)} ({formatter(interval[0])}-{formatter(interval[1])})"
+    return formatter(value) if interval is None else f"{formatter(value)} ({format_range(formatter(interval[0]), formatter(interval[1]))})"
 
 
 def _basis_text(study: FragilityStudy) -> str:

@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.records import Record
-from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    acceleration_cell,
+    format_acceleration,
+    format_number,
+    format_range,
+    group_answers,
+    styled_line,
+    table,
+)
 from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit, velocity_unit
 from seisblock.studies.survey.assumptions import Assumptions
 from seisblock.studies.survey.estimate import Interval, ShakingEstimate, split_stone_label
@@ -104,7 +113,9 @@ def _format_interval(interval: Interval, unit: float) -> str:
     low, high = interval
     if low is None:
         return DASH if high is None else f"< {format_number(high / unit, 3)}"
-    return f"> {format_number(low / unit, 3)}" if high is None else f"{format_number(low / unit, 3)}-{format_number(high / unit, 3)}"
+    return (
+        f"> {format_number(low / unit, 3)}" if high is None else format_range(format_number(low / unit, 3), format_number(high / unit, 3))
+    )
 
 
 def _intensity(estimate: ShakingEstimate) -> str:
@@ -147,7 +158,12 @@ def factor_tables(results: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, 
                 for f in result.scale_factors
             ]
             if rows:
-                headings = (gettext("factor"), f"PGA ({acceleration_unit(gal=gal).name})", gettext("moved ({unit})", unit=unit.name), "")
+                headings = (
+                    gettext("factor"),
+                    f"PGA ({acceleration_unit(gal=gal).name})",
+                    gettext("displacement ({unit})", unit=unit.name),
+                    "",
+                )
                 yield table(result.component if len(part) > 1 else "", headings, rows)
 
 

@@ -14,7 +14,7 @@ from seisblock.models.jump.solve import JumpOutcome
 from seisblock.report.directions import direction_label, format_displacement
 from seisblock.report.text.tables import format_acceleration, format_seconds, group_answers, side_by_side, styled_line, with_notes
 from seisblock.report.text.threshold import ROCKS, threshold_text
-from seisblock.report.units_display import format_length, length_cell, length_unit
+from seisblock.report.units_display import Unit, format_size, length_cell, length_unit
 
 JumpResponses = Sequence[Response[JumpOutcome]]
 
@@ -88,7 +88,7 @@ def _cells(chains: Sequence[Chain], name: str, *, gal: bool) -> Iterator[list[st
     unit = length_unit((getattr(chain, key) for chain in chains for _, key in _LENGTHS), gal=gal)
     for heading, key in _LENGTHS:
         yield [gettext(heading, unit=unit.name), *(length_cell(getattr(chain, key), unit) for chain in chains)]
-    yield [gettext("friction needed to land"), *(_format_friction(chain.friction_needed_at_landing) for chain in chains)]
+    yield [gettext("friction required to land"), *(_format_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
 def _format_or_dash(value: float | None, form: str) -> str:
@@ -98,6 +98,11 @@ def _format_or_dash(value: float | None, form: str) -> str:
 def _format_friction(friction: float | None) -> str:
     """Return P_x/P_y of a landing; infinite if the ground would have to pull."""
     return "-" if friction is None else f"{friction:.2f}" if math.isfinite(friction) else gettext("none suffices")
+
+
+def _displacement_unit(outcome: JumpOutcome, *, gal: bool) -> Unit:
+    """Return the common unit of the displacements of all chains."""
+    return length_unit([outcome.final_displacement_m, *(chain.total_displacement_m for chain in outcome.chains)], gal=gal)
 
 
 def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
@@ -117,7 +122,7 @@ def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
         text = N_("{name}: jumps; final displacement {moved}.")
     else:
         text = N_("{name}: jumps {jumps} times in {count} chains of motion; final displacement {moved}.")
-    displacement = format_displacement(outcome.final_displacement_m, name, gal=gal)
+    displacement = format_displacement(outcome.final_displacement_m, name, _displacement_unit(outcome, gal=gal))
     sentence = gettext(text, name=name, outcome=gettext(outcome.outcome), moved=displacement, count=len(outcome.chains), jumps=jumps)
     return with_notes(sentence, [*_friction_caveats(response)])
 
@@ -128,24 +133,30 @@ def _friction_caveats(response: Response[JumpOutcome]) -> Iterator[str]:
     ratio = response.body.width / 2 / response.body.centroid_height
     if mu < ratio:
         text = N_(
-            "The model assumes feet that do not slide; with a friction of {mu:g} < b/h = {ratio:.2f} the feet slide before they rock."
+            "The model assumes feet that do not slide; with a friction coefficient of {mu:g} < b/h = {ratio:.2f} the feet slide "
+            "before the block rocks."
         )
         yield gettext(text, mu=mu, ratio=ratio)
     if friction is not None and exceeds(friction, mu):
-        yield gettext("Landing without slip requires a friction of {needed}; `mu` is {mu:g}.", needed=_format_friction(friction), mu=mu)
+        if math.isfinite(friction):
+            yield gettext(
+                "Landing without slip requires a friction coefficient of {needed:.2f}; the given one is {mu:g}.", needed=friction, mu=mu
+            )
+        else:
+            yield gettext("No friction coefficient suffices for landing without slip.")
 
 
 def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, gal: bool = True) -> Iterator[str]:
     """Yield one sentence per chain of the table, and the notes."""
     chains, name = response.outcome.chains, response.motion.name
-    chain_indices = _table_chains(chains)
+    chain_indices, unit = _table_chains(chains), _displacement_unit(response.outcome, gal=gal)
     for number, chain in ((i + 1, chains[i]) for i in chain_indices):
         if chain.outcome == JUMPED and chain.total_displacement_m is not None:
             yield gettext(
                 "Chain {number}: jumps {moved} after {rocking:.3f} s of rocking; ground acceleration above the "
                 "threshold for {above:.3f} s.",
                 number=number,
-                moved=format_displacement(chain.total_displacement_m, name, gal=gal),
+                moved=format_displacement(chain.total_displacement_m, name, unit),
                 rocking=chain.rocking_duration_s,
                 above=chain.time_above_threshold_s,
             )
@@ -158,7 +169,7 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, ga
         yield gettext(
             "Displacement in the {count} other chains: at most {least} each.",
             count=len(chains) - len(chain_indices),
-            least=format_length(max_displacement, gal=gal),
+            least=format_size(max_displacement, unit),
         )
     residual_velocity = max((chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED), default=0.0)
     if residual_velocity > 0.0 and response.outcome.landing == "paper":

@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.report.text.record_info import describe_earthquake
-from seisblock.report.text.tables import format_fixed, format_number, styled_line, table
+from seisblock.report.text.tables import format_fixed, format_number, format_range, styled_line, table
 from seisblock.report.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.stations import StationReport, Stations
@@ -23,11 +23,11 @@ COLUMNS = {
 """Table columns by solver."""
 
 EVENT_WORDS = {
-    "respond": N_("falls"),
-    "rock": N_("falls"),
+    "respond": N_("overturns"),
+    "rock": N_("overturns"),
     "slide": N_("slides"),
     "jump": N_("jumps"),
-    "uplift": N_("lifts"),
+    "uplift": N_("uplift"),
 }
 """Column heading of the event of each solver."""
 
@@ -36,7 +36,7 @@ _VERDICTS = {
     "rock": N_("{subject}: overturns at {some} of {stations}, largest response at {station}"),
     "slide": N_("{subject}: slides at {some} of {stations}, largest response at {station}"),
     "jump": N_("{subject}: jumps at {some} of {stations}, largest response at {station}"),
-    "uplift": N_("{subject}: lifts at {some} of {stations}, largest response at {station}"),
+    "uplift": N_("{subject}: uplift at {some} of {stations}, largest response at {station}"),
 }
 
 MAX_ROWS = 40
@@ -62,7 +62,8 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
         header, rows = station_rows(listed_answers, model, gal=gal)
         omitted = _omitted_text(len(answers) - MAX_ROWS)
         caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
-        yield table("", [name.replace(" (", "\n(") for name in header], rows, caption=caption)  # station names need the width
+        # station names need the width
+        yield table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
     missing = [answer for answer in stations.answers if answer.failure]
     if missing:
         yield styled_line(gettext("no result: {count}", count=len(missing)), "yellow")
@@ -82,7 +83,7 @@ def column_note(answers: Sequence[StationReport], model: StationModel | None) ->
     if not isinstance(model, StationBody) or all(answer.effect.probability is None for answer in answers):
         return ""
     return gettext(
-        "falls: nominal body in its worst direction; share: overturning share of {runs} samples in that direction", runs=model.runs
+        "overturns: nominal body in its worst azimuth; share: share of {runs} samples that overturn in that azimuth", runs=model.runs
     )
 
 
@@ -94,7 +95,7 @@ def survey_tables(surveys: Sequence[SurveyComparison]) -> Iterator[Any]:
     surveys : sequence of SurveyComparison
     """
     header, rows = survey_rows(surveys)
-    caption = gettext("stations: the nearest three, weighted by inverse distance; residual: by stones minus by stations")
+    caption = gettext("stations: the nearest three, weighted by inverse distance; residual: from stones minus from stations")
     yield table(gettext("Surveyed cemeteries"), header, rows, caption=caption)
     for pair in contradictions(surveys):
         yield styled_line(gettext(pair), "yellow")
@@ -109,9 +110,9 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
     """
     header = [
         gettext("surveyed place"),
-        gettext("fell"),
-        gettext("JMA by stones"),
-        gettext("by stations"),
+        gettext("overturned"),
+        gettext("JMA from stones"),
+        gettext("from stations"),
         gettext("residual"),
         gettext("nearest"),
     ]
@@ -125,7 +126,7 @@ def survey_rows(surveys: Sequence[SurveyComparison]) -> tuple[list[str], list[li
         rows.append([
             answer.surveyed.place,
             f"{answer.surveyed.fallen}/{answer.surveyed.stones}",
-            f"{intensities[0]} ({intensities[1]} – {intensities[2]})",
+            f"{intensities[0]} ({format_range(intensities[1], intensities[2])})",
             format_number(None) if answer.expected_intensity is None else format_fixed(answer.expected_intensity, 1),
             format_number(None) if answer.residual is None else f"{round(answer.residual, 1) + 0.0:+.1f}",  # no -0.0
             "" if nearest is None else gettext("{station}, {distance:.1f} km", station=nearest.station, distance=nearest.distance_km),
@@ -201,15 +202,15 @@ def _effect_header(model: StationModel | None, way: Unit) -> list[str]:
     if model is None:
         return []
     if not isinstance(model, StationBody):
-        return [gettext("rate"), gettext("worst to")]
+        return [gettext("rate"), gettext("worst azimuth")]
     header = {
         "happened": gettext(EVENT_WORDS[model.solver]),
-        "overturned": gettext("falls"),
+        "overturned": gettext("overturns"),
         "probability": gettext("share"),
-        "max_slip_m": gettext("moves ({unit})", unit=way.name),
-        "max_uplift_m": gettext("rises ({unit})", unit=way.name),
+        "max_slip_m": gettext("displ. ({unit})", unit=way.name),
+        "max_uplift_m": gettext("uplift ({unit})", unit=way.name),
     }
-    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst to")]
+    return [*(header[name] for name in COLUMNS[model.solver]), gettext("worst azimuth")]
 
 
 def _effect_cells(answer: StationReport, model: StationModel | None, way: Unit) -> list[str]:

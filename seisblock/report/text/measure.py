@@ -91,7 +91,7 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
             for m in answer.components
         ],
         caption=gettext(
-            "Fourier: Parzen window {width:g} Hz; pulse: the pulse with the PGA", width=answer.conventions.fourier_smoothing_hz
+            "Fourier: Parzen window {width:g} Hz; pulse: the pulse that contains the PGA", width=answer.conventions.fourier_smoothing_hz
         ),
     )
 
@@ -106,8 +106,8 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
     if slow is not None:
         v = velocity_unit(gal=gal)
         yield gettext(
-            "JMA class of long-period ground motion {name} (floor velocity of tall buildings up to {velocity} {unit} "
-            "at a period of {period:g} s)",
+            "JMA class of long-period ground motion {name} (absolute velocity response up to {velocity} {unit} at a period of "
+            "{period:g} s)",
             name=slow.long_period_class,
             velocity=format_number(slow.floor_velocity_m_s / v.size),
             unit=v.name,
@@ -116,9 +116,9 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
     worst = answer.horizontal
     if worst is not None:
         size = format_acceleration(worst.pga_m_s2, gal=gal)
-        sentence = gettext("Peak horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
+        sentence = gettext("PGA of the horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
         if worst.azimuth_deg is not None:
-            sentence += gettext(" towards {azimuth:.0f}° (clockwise from north)", azimuth=worst.azimuth_deg)
+            sentence += gettext(" towards azimuth {azimuth:.0f}°", azimuth=worst.azimuth_deg)
         yield sentence
 
 

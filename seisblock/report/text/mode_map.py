@@ -51,7 +51,7 @@ def _map_table(motion: Motion, mode_map: ModeMap, wear_text: str) -> Iterator[An
     yield table(_title(motion, mode_map) + gettext(wear_text), [f"{row_symbol(mode_map)} \\ μ", axis_text], cells)
     yield styled_line(gettext(". rest, s sliding, r rocking, b slide-rocking, f flight, # overturning"), "dim")
     if mode_map.share(NO_ANSWER) > 0.0:
-        yield styled_line(gettext("? no result: run stopped, endless small bounces"), "dim")
+        yield styled_line(gettext("? no result: analysis stopped at the limit of impacts (endless small bounces)"), "dim")
     yield styled_line()
 
 
@@ -59,7 +59,7 @@ def verdict(motion: Motion, mode_map: ModeMap) -> str:
     """Return the shares of the modes."""
     shares = [(mode, mode_map.share(mode)) for mode in MODES_BY_SEVERITY]
     parts = [gettext(SHARES[mode], share=format_share(share)) for mode, share in shares if share > 0.0]
-    return gettext("{name}: {all} bodies: {parts}.", name=motion.name or "x", all=mode_map.governing.size, parts=join_list(parts))
+    return gettext("{name}: of {all} bodies {parts}.", name=motion.name or "x", all=mode_map.governing.size, parts=join_list(parts))
 
 
 def limits_text(mode_map: ModeMap) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seisblock.bodies.block import Block
-from seisblock.core.i18n import N_, format_share, gettext, lazy_gettext
+from seisblock.core.i18n import N_, format_percent, format_share, gettext, lazy_gettext
 from seisblock.report.describe_wear import sampled_edges
 from seisblock.report.text.tables import with_notes
 from seisblock.studies.model_comparison import GRAVESTONES, ModelComparison, ModelResult
@@ -39,13 +39,13 @@ def agreement_line(name: str, agreement: ModelComparison) -> str:
             )
         else:
             text = N_(
-                "{name}: stable in all {models} models; scale factor to overturning {low:.2f}-{high:.2f} (largest over "
-                "smallest {spread:.1f})."
+                "{name}: does not overturn in any of the {models} models; scale factor to overturning {low:.2f}-{high:.2f} "
+                "(largest over smallest {spread:.1f})."
             )
         return gettext(text, **values, **ends)
     text = N_(
-        "{name}: overturns in {falls} of {models} models: {falling}; stable in the others: {standing}. In brackets: "
-        "scale factor to overturning of each model, largest over smallest {spread:.1f}."
+        "{name}: overturns in {falls} of {models} models: {falling}; does not overturn in the others: {standing}. In brackets: "
+        "scale factor to overturning, where computed (largest over smallest {spread:.1f})."
     )
     falling_models, stable_models = ([_opinion_text(o) for o in agreement.opinions if o.falls is falls] for falls in (True, False))
     sentence = gettext(text, **values, falls=agreement.falls, falling=falling_models, standing=stable_models)
@@ -97,15 +97,14 @@ def rates_line(name: str, rates: tuple[ModelRate, ...]) -> str:
     """
     if len(rates) < 2:
         return ""
-    texts = [gettext("{rate:.0%} by the {model}", rate=opinion.rate, model=model_label(opinion)) for opinion in rates]
+    head = gettext("{name}, overturning rate by model", name=name) if name else gettext("Overturning rate by model")
+    texts = [gettext("{rate:.0%} ({model})", rate=opinion.rate, model=model_label(opinion)) for opinion in rates]
     low, high = min(opinion.rate for opinion in rates), max(opinion.rate for opinion in rates)
-    values = {"rates": texts, "made": gettext(GRAVESTONES)}
+    values = {"head": head, "rates": texts, "made": gettext(GRAVESTONES)}
     if low > 0.0:
-        text = N_("Overturning rate of the stones: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
-        sentence = gettext(text, **values, spread=high / low)
-    else:
-        sentence = gettext("Overturning rate of the stones: {rates}. Derived for gravestones: {made}.", **values)
-    return gettext("{name}: {text}", name=name, text=sentence) if name else sentence
+        text = N_("{head}: {rates} (largest over smallest {spread:.1f}). Derived for gravestones: {made}.")
+        return gettext(text, **values, spread=high / low)
+    return gettext("{head}: {rates}. Derived for gravestones: {made}.", **values)
 
 
 def format_chance(share: float) -> str:
@@ -114,11 +113,11 @@ def format_chance(share: float) -> str:
     Examples
     --------
     >>> format_chance(0.0), format_chance(0.5), format_chance(1.0)
-    ('below 0.03', '0.50', 'above 0.98')
+    ('below 3 %', '50 %', 'above 98 %')
     """
     if share < MIN_SHARE:
-        return gettext("below {share}", share=MIN_SHARE)
-    return gettext("above {share}", share=MAX_SHARE) if share > MAX_SHARE else f"{share:.2f}"
+        return gettext("below {share:.0%}", share=MIN_SHARE)
+    return gettext("above {share:.0%}", share=MAX_SHARE) if share > MAX_SHARE else format_percent(share)
 
 
 def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, str]:
@@ -148,11 +147,11 @@ def perturbation_lines(perturbation: Perturbation, block: Block) -> tuple[str, s
             "samples overturning did not overturn."
         )
     else:
-        text = N_("overturning probability {share} ({fallen} of {runs} samples); {low} to {high} is the 95 % interval of {of}.")
+        text = N_("overturning probability {share} ({fallen} of {runs} samples; 95 % CI {low} to {high}, {of}).")
     s = perturbation.spread
     sizes = lazy_gettext("size ±{size}, slenderness ±{slenderness}", size=format_share(s.size), slenderness=format_share(s.slenderness))
     variation = gettext(
-        "varied: {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
+        "samples with {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
         sizes=sizes,
         edges=sampled_edges(block, perturbation.ranges, s.inset),
         restitution=format_share(s.restitution),

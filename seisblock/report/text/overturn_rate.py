@@ -12,12 +12,23 @@ from seisblock.records import Record
 from seisblock.report.io.history_csv import concat_tables
 from seisblock.report.text.measure import filter_range_text
 from seisblock.report.text.model_comparison import rates_line
-from seisblock.report.text.tables import DASH, acceleration_cell, format_acceleration, format_number, group_answers, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    acceleration_cell,
+    format_acceleration,
+    format_number,
+    format_range,
+    group_answers,
+    styled_line,
+    table,
+)
 from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.survey.assessment import CemeteryRate
 from seisblock.studies.survey.overturning_rate import CurvePoint
 
-CAPTION = N_("Min. H/B predicted to fall. %: sampling interval (Clopper-Pearson) only")
+CAPTION = N_(
+    "Min. H/B: smallest height over width predicted to overturn. {level:g} %: sampling interval of the rate (Clopper-Pearson) only"
+)
 
 MAX_VERDICTS = 4
 """Most shakings with a sentence each."""
@@ -106,7 +117,7 @@ def median_pga_text(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) ->
 
 def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
     unit = acceleration_unit(gal=gal).name
-    header = ("", f"PGA ({unit})", "f (Hz)", gettext("min. H/B"), gettext("fallen"), gettext("rate"), format_percent(confidence, "g"))
+    header = ("", f"PGA ({unit})", "f (Hz)", gettext("min. H/B"), gettext("overturned"), gettext("rate"), format_percent(confidence, "g"))
     rows = [
         (
             _row_label(result),
@@ -115,11 +126,11 @@ def _rate_table(title: str, results: Sequence[CemeteryRate], *, gal: bool, confi
             _format_ratio(result),
             gettext("{fallen} of {stones}", fallen=result.fallen, stones=result.stones),
             f"{result.rate:.2f}",
-            "{:.2f}-{:.2f}".format(*result.rate_interval),
+            format_range(*(f"{end:.2f}" for end in result.rate_interval)),
         )
         for result in results
     ]
-    return table(title, header, rows, caption=gettext(CAPTION))
+    return table(title, header, rows, caption=gettext(CAPTION, level=100.0 * confidence))
 
 
 def _row_label(result: CemeteryRate) -> str:

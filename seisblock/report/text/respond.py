@@ -12,7 +12,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core.i18n import N_, format_share, gettext, join_list, lazy_gettext
 from seisblock.core.results import Response
-from seisblock.models.respond.describe import ENDLESS_HOPS
+from seisblock.models.respond.describe import ENDLESS_HOPS, STILL_MOVING
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.report.describe_wear import sampled_edges
 from seisblock.report.directions import direction_label, with_direction
@@ -35,6 +35,9 @@ from seisblock.studies.respond.azimuths import RespondAzimuth, left_out_directio
 from seisblock.studies.respond.probability import Probability
 
 Responses = Sequence[Response[RespondOutcome]]
+
+OUTCOME_TEXTS = {STILL_MOVING: N_("still moving"), ENDLESS_HOPS: N_("no result")}
+"""Texts of the outcomes whose names in JSON are not read as such."""
 
 MIN_SLIP_M = 5e-4
 """Displacements below this are reported as zero, m."""
@@ -67,8 +70,21 @@ def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, ga
         yield styled_line("  " + direction_sentence(extra["directions"]))
 
 
-def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
-    """Return the outcome in a sentence."""
+def verdict(response: Response[RespondOutcome], *, gal: bool = True, name: str = "") -> str:
+    """Return the outcome in a sentence.
+
+    Parameters
+    ----------
+    response : Response
+    gal : bool
+    name : str
+        Begin of the sentence; by default the component.
+    """
+    return gettext("{name}: {verdict}.", name=name or response.motion.name or "x", verdict=outcome_text(response, gal=gal))
+
+
+def outcome_text(response: Response[RespondOutcome], *, gal: bool = True) -> str:
+    """Return the outcome without component and full stop."""
     outcome, name = response.outcome, response.motion.name
     if outcome.overturned:
         at = outcome.overturning_time_s
@@ -91,11 +107,11 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         onset_text = threshold_text(template, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
         words = gettext("{verdict}; {onset}", verdict=gettext("remains at rest"), onset=onset_text)
     elif outcome.outcome == ENDLESS_HOPS:
-        words = gettext("no result: run stopped at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
+        words = gettext("no result: analysis stopped at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
     else:
         words = gettext("{motion}; {end}", motion=join_list(_motion_parts(response, gal=gal)), end=_final_text(response, gal=gal))
     flag = gettext("; sensitive: an input change of 1e-6 alters the result") if outcome.sensitive else ""
-    return gettext("{name}: {words}{flag}.", name=name or "x", words=words, flag=flag)
+    return words + flag
 
 
 def _motion_parts(response: Response[RespondOutcome], *, gal: bool) -> Iterator[str]:
@@ -118,7 +134,7 @@ def _motion_parts(response: Response[RespondOutcome], *, gal: bool) -> Iterator[
 def rocking_text(ratio: float) -> str:
     """Return the extent of rocking without overturning; `ratio` is the peak tilt over the overturning angle."""
     if ratio < 0.01:
-        return gettext("rocks slightly (peak tilt below 1 % of the overturning angle)")
+        return gettext("rocks slightly (peak tilt less than 1 % of the overturning angle)")
     return gettext("rocks (peak tilt {share} of the overturning angle)", share=format_share(ratio))
 
 
@@ -127,7 +143,7 @@ def _final_text(response: Response[RespondOutcome], *, gal: bool) -> str:
     outcome, name = response.outcome, response.motion.name
     displacement = outcome.final_displacement_m
     if not outcome.settled:
-        return gettext("still moving at the end of the run")
+        return gettext("still moving at the end of the analysis")
     if abs(displacement) < MIN_SLIP_M:
         return gettext("no residual displacement")
     length = format_length(abs(displacement), _length_unit(outcome, gal=gal))
@@ -158,9 +174,9 @@ def probability_sentence(probability: Probability, *, gal: bool = True) -> str:
         ends = [probability.final_displacement_m[name] for name in ("q05", "q95")]
         lower, upper = (format_signed(end, length_unit(ends, gal=gal)) for end in ends)
         if lower == upper == "0":
-            middle = gettext("; 90 % of the survivors have no residual displacement")
+            middle = gettext("; no residual displacement in 90 % of the samples without overturning")
         else:
-            middle = gettext("; residual displacement of 90 % of the survivors {low} to {high}", low=lower, high=upper)
+            middle = gettext("; residual displacement of 90 % of the samples without overturning {low} to {high}", low=lower, high=upper)
     sentence = gettext("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
     left_out = left_out_versions(probability.no_answer, probability.runs)
     return with_notes(sentence, [] if left_out is None else [gettext("{note}.", note=left_out)])
@@ -177,7 +193,7 @@ def direction_sentence(results: Sequence[Any]) -> str:
     """Return the number of directions in which a body overturns, and those without a result."""
     fall_count = sum(result.overturned for result in results)
     solved_count = sum(not result.gave_up for result in results)
-    text = N_("overturns in {fallen} of {all} directions; results for the worst direction.")
+    text = N_("overturns in {fallen} of {all} azimuths; results for the worst azimuth.")
     notes = [gettext("{note}.", note=left_out) for left_out in left_out_directions(results)]
     return with_notes(gettext(text, fallen=fall_count, all=solved_count), notes)
 
@@ -193,7 +209,7 @@ def _direction_table(results: Sequence[RespondAzimuth], *, gal: bool) -> Any:
             [f"{result.azimuth_deg:g}", f"{math.degrees(result.max_rotation_rad):.3f}", *lengths, fall_cell, format_seconds(result.end_s)]
         )
     headings = (
-        N_("azimuth (deg)"), N_("tilt (deg)"), N_("max. ({unit})"), N_("residual ({unit})"), N_("falls to (deg)"),
+        N_("azimuth (deg)"), N_("tilt (deg)"), N_("max. ({unit})"), N_("residual ({unit})"), N_("overturns to (deg)"),
         N_("end (s)"),
     )  # fmt: skip
     return table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows)
@@ -214,9 +230,9 @@ def variation_text(probability: Probability, block: Block) -> str:
     """Return the varied parameters and the validation of the probability."""
     versions, ranges = probability.versions, probability.ranges or ParameterRanges()
     return gettext(
-        "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution "
-        "±{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees. In 490 shaking-table runs of two "
-        "granite rocks, 3 % of those predicted 0/20 did overturn and 2 % of those predicted 20/20 did not",
+        "Parameter variation only (model error not included): {sizes}, {edges}, {friction}, restitution ±{restitution:g}, "
+        "amplitude ±{amplitude}, azimuth ±{azimuth:g} degrees. In 490 shaking-table runs of two granite rocks, 3 % of those "
+        "predicted 0/20 did overturn and 2 % of those predicted 20/20 did not.",
         sizes=lazy_gettext("width and height ±{share}", share=format_share(versions.size)),
         edges=sampled_edges(block, probability.ranges, versions.inset),
         friction=(ranges.friction_text if versions.mu else None) or lazy_gettext("friction ±{share}", share=format_share(versions.mu)),
@@ -238,15 +254,17 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
     title = N_("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
     if options["tenon_m"]:
         values["tenon"] = format_length(options["tenon_m"], gal=gal)
-        frictions = N_("{name}: tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}")
-        title = N_("{name}: b/h {ratio:.3f}, tenons {tenon}; once free, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
+        frictions = N_("{name}: tenons {tenon}; out of the mortises: mu {mu:g}, kinetic {kinetic:g}")
+        title = N_(
+            "{name}: b/h {ratio:.3f}, tenons {tenon}; out of the mortises: mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}"
+        )
     if not varies:
         first = gettext("slides") if friction <= ratio else gettext("rocks")
         values |= {"ratio": ratio, "first": first, "onset": f"{onset:.{0 if gal else 2}f} {level.name}"}
     mode_times = [o.time_in_mode_s for o in outcomes]
     rows: list[tuple[str, list[Any]]] = [
         *([(gettext("b/h"), [f"{min(r.body.arms) / r.body.centre:.3f}" for r in responses])] if varies else []),
-        (gettext("outcome"), [gettext(o.outcome) for o in outcomes]),
+        (gettext("outcome"), [gettext(OUTCOME_TEXTS.get(o.outcome, o.outcome)) for o in outcomes]),
         (gettext("peak tilt (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
         (gettext("  over alpha"), [tilt_ratio_cell(o.max_rotation_ratio, overturned=o.overturned) for o in outcomes]),
         (gettext("residual ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),

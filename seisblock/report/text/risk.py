@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext, join_list
 from seisblock.report.text.fragility import limit_label
-from seisblock.report.text.tables import DASH, format_number, styled_line, table
+from seisblock.report.text.tables import DASH, format_number, format_range, styled_line, table
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.hazard.curve import Hazard
@@ -50,7 +50,7 @@ def verdict(fragility: FragilityCurve, risk: Risk, *, gal: bool = True) -> str:
     prefix = f"{name}: " if name else ""
     probability, years = format_share(risk.probability.value), risk.probability.years
     if risk.return_period_years is None:
-        return prefix + gettext("rate zero within the range of the hazard.")
+        return prefix + gettext("annual rate 0 within the range of the hazard.")
     text = N_("return period {period} years; probability in {years:g} years {chance}.")
     return prefix + gettext(text, period=format_number(risk.return_period_years, 3), chance=probability, years=years)
 
@@ -63,7 +63,7 @@ def _rate_table(risks: Risks, hazard: Hazard, *, gal: bool) -> Any:
         _measure_heading(measure, gettext("median"), gal=gal),
         "beta",
         gettext("rate (1/year)"),
-        gettext("period (years)"),
+        gettext("return period (years)"),
     ]
     rows = [
         [
@@ -98,7 +98,7 @@ def interval_text(share: RiskShare, size: float) -> str:
     low, high = (None if end is None else format_number(end / size, 3) for end in (share.im_from, share.im_to))
     if low is None:
         return gettext("below {level}", level=high)
-    return gettext("from {level}", level=low) if high is None else f"{low} - {high}"
+    return gettext("{level} and above", level=low) if high is None else format_range(low, high)
 
 
 def _branch_table(name: str, risk: Risk) -> Any:
@@ -107,10 +107,10 @@ def _branch_table(name: str, risk: Risk) -> Any:
     rows = [[branch.branch or DASH, f"{branch.weight:.3g}", f"{branch.annual_rate:.3g}"] for branch in risk.branches]
     caption = ""
     if risk.stood_years is not None:
-        header += [gettext("P(stable)"), gettext("posterior")]
+        header += [gettext("P(none)"), gettext("posterior")]
         for row, branch in zip(rows, risk.branches, strict=True):
             row += [f"{branch.standing:.3g}", f"{branch.weight_after:.3g}"]
-        text = N_("P(stable): probability of no occurrence in {years:g} years; with the posterior weights {rate:.3g} per year")
+        text = N_("P(none): probability of no event in {years:g} years; annual rate with the posterior weights {rate:.3g}")
         caption = gettext(text, years=risk.stood_years, rate=risk.annual_rate_after)
     return table(name, header, rows, caption=caption)
 

@@ -14,7 +14,7 @@ from seisblock.models.rock.outcome import RockOutcome, friction_suffices
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.directions import direction_label
 from seisblock.report.text.model_comparison import agreement_line, perturbation_lines
-from seisblock.report.text.respond import direction_sentence, fall_azimuth
+from seisblock.report.text.respond import direction_sentence, fall_azimuth, rocking_text
 from seisblock.report.text.tables import (
     acceleration_cell,
     format_acceleration,
@@ -31,6 +31,9 @@ from seisblock.report.text.threshold import ROCKS, threshold_text
 from seisblock.report.units_display import acceleration_unit
 from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin
+
+MAX_INTERVALS = 8
+"""Most intervals of overturning listed."""
 
 RockResponses = Sequence[Response[RockOutcome]]
 
@@ -88,9 +91,9 @@ def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
         (gettext("  at (s)"), [format_seconds(o.max_rotation_s) for o in outcomes]),
         (gettext("impacts"), [o.impacts for o in outcomes]),
         (gettext("overturned"), [_overturned_cell(response) for response in responses]),
-        (gettext("  alpha passed (s)"), [format_seconds(o.alpha_passed_s) for o in outcomes]),
-        (gettext("  lies down (s)"), [format_seconds(o.overturning_time_s) for o in outcomes]),
-        (gettext("friction needed"), [format_number(o.max_friction_demand) for o in outcomes]),
+        (gettext("  alpha exceeded (s)"), [format_seconds(o.alpha_passed_s) for o in outcomes]),
+        (gettext("  overturning time (s)"), [format_seconds(o.overturning_time_s) for o in outcomes]),
+        (gettext("friction required"), [format_number(o.max_friction_demand) for o in outcomes]),
         (gettext("  at (s)"), [format_seconds(o.max_friction_demand_s) for o in outcomes]),
         (gettext("contact lost (s)"), [format_seconds(o.contact_lost_s) for o in outcomes]),
     ]
@@ -124,8 +127,8 @@ def _direction_table(results: Sequence[RockAzimuth]) -> Any:
         N_("azimuth (deg)"),
         *((N_("alpha (deg)"),) if slenderness_varies else ()),
         N_("tilt/alpha"),
-        N_("falls to (deg)"),
-        N_("lies down (s)"),
+        N_("overturns to (deg)"),
+        N_("overturning time (s)"),
     )
     return table(gettext("All azimuths"), [gettext(heading) for heading in headings], rows)
 
@@ -153,11 +156,16 @@ def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal:
         return sentence
     ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
     if mu < ratio:
-        text = N_("With a friction of {mu:g} < b/h = {ratio:.3f} the block slides instead of rocking; this result does not apply.")
+        text = N_(
+            "With a friction coefficient of {mu:g} < b/h = {ratio:.3f} the block slides instead of rocking; this result does not apply."
+        )
         return with_notes(sentence, [gettext(text, mu=mu, ratio=ratio)])
     if outcome.max_friction_demand is None:
         return with_notes(sentence, [gettext("The block leaves the ground, so no friction suffices; this result does not apply.")])
-    text = N_("Rocking requires a friction of {needed:.2f} at {time:.3f} s; with {mu:g} the block slides while it rocks (see `respond`).")
+    text = N_(
+        "Rocking requires a friction coefficient of {needed:.2f} at {time:.3f} s; with {mu:g} the block slides while rocking "
+        "(see `respond`)."
+    )
     return with_notes(sentence, [gettext(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
 
 
@@ -189,7 +197,7 @@ def verdict(outcome: RockOutcome, direction: str) -> str:
     if not outcome.rocks:
         text = gettext("remains at rest")
     elif not outcome.overturned:
-        text = gettext("rocks, does not overturn ({way})", way=lean_text(outcome.max_rotation_ratio))
+        text = rocking_text(outcome.max_rotation_ratio)
     elif outcome.overturning_time_s is None:
         text = gettext("overturns to {side}", side=direction_text)
     else:
@@ -221,15 +229,17 @@ def _margin_lines(margin: Margin) -> Iterator[str]:
         yield gettext("no overturning at scale factors up to {limit:g} (steps of {step:g}).", limit=margin.limit, step=margin.step)
         return
     yield gettext(
-        "scale factor to overturning {first:.3g} (first found in steps of {step:g} up to {limit:g}); above, "
-        "{share:.0%} of the factors overturn.",
+        "scale factor to overturning {first:.3g} (smallest of the factors up to {limit:g} in steps of {step:g}); of the larger "
+        "factors {share:.0%} overturn the block.",
         first=margin.first_fall,
         step=margin.step,
         limit=margin.limit,
         share=margin.falls_above_first,
     )
     unsafe = [window for window in margin.windows if window.overturned]
-    intervals = [gettext("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:8]] + ["..."] * (len(unsafe) > 8)
+    intervals = [gettext("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:MAX_INTERVALS]]
+    if len(unsafe) > MAX_INTERVALS:
+        intervals.append(gettext("and {count} more intervals", count=len(unsafe) - MAX_INTERVALS))
     yield gettext("overturning at scale factors {factors}.", factors=intervals)
     if margin.nearest_flip is not None:
-        yield gettext("the verdict changes at a scale factor of {factor:.4f} (nearest found).", factor=margin.nearest_flip)
+        yield gettext("the result changes at a scale factor of {factor:.4f} (the nearest to 1 found).", factor=margin.nearest_flip)

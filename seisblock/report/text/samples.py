@@ -33,7 +33,7 @@ def select_samples(names: Sequence[str]) -> list[Sample]:
         lower_name = name.lower()
         hits = [s for s in samples if s.name.lower() == lower_name] or [s for s in samples if s.name.lower().split(".")[0] == lower_name]
         if not hits:
-            raise RecordNotFoundError("no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in samples])
+            raise RecordNotFoundError("no bundled sample {name!r}; available: {known}", name=name, known=[s.name for s in samples])
         selection.update({sample.name: sample for sample in hits})
     return list(selection.values()) if names else list(samples)
 
@@ -76,7 +76,7 @@ def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool 
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError("cannot make the directory {directory}: {reason}", directory=directory, reason=os_error_text(error)) from error
+        raise OutputError("cannot create the folder {directory}: {reason}", directory=directory, reason=os_error_text(error)) from error
     for source, target in copies:
         with atomic_write(target) as temporary:
             temporary.write_bytes(source.read_bytes())

@@ -110,7 +110,7 @@ def group_by_direction(points: Points, arrangement: Arrangement) -> Panels:
     names = list(dict.fromkeys(point.component for point in points))
     per_direction = len({tuple(getattr(p, key) for key in (arrangement.x, *arrangement.curves)) for p in points})
     if len(points) == per_direction and len(names) > 1:
-        return [(gettext("worst direction"), points)]
+        return [(gettext("worst azimuth"), points)]
     return [(name, [point for point in points if point.component == name]) for name in names]
 
 

@@ -13,14 +13,14 @@ from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.core.typing import IntArray
 from seisblock.records import Motion
 from seisblock.report.io.history_csv import write_by_record
-from seisblock.report.text.tables import group_answers, styled_line, table
+from seisblock.report.text.tables import DASH, group_answers, styled_line, table
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 Spectra = Sequence[tuple[Motion, RockingSpectrum]]
 
 
 MAX_ROWS, MAX_COLUMNS = 12, 9
-FALLS = N_("falls")
+"""Most rows and columns of the table; --csv and --json contain all."""
 
 
 def tables(spectra: Spectra, kind: str, wear_text: str = "") -> Iterator[Any]:
@@ -35,17 +35,19 @@ def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
     falls, block_count = int(spectrum.overturned.sum()), spectrum.overturned.size
     if spectrum.azimuths_deg is not None and spectrum.overturning_rate is not None:
         always_count = int((spectrum.overturning_rate == 1.0).sum())
-        text = N_("{falls} of {all} blocks overturn in at least one of {count} directions, {always} in all of them.")
+        text = N_("{falls} of {all} blocks overturn in at least one of {count} azimuths, {always} in all of them.")
         return gettext(text, falls=falls, all=block_count, count=spectrum.azimuths_deg.size, always=always_count)
     return gettext("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=block_count)
 
 
 def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_text: str) -> Iterator[Any]:
     rows, columns = thin_indices(spectrum.size_m.size, MAX_ROWS), thin_indices(spectrum.slenderness_rad.size, MAX_COLUMNS)
-    quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha")
+    quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha (>1: overturns)")
     if spectrum.overturning_rate is not None:
         quantity = (
-            gettext("share of directions with overturning") if kind == "overturning" else gettext("peak tilt over alpha, worst direction")
+            gettext("share of azimuths with overturning")
+            if kind == "overturning"
+            else gettext("peak tilt over alpha in the worst azimuth (>1: overturns)")
         )
     header = [f"{1 / math.tan(spectrum.slenderness_rad[j]):.2f}" for j in columns]
     cells = [[f"{spectrum.size_m[i]:.3g}", *(_cell(spectrum, i, j, kind) for j in columns)] for i in rows]
@@ -58,17 +60,14 @@ def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_t
 
 
 def _cell(spectrum: RockingSpectrum, i: int, j: int, kind: str) -> str:
-    if (
-        spectrum.overturned[i, j]
-        and kind == "overturning"
-        and spectrum.overturning_rate is not None
-        and spectrum.overturning_rate[i, j] < 1.0
-    ):
-        return format_share(spectrum.overturning_rate[i, j])
+    if kind == "overturning":
+        if not spectrum.overturned[i, j]:
+            return DASH
+        return gettext("yes") if spectrum.overturning_rate is None else format_share(spectrum.overturning_rate[i, j])
     if spectrum.overturned[i, j]:
-        return gettext(FALLS)
+        return ">1"
     ratio = spectrum.max_rotation_ratio[i, j]
-    return "-" if ratio == 0.0 or kind == "overturning" else f"{ratio:.3f}"
+    return DASH if ratio == 0.0 else f"{ratio:.3f}"
 
 
 def thin_indices(count: int, max_count: int) -> IntArray:

@@ -19,7 +19,16 @@ from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
 from seisblock.report.text.model_comparison import agreement_line
 from seisblock.report.text.stone_falls import describe_falls
-from seisblock.report.text.tables import DASH, format_fixed, format_seconds, format_share_interval, group_answers, styled_line, table
+from seisblock.report.text.tables import (
+    DASH,
+    format_fixed,
+    format_range,
+    format_seconds,
+    format_share_interval,
+    group_answers,
+    styled_line,
+    table,
+)
 from seisblock.report.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.respond.pile_probability import PileProbability, StoneProbability
@@ -97,8 +106,8 @@ def verdict(response: Response[StackOutcome]) -> str:
     if outcome.overturned_any:
         return describe_falls(response)
     if moved_stones := [gettext(stone.name) for stone in outcome.stones if stone.state != "standing"]:
-        return gettext("No stone fell; displaced: {stones}.", stones=moved_stones)
-    return gettext("No stone moved.")
+        return gettext("No stone falls; displaced: {stones}.", stones=moved_stones)
+    return gettext("No stone moves.")
 
 
 def _version_tables(probability: PileProbability, pile: Pile, *, gal: bool) -> Iterator[Any]:
@@ -123,7 +132,7 @@ def _chance_row(chance: StoneProbability) -> list[str]:
     return [
         gettext(chance.name),
         share,
-        f"{low}–{high}",
+        format_range(low, high),
         format_fixed(mean % 360.0, 0) if has_direction and mean is not None else DASH,
         moved_share,
     ]
@@ -155,8 +164,8 @@ def variation_text(probability: PileProbability, pile: Pile) -> str:
     versions = probability.versions
     size = lazy_gettext("size ±{share}", share=format_share(versions.size))
     return gettext(
-        "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude "
-        "±{amplitude}, direction ±{azimuth:g} degrees",
+        "Parameter variation only (model error not included): {shape}, friction of each joint ±{mu}, amplitude ±{amplitude}, "
+        "azimuth ±{azimuth:g} degrees.",
         shape=lazy_gettext("{parts}", parts=[size, _wear_text(pile, versions.inset)] if versions.inset else [size]),
         mu=format_share(versions.mu),
         amplitude=format_share(versions.amplitude),
@@ -184,7 +193,7 @@ def base_text(response: Response[StackOutcome]) -> str:
             **values,
         )
     if points == EDGE_POINTS and base.restitution <= 0.0:
-        return gettext("{law} at the edges; {stone} is too squat to continue rocking after an impact on rigid ground.", law=law, **values)
+        return gettext("{law} at the edges; {stone} is too stocky to continue rocking after an impact on rigid ground.", law=law, **values)
     if points == EDGE_POINTS:
         return gettext(
             "{law} at the edges; on rigid ground an impact retains {kept:.2f} of the angular velocity of {stone}.", law=law, **values

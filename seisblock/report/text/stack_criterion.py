@@ -28,12 +28,12 @@ def tables(
     ratios = {(t.frequency_hz, t.pga_m_s2): t.ratio for t in study.thresholds}
     pgas = sorted({t.pga_m_s2 for t in study.thresholds})
     rows = ([acceleration_cell(a, gal=gal), *(format_number(ratios.get((f, a)), 4) for f in frequencies)] for a in pgas)
-    yield table(gettext("smallest H/B of the top stone that falls"), [f"PGA ({unit})", *(f"{f:g} Hz" for f in frequencies)], rows)
+    yield table(gettext("smallest H/B of the top stone that overturns"), [f"PGA ({unit})", *(f"{f:g} Hz" for f in frequencies)], rows)
     for name, thresholds in scaled_records.items():
         title = gettext("{name}, scaled; equivalent frequency {f:.2f} Hz", name=name, f=thresholds[0].frequency_hz)
         pairs = ((t, float(overturning_ratio(t.pga_m_s2, t.frequency_hz, fit))) for t in thresholds)
         lines = ([acceleration_cell(t.pga_m_s2, gal=gal), format_number(t.ratio, 4), format_number(ratio, 4)] for t, ratio in pairs)
-        yield table(title, [f"PGA ({unit})", gettext("H/B falling"), gettext("published, eq. {equation}", equation=equation)], lines)
+        yield table(title, [f"PGA ({unit})", gettext("H/B overturning"), gettext("published, eq. {equation}", equation=equation)], lines)
     level_rows = ((f, (study.levels.get(f), rigid.get(f), float(overturning_level(f, fit)))) for f in frequencies)
     levels = ([f"{f:g}", *(acceleration_cell(a, gal=gal) for a in row)] for f, row in level_rows)
     header = [

@@ -36,7 +36,7 @@ def describe_falls(response: Response[StackOutcome]) -> str:
     if fell_together(falls):
         values = {"time": _fall_time(falls[0]), "side": direction_with_compass(_mean_direction(falls), motion)}
         return gettext(
-            "{stones} fell together at {time:.2f} s, approximately to {side}.", stones=_group_name(falls, response.body), **values
+            "{stones} fall together at {time:.2f} s, approximately to {side}.", stones=_group_name(falls, response.body), **values
         )
     first, last = falls[0], falls[-1]
     first_values = {
@@ -46,9 +46,9 @@ def describe_falls(response: Response[StackOutcome]) -> str:
         "end": _fall_time(last),
     }
     if len(falls) == 2:
-        text = N_("{stone} fell first, at {time:.2f} s to {side}; then {other}, at {end:.2f} s to {there}.")
+        text = N_("{stone} falls first, to {side} at {time:.2f} s; then {other}, to {there} at {end:.2f} s.")
         return gettext(text, **first_values, other=gettext(last.name), there=direction_with_compass(_fall_direction(last), motion))
-    text = N_("{stone} fell first, at {time:.2f} s to {side}; then {others}, the last at {end:.2f} s.")
+    text = N_("{stone} falls first, to {side} at {time:.2f} s; then {others}, the last at {end:.2f} s.")
     return gettext(text, **first_values, others=_names(falls[1:]))
 
 
@@ -63,10 +63,10 @@ def fell_together(falls: Sequence[StoneOutcome]) -> bool:
 def _describe_fall(stone: StoneOutcome, motion: Motion) -> str:
     values = {"stone": gettext(stone.name), "side": direction_with_compass(_fall_direction(stone), motion), "time": _fall_time(stone)}
     if stone.fell_onto is None:
-        return gettext("{stone} fell at {time:.2f} s to {side}; in the air at the end of the run.", **values)
+        return gettext("{stone} falls to {side} at {time:.2f} s; still falling at the end of the analysis.", **values)
     if stone.fell_onto == GROUND:
-        return gettext("{stone} fell at {time:.2f} s to {side}, onto the ground.", **values)
-    return gettext("{stone} fell at {time:.2f} s to {side}, onto {other}.", **values, other=gettext(stone.fell_onto))
+        return gettext("{stone} falls to {side} at {time:.2f} s, onto the ground.", **values)
+    return gettext("{stone} falls to {side} at {time:.2f} s, onto {other}.", **values, other=gettext(stone.fell_onto))
 
 
 def _group_name(falls: Sequence[StoneOutcome], pile: Pile) -> str:

@@ -164,6 +164,17 @@ def format_seconds(value: float | None) -> str:
     return DASH if value is None else f"{value:.3f}"
 
 
+def format_range(low: str, high: str) -> str:
+    """Return the range between two formatted numbers.
+
+    Examples
+    --------
+    >>> format_range("0.19", "0.38")
+    '0.19-0.38'
+    """
+    return gettext("{low}-{high}", low=low, high=high)
+
+
 def format_share_interval(interval: tuple[float, float]) -> str:
     """Return an interval of shares in per cent, with one decimal for ends that would round to 0 or 100.
 

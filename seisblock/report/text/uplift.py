@@ -16,7 +16,8 @@ from seisblock.report.units_display import format_length, length_cell, length_un
 UpliftResponses = Sequence[Response[UpliftOutcome]]
 
 BEYOND_MODEL = N_(
-    "amount of uplift not available: the tilt exceeds {small:g} of the overturning angle, beyond the range of this model (no P-delta)."
+    "amount of uplift not available: the tilt exceeds {small:g} of the overturning angle, beyond the range of this model (no "
+    "P-delta effect)."
 )
 """Text in place of values beyond the range of the model."""
 
@@ -53,13 +54,13 @@ def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]
     yield [gettext("first uplift (s)"), *(format_seconds(c.first_uplift_s) for c in corners)]
     if not response.outcome.within_model:
         return
-    yield [gettext("in the air (s)"), *(format_seconds(c.uplift_duration_s) for c in corners)]
-    yield [gettext("longest in the air (s)"), *(format_seconds(c.longest_uplift_s) for c in corners)]
+    yield [gettext("uplift duration (s)"), *(format_seconds(c.uplift_duration_s) for c in corners)]
+    yield [gettext("longest uplift (s)"), *(format_seconds(c.longest_uplift_s) for c in corners)]
     unit = length_unit((c.max_uplift_m for c in corners), gal=gal)
-    yield [gettext("highest position ({unit})", unit=unit.name), *(length_cell(c.max_uplift_m, unit) for c in corners)]
-    yield [gettext("... at (s)"), *(format_seconds(c.max_uplift_time_s) for c in corners)]
-    yield [gettext("largest force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
-    yield [gettext("... over static"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
+    yield [gettext("maximum uplift ({unit})", unit=unit.name), *(length_cell(c.max_uplift_m, unit) for c in corners)]
+    yield [gettext("  at (s)"), *(format_seconds(c.max_uplift_time_s) for c in corners)]
+    yield [gettext("maximum contact force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
+    yield [gettext("  over static force"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
 
 
 def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
@@ -88,7 +89,7 @@ def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
         gettext("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share >= MIN_SHARE
     ]
     return first_text + gettext(
-        "; maximum uplift {most}. Time in the air {air:.3f} s, {changes} changes of contact ({shares} corners). Scale "
+        "; maximum uplift {most}. Total uplift duration {air:.3f} s, {changes} changes of contact ({shares} corners). Scale "
         "factor to uplift {factor:.3g}.",
         most=format_length(outcome.max_uplift_m, gal=gal),
         air=outcome.uplift_duration_s,

@@ -30,7 +30,7 @@ WIDTH = 110
 _HEADINGS: dict[Verdict, str] = {
     "fails": N_("Cases that fail"),
     "differs": N_("Differences from the papers, with causes"),
-    "holds": N_("Cases that hold"),
+    "holds": N_("Cases that agree"),
 }
 _STYLES: dict[Verdict, str] = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
 
@@ -153,7 +153,7 @@ def _kind_table(results: Sequence[CaseResult]) -> Any:
         ]
         for kind, verdict_counts in count_verdicts_by_kind(results).items()
     ]
-    header = [gettext("kind of evidence"), gettext("cases"), gettext("hold"), gettext("differ"), gettext("fail")]
+    header = [gettext("kind of evidence"), gettext("cases"), gettext("agree"), gettext("differ"), gettext("fail")]
     return table(gettext("Evidence by kind"), header, rows)
 
 
@@ -164,7 +164,7 @@ def _count_line(results: Sequence[CaseResult], *, all_cases: bool) -> Text:
         gettext(singular if len(results) == 1 else plural, all=len(results), verdicts=verdict_counts_text(verdict_counts)),
         "bold red" * bool(verdict_counts["fails"]),
     )
-    return text if all_cases else text.append(with_notes("", [gettext("--all lists the cases that hold.")]), style="dim")
+    return text if all_cases else text.append(with_notes("", [gettext("--all also lists the cases that agree.")]), style="dim")
 
 
 def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:
@@ -173,10 +173,10 @@ def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:
     Examples
     --------
     >>> verdict_counts_text({"fails": 0, "differs": 1, "holds": 2})
-    '2 hold, 1 differs as explained, 0 fail'
+    '2 agree, 1 differs as explained, 0 fail'
     """
     words = {
-        "holds": (N_("1 holds"), N_("{count} hold")),
+        "holds": (N_("1 agrees"), N_("{count} agree")),
         "differs": (N_("1 differs as explained"), N_("{count} differ as explained")),
         "fails": (N_("1 fails"), N_("{count} fail")),
     }

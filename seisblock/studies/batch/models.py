@@ -107,7 +107,7 @@ class BatchModel:
         allowed = (*signature(self.solve).parameters, *(name for name in ("mu", "mu_kinetic") if name in self.columns))
         unknown = [f"`{name}`" for name in options if name not in allowed]
         if unknown:
-            raise ParameterError("{solver} has no option {names}; remove it", solver=self.name, names=unknown)
+            raise ParameterError("{solver} has no option {names}: omit it", solver=self.name, names=unknown)
 
     def event_occurred(self, row: ValueMap) -> bool:
         """Return whether the event of the solver occurred in a row with a result."""

@@ -114,9 +114,9 @@ def make_plan(
     model = batch_model(solver)
     checks.instance(preparation, Preparation)
     if not (isinstance(runs, int) and runs >= 0):
-        raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
+        raise ParameterError("the number of samples must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and model.chance is None:
-        raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=solver)
+        raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=solver)
     model.check_options(options)
     body_list = named_bodies(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
@@ -195,7 +195,7 @@ def named_bodies(bodies: Bodies, model: BatchModel) -> list[BodySpec | SolverBod
             result.append(SolverBody(name, body, {}))
         else:
             raise KindError(
-                "{solver} takes {kinds}; found {found}",
+                "{solver} requires {kinds}; found {found}",
                 solver=model.name,
                 kinds=[kind.__name__ for kind in model.kinds],
                 found=checks.type_name(body),

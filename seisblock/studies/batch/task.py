@@ -142,7 +142,9 @@ def component_rows(record: Record, plan: Plan, columns: Row | None = None, doubt
 
 def failure_row(plan: Plan, recording: RecordSource | Record, reason: str) -> list[Row]:
     """Return the row of a record whose workers all died."""
-    return [{**_record_columns(recording, plan), REASON: lazy_gettext("all workers that ran this record died: {reason}", reason=reason)}]
+    return [
+        {**_record_columns(recording, plan), REASON: lazy_gettext("all workers that computed this record failed: {reason}", reason=reason)}
+    ]
 
 
 def _record_columns(recording: RecordSource | Record, plan: Plan) -> dict[str, Any]:

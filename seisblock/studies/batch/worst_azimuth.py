@@ -34,13 +34,13 @@ def check_all_azimuths(solver: str, components: Sequence[str], options: Mapping[
     if not is_all_azimuths(components):
         return
     if len(components) > 1:
-        raise ParameterError("{name} covers all directions; give no other component", name=ALL_AZIMUTHS)
+        raise ParameterError("{name} covers all azimuths: give no other component", name=ALL_AZIMUTHS)
     if solver not in DIRECTIONAL_SOLVERS:
         raise ParameterError("{solver} does not support all azimuths; available: {known}", solver=solver, known=list(DIRECTIONAL_SOLVERS))
     allowed = DIRECTIONAL_SOLVERS[solver][1]
     unknown = [f"`{name}`" for name in options if name not in allowed]
     if unknown:
-        raise ParameterError("{solver} in all azimuths has no option {names}; remove it", solver=solver, names=unknown)
+        raise ParameterError("{solver} in all azimuths has no option {names}: omit it", solver=solver, names=unknown)
 
 
 Worst: TypeAlias = tuple[str, dict[str, int], list[str]]

@@ -282,7 +282,7 @@ def _family(
         raise ParameterError("{missing} must be free or known; add to `free`, or give the `width` and `height` of a block", missing=missing)
     for name, is_given in ((RESTITUTION, restitution is not None), (INSET, is_wear_given)):
         if name in names and is_given:
-            raise ParameterError("{name} is both in `free` and given; leave one out", name=name)
+            raise ParameterError("{name} is both in `free` and given: omit one of them", name=name)
     if restitution is not None:
         checks.fraction("the restitution (ratio of angular velocities)", restitution)
     if scatter is not None:

@@ -24,7 +24,7 @@ PARAMETER_LABELS = {
     TURNING_ALPHA: N_("alpha (worn)"),
     TURNING_P: N_("p (worn)"),
     SCATTER: N_("scatter"),
-    LAPSE: N_("lapses"),
+    LAPSE: N_("lapse rate"),
 }
 """Labels of the parameters in sentences and figures."""
 

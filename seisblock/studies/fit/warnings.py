@@ -29,9 +29,9 @@ def fit_warnings(
     """Yield warnings about a fit, a sentence each."""
     fell, stood = outcome_weights(experiment)
     if not fell:
-        yield lazy_gettext("no fall among the outcomes: parameters bounded on one side only, the other end is set by the prior")
+        yield lazy_gettext("no overturning among the outcomes: parameters bounded on one side only, the other bound comes from the prior")
     if not stood:
-        yield lazy_gettext("only falls among the outcomes: parameters bounded on one side only, the other end is set by the prior")
+        yield lazy_gettext("only overturning among the outcomes: parameters bounded on one side only, the other bound comes from the prior")
     if experiment.records == 1:
         yield lazy_gettext("outcomes of a single record: no cross-validation, predictive skill unknown")
     if experiment.kind == MOVED:
@@ -42,7 +42,7 @@ def fit_warnings(
         if not marginal.identified and marginal.name not in (SCATTER, LAPSE)
     ]
     if unidentified:
-        yield lazy_gettext("hardly constrained by the outcomes, set by the prior: {names}", names=unidentified)
+        yield lazy_gettext("poorly constrained by the outcomes, determined by the prior: {names}", names=unidentified)
     for pair in correlations:
         if abs(pair.coefficient) > HIGH_CORRELATION:
             text = "{first} and {second} cannot be separated (correlation {coefficient:.2f})"
@@ -54,7 +54,7 @@ def fit_warnings(
             )
     lapse = next((marginal.median for marginal in marginals if marginal.name == LAPSE), 0.0)
     if lapse > MAX_LAPSE_RATE:
-        yield lazy_gettext("poor fit: {share:.0%} of the outcomes follow no block model", share=lapse)
+        yield lazy_gettext("poor fit: no block model explains {share:.0%} of the outcomes", share=lapse)
     if effective < 0.5 * TARGET_EFFECTIVE or (held_out is not None and held_out.effective_blocks < MIN_EFFECTIVE_HELD_OUT):
         effective_blocks = min(effective, math.inf if held_out is None else held_out.effective_blocks)
         yield lazy_gettext("intervals based on {count:.0f} effective blocks only; increase `runs`", count=effective_blocks)

@@ -35,7 +35,7 @@ from seisblock.studies.fragility.warnings import fragility_warnings, stopped_run
 from seisblock.studies.intervals import CONFIDENCE
 
 ALL_AZIMUTHS_NOTE = N_(
-    "all azimuths in steps of {step:g} degrees: each record counts once, with its worst direction and the largest intensity"
+    "all azimuths in steps of {step:g} degrees: each record counts once, with its worst azimuth and the largest intensity"
 )
 
 BOOTSTRAP = 1000
@@ -168,14 +168,14 @@ def run_fragility(
     if method not in METHODS:
         raise ParameterError("unknown method {name!r}; available: {known}", name=str(method)[:100], known=list(METHODS))
     if method == CLOUD and levels is not None:
-        raise ParameterError("the method cloud uses unscaled records: `levels` has no effect; leave `levels` out, or use stripes")
+        raise ParameterError("the method cloud uses unscaled records, and `levels` has no effect: omit `levels`, or use stripes")
     checks.instance(preparation, Preparation)
     checks.in_interval("the confidence", confidence, "(0, 1)")
     checks.integer("the number of bootstrap samples", bootstrap, minimum=2)
     checks.integer("the number of samples of the body", perturb, minimum=0)
     check_limit(N_("bootstrap samples"), bootstrap, "SEISBLOCK_RUNS")
     if perturb and solver not in SOLVERS_WITH_VERSIONS:
-        raise ParameterError("`perturb` has no effect with {solver}; leave `perturb` out", solver=solver)
+        raise ParameterError("`perturb` has no effect with {solver}: omit `perturb`", solver=solver)
     states = limit_states(limits, solver)
     requested = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
     measures = tuple(dict.fromkeys(intensity_measure(item) for item in requested))

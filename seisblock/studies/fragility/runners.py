@@ -72,7 +72,7 @@ def _respond(solver_body: SolverBody, motion: Motion, factors: FloatArray, draws
         settings: Any = [respond_params(solver_body.body, **options)] * factors.size
     else:
         if not isinstance(solver_body.body, Block):
-            raise ParameterError("{name}: `perturb` requires a block; leave `perturb` out", name=solver_body.name)
+            raise ParameterError("{name}: `perturb` requires a block: omit `perturb`", name=solver_body.name)
         run_draws = np.tile(draws, (factors.size, 1))
         settings = perturbed_respond_params(solver_body.body, VERSIONS, run_draws, **options)
         alphas = settings.blocks.slendernesses.min(axis=1)

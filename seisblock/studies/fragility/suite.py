@@ -63,7 +63,7 @@ class Suite:
         values = self._intensities(measure)
         for row in np.flatnonzero(~(values > 0.0))[:1]:
             raise ParameterError(
-                "{record}, {name}: the motion is zero and cannot be scaled to a level; leave this record out",
+                "{record}, {name}: the motion is zero and cannot be scaled to a level: omit this record",
                 record=self.records[self.owner[row]].source or lazy_gettext("record"),
                 name=self.motions[row].name,
             )

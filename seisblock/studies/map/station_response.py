@@ -145,7 +145,7 @@ class StationBody:
                 "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=list(DISPLACEMENT_COLUMNS)
             )
         if self.runs and batch_model(self.solver).chance is None:
-            raise ParameterError("{solver} has no samples; omit the runs, or use respond or rock", solver=self.solver)
+            raise ParameterError("{solver} does not support samples: omit `runs`, or use respond or rock", solver=self.solver)
 
     @property
     def name(self) -> str:

@@ -30,12 +30,12 @@ COLUMNS = {
 """Column headings of a list of surveys."""
 
 STATION_CONTRADICTION = N_(
-    "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} by the "
-    "stones, {intensity:.1f} measured"
+    "{place} and station {station} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} from the stones, "
+    "{intensity:.1f} measured"
 )
 PLACE_CONTRADICTION = N_(
     "{one} and {other} ({distance:.1f} km) are inconsistent: JMA intensity {low:.1f} to {high:.1f} and {lower:.1f} to "
-    "{higher:.1f} by the stones"
+    "{higher:.1f} from the stones"
 )
 
 MAX_NEIGHBOURS = 3

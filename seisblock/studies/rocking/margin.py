@@ -154,7 +154,7 @@ def flag_near_flip(response: Response[RockOutcome]) -> Response[RockOutcome]:
     factor = nearest_flip(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
     if factor is not None:
-        text = "{name}: verdict sensitive to the amplitude: changes within 2 % of the record, at {factor:.3f} times its amplitude"
+        text = "{name}: the result is sensitive to the amplitude: it changes at {factor:.3f} times the record"
         warnings = (*warnings, lazy_gettext(text, name=response.motion.name or "x", factor=factor))
     outcome = replace(response.outcome, verdict_flips_within_2_percent=factor is not None, flips_at_factor=factor)
     return replace(response, outcome=outcome, warnings=warnings)

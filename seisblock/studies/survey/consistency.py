@@ -80,8 +80,8 @@ def consistency_warning(name: str, survey: Survey, assumptions: Assumptions | No
     ratios = survey.cemetery.ratios
     fell, stood = float(np.median(ratios[survey.fallen > 0])), float(np.median(ratios[survey.standing > 0]))
     return lazy_gettext(
-        "{name}: survey inconsistent with the criterion at any PGA (probability below {chance:g}): median H/B {fell:.2f} of fallen stones, "
-        "{stood:.2f} of standing ones; check the marks and other causes of the falls",
+        "{name}: survey inconsistent with the criterion at any PGA (probability below {chance:g}): median H/B {fell:.2f} of "
+        "overturned stones, {stood:.2f} of standing ones; check the entries and other causes of overturning",
         name=name,
         chance=MIN_PROBABILITY,
         fell=fell,

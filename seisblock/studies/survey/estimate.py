@@ -235,9 +235,9 @@ def estimate_warnings(estimate: ShakingEstimate) -> list[str]:
     if estimate.frequency_hz is not None and estimate.pga_m_s2 is not None:
         messages += fit_range_warnings(estimate.pga_m_s2, estimate.frequency_hz)
     if estimate.bound == "upper":
-        messages.append(lazy_gettext("{which} stones: upper bound only (none fell)", which=stone_label))
+        messages.append(lazy_gettext("{which} stones: upper bound only (none overturned)", which=stone_label))
     if estimate.bound == "lower":
-        messages.append(lazy_gettext("{which} stones: lower bound only (all fell)", which=stone_label))
+        messages.append(lazy_gettext("{which} stones: lower bound only (all overturned)", which=stone_label))
     if estimate.jma_intensity is not None and not low <= estimate.jma_intensity <= high:
         text = "JMA intensity {found:.1f} is outside the range of its relation with PGV, {low:g} to {high:g}"
         messages.append(lazy_gettext(text, found=estimate.jma_intensity, low=low, high=high))

@@ -70,8 +70,8 @@ def joint_estimate(
     fell, stone_count = sum(survey.fell for _, survey in surveys), sum(survey.stone_count for _, survey in surveys)
     if fell in (0, stone_count):
         raise ParameterError(
-            "{fell} of {judged} stones fell in all cemeteries together: no joint estimate, the shaking is bounded on one side only; add a "
-            "cemetery with fallen and standing stones",
+            "{fell} of {judged} stones overturned in all cemeteries together: no joint estimate, since the shaking is bounded on "
+            "one side only; add a cemetery with overturned and standing stones",
             fell=fell,
             judged=stone_count,
         )

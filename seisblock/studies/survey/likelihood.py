@@ -108,7 +108,7 @@ def marked_survey(cemetery: Cemetery) -> Survey:
     checks.instance(cemetery, Cemetery)
     if not cemetery.has_survey:
         raise BodyError(
-            "{source}: no stone is marked fallen or standing; add a column fallen (0 or 1), or give a rate such as 35/100",
+            "{source}: no stone is marked overturned or standing; add a column fallen (0 or 1), or give a rate such as 35/100",
             source=cemetery.source or cemetery.name,
         )
     marked_stones = cemetery.select(lambda stone: stone.fallen is not None)

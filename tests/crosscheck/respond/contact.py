@@ -72,7 +72,7 @@ def jacobians(body: Body, theta: float):
     return tuple(((0.0, 1.0, -rx), (1.0, 0.0, ry)) for rx, ry in levers)
 
 
-def drift(rows, omega: float) -> tuple[float, float]:
+def centripetal_acceleration(rows, omega: float) -> tuple[float, float]:
     """Return a corner's normal and tangential acceleration while the centre and the spin keep their velocities."""
     normal, tangent = rows
     return -tangent[2] * omega**2, normal[2] * omega**2
@@ -83,12 +83,12 @@ def mobility(body: Body, row, column) -> float:
     return row[0] * column[0] + row[1] * column[1] + row[2] * column[2] / body.k2
 
 
-def along(row, motion) -> float:
+def component_along(row, motion) -> float:
     """Return the component of a velocity or acceleration along a row."""
     return row[0] * motion[0] + row[1] * motion[1] + row[2] * motion[2]
 
 
-def moved(body: Body, columns, impulses) -> tuple[float, float, float]:
+def velocity_change(body: Body, columns, impulses) -> tuple[float, float, float]:
     """Return the change of velocity (or the acceleration) that impulses (or forces) cause."""
     x = y = turn = 0.0
     for column, p in zip(columns, impulses, strict=True):
@@ -96,7 +96,7 @@ def moved(body: Body, columns, impulses) -> tuple[float, float, float]:
     return x, y, turn / body.k2
 
 
-def solved(matrix, right) -> list[float]:
+def solve_linear(matrix, right) -> list[float]:
     """Return the solution of a few linear equations by elimination with pivoting."""
     if len(right) == 1:
         return [right[0] / matrix[0][0]]
@@ -114,7 +114,7 @@ def solved(matrix, right) -> list[float]:
     return x
 
 
-def constrained(body: Body, jacobian, mode, targets) -> tuple[list, list[float]]:
+def constraint_impulses(body: Body, jacobian, mode, targets) -> tuple[list, list[float]]:
     """Return columns and strengths of the impulses that give closed corners their normal and sticking ones their tangential velocity.
 
     `targets` holds, for each corner, what is missing along the normal and along the tangent. With both feet down the two
@@ -138,10 +138,10 @@ def constrained(body: Body, jacobian, mode, targets) -> tuple[list, list[float]]
             columns.append(tangent)
             missing.append(targets[corner][1])
             gripped = True
-    return columns, solved([[mobility(body, row, column) for column in columns] for row in rows], missing)
+    return columns, solve_linear([[mobility(body, row, column) for column in columns] for row in rows], missing)
 
 
-def split(body: Body, mode, strengths) -> tuple[tuple[float, float], float]:
+def split_impulses(body: Body, mode, strengths) -> tuple[tuple[float, float], float]:
     """Return the normal impulse of each corner and the tangential one of both."""
     normal, tangential, rest = [0.0, 0.0], 0.0, list(strengths)
     gripped = False
@@ -162,22 +162,22 @@ def reaction(body: Body, jacobian, omega: float, push: Push, mode) -> Reaction:
     free = (-push.along, -push.weight, 0.0)
     if mode == FLIGHT:
         return Reaction((0.0, 0.0), 0.0, free, 1.0)
-    missing = [[-a for a in of_corner(rows, omega, free)] for rows in jacobian]
-    columns, strengths = constrained(body, jacobian, mode, missing)
-    gained = moved(body, columns, strengths)
+    missing = [[-a for a in corner_acceleration(rows, omega, free)] for rows in jacobian]
+    columns, strengths = constraint_impulses(body, jacobian, mode, missing)
+    gained = velocity_change(body, columns, strengths)
     acceleration = (free[0] + gained[0], free[1] + gained[1], free[2] + gained[2])
-    normal, tangential = split(body, mode, strengths)
+    normal, tangential = split_impulses(body, mode, strengths)
     first = RIGHT if mode[RIGHT] is not None else LEFT
     return Reaction(normal, tangential, acceleration, mobility(body, jacobian[first][0], columns[0]))
 
 
-def of_corner(rows, omega: float, acceleration) -> tuple[float, float]:
+def corner_acceleration(rows, omega: float, acceleration) -> tuple[float, float]:
     """Return a corner's normal and tangential acceleration."""
-    extra = drift(rows, omega)
-    return along(rows[0], acceleration) + extra[0], along(rows[1], acceleration) + extra[1]
+    extra = centripetal_acceleration(rows, omega)
+    return component_along(rows[0], acceleration) + extra[0], component_along(rows[1], acceleration) + extra[1]
 
 
-def admissible(body: Body, theta: float, omega: float, slip: float, touching, push: Push, mode) -> bool:
+def is_admissible(body: Body, theta: float, omega: float, slip: float, touching, push: Push, mode) -> bool:
     """Say whether a mode's forces press, hold and move every touching corner the way the mode claims."""
     slack = TOLERANCE * body.gravity
     closed = [corner for corner in touching if mode[corner] is not None]
@@ -188,7 +188,7 @@ def admissible(body: Body, theta: float, omega: float, slip: float, touching, pu
     if any(force.normal[corner] < -slack for corner in closed):
         return False
     for corner in touching:
-        upwards, sideways = of_corner(jacobian[corner], omega, force.acceleration)
+        upwards, sideways = corner_acceleration(jacobian[corner], omega, force.acceleration)
         contact = mode[corner]
         if contact is None:
             if upwards < -slack:
@@ -201,7 +201,7 @@ def admissible(body: Body, theta: float, omega: float, slip: float, touching, pu
     return True
 
 
-def follows(body: Body, theta: float, omega: float, slip: float, touching, push: Push, exclude=None):
+def consistent_mode(body: Body, theta: float, omega: float, slip: float, touching, push: Push, exclude=None):
     """Return the first consistent mode of the touching corners, all of which have one slip velocity, or None: a jam."""
     for mode in ORDER:
         if mode == exclude or any(mode[corner] is not None and corner not in touching for corner in (RIGHT, LEFT)):
@@ -209,6 +209,6 @@ def follows(body: Body, theta: float, omega: float, slip: float, touching, push:
         contacts = [contact for contact in mode if contact is not None]
         if slip != 0.0 and any(contact != math.copysign(1, slip) for contact in contacts):
             continue
-        if admissible(body, theta, omega, slip, touching, push, mode):
+        if is_admissible(body, theta, omega, slip, touching, push, mode):
             return mode
     return None

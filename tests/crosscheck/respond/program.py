@@ -37,17 +37,17 @@ def program(case: Case):
     )
 
 
-def events(response) -> list[tuple]:
+def program_events(response) -> list[tuple]:
     """Return the program's events as (time, mode, corner, slip)."""
     return [(event["time_s"], event["mode"], event["corner"], event["slip"]) for event in response.outcome.events]
 
 
-def at_samples(response, channel: str, case: Case, count: int) -> np.ndarray:
+def values_at_samples(response, channel: str, case: Case, count: int) -> np.ndarray:
     """Return a channel at the first `count` samples."""
     rows = np.searchsorted(response.time, case.dt * np.arange(count) + 1e-9 * case.dt, side="right") - 1
     return response[channel][rows]
 
 
-def final(response) -> np.ndarray:
+def last_state(response) -> np.ndarray:
     """Return the last x, y, theta and the rates of x and theta."""
     return np.array([response[name][-1] for name in FINAL])

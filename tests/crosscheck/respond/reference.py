@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tests.crosscheck.respond.contact import FLIGHT, LEFT, REST, RIGHT, Body, follows, jacobians, lever, reaction
+from tests.crosscheck.respond.contact import FLIGHT, LEFT, REST, RIGHT, Body, consistent_mode, jacobians, lever, reaction
 from tests.crosscheck.respond.impact import (
     GAP,
     OMEGA,
@@ -23,14 +23,14 @@ from tests.crosscheck.respond.impact import (
     VX,
     VY,
     Y,
-    in_step,
+    after_flat_landing,
+    after_landing,
+    after_rocking_impact,
+    align_with_corner,
+    impact_of_corner,
     kinetic,
-    landed,
-    landed_flat,
-    rocked,
-    struck,
 )
-from tests.crosscheck.respond.smooth import AT_ONCE, Ground, equations, first_zero, guards, refined, stepped
+from tests.crosscheck.respond.smooth import AT_ONCE, Ground, equations, first_zero, guard_functions, integration_steps, state_at_event
 
 OVERTURNED = "overturned"
 
@@ -127,11 +127,11 @@ class Run:
                 return self.enter(FLIGHT)
             push = self.ground.later(self.k, self.offset) if len(touching) == 2 else self.ground.piece(self.k, self.offset)(0.0)
             slip = state[SLIP + touching[0]]
-            mode = follows(body, state[THETA], state[OMEGA], slip, touching, push, exclude)
+            mode = consistent_mode(body, state[THETA], state[OMEGA], slip, touching, push, exclude)
             if mode is not None:
                 return self.enter(mode)
             corner = touching[0] if len(touching) == 1 else (RIGHT if slip > 0 else LEFT)
-            self.change(struck(body, state, corner, body.restitution), "jams")
+            self.change(impact_of_corner(body, state, corner, body.restitution), "jams")
             exclude = None
 
     def change(self, after, kind: str = "impacts") -> None:
@@ -157,10 +157,10 @@ class Run:
             state[GAP + corner] = 0.0
         flat = len(corners) == 2 and state[THETA] == 0 and state[OMEGA] == 0
         if flat:
-            self.change(landed_flat(body, in_step(body, state, RIGHT), self.ground.later(self.k, self.offset)))
+            self.change(after_flat_landing(body, align_with_corner(body, state, RIGHT), self.ground.later(self.k, self.offset)))
         else:
             push = self.ground.piece(self.k, self.offset)(0.0)
-            self.change(landed(body, in_step(body, state, corners[0]), corners[0], push))
+            self.change(after_landing(body, align_with_corner(body, state, corners[0]), corners[0], push))
 
     def rock(self, corner: int) -> None:
         """Let the open corner of a rocking block come down."""
@@ -171,7 +171,7 @@ class Run:
         state[RATE + corner] = (lever(body, other, 0.0)[0] - lever(body, corner, 0.0)[0]) * state[OMEGA]
         state[SLIP + corner] = state[SLIP + other]
         push, later = self.ground.piece(self.k, self.offset)(0.0), self.ground.later(self.k, self.offset)
-        after, lowered = rocked(body, in_step(body, state, other), corner, push, later)
+        after, lowered = after_rocking_impact(body, align_with_corner(body, state, other), corner, push, later)
         self.trace.counts["lowered"] += lowered
         self.change(after)
 
@@ -193,7 +193,7 @@ class Run:
             for corner in (RIGHT, LEFT):
                 if self.mode[corner] is not None or self.state[THETA] == 0:
                     self.state[SLIP + corner] = 0.0
-        self.state = in_step(self.body, self.state, closed[0])
+        self.state = align_with_corner(self.body, self.state, closed[0])
         return self.choose(exclude=self.mode)
 
     def wait(self, length: float) -> bool:
@@ -221,15 +221,15 @@ class Run:
         body, mode = self.body, self.mode
         push = self.ground.piece(self.k, self.offset)
         rates = equations(body, mode, push)
-        values, names = guards(body, mode, push)
+        values, names = guard_functions(body, mode, push)
         scale, deaf = self.thrown(rates, names)
-        for start, end, before, after, dense in stepped(rates, self.state, length, 0.5 * scale):
+        for start, end, before, after, dense in integration_steps(rates, self.state, length, 0.5 * scale):
             found = first_zero(lambda tau: values(tau, dense(tau).tolist()), start, end, deaf)  # noqa: B023
             if found is None:
                 last = after
                 continue
             time, index = found
-            self.state = refined(rates, before, time - start, start) if time > start else before
+            self.state = state_at_event(rates, before, time - start, start) if time > start else before
             self.offset += time
             self.happen(names[index])
             self.deaf = self.now + AT_ONCE * self.ground.dt
@@ -260,7 +260,7 @@ class Run:
         """Judge the mode by an input that has changed at once, at the end of the record."""
         if self.mode in (REST, OVERTURNED):
             return
-        values, names = guards(self.body, self.mode, self.ground.piece(self.k, self.offset))
+        values, names = guard_functions(self.body, self.mode, self.ground.piece(self.k, self.offset))
         for value, name in zip(values(0.0, self.state), names, strict=True):
             if value < 0 and name in ("slips", "lifts", "jams"):
                 self.happen(name)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq, minimize_scalar
 
-from tests.crosscheck.respond.contact import LEFT, PAINLEVE, RIGHT, Body, Push, jacobians, of_corner, reaction
+from tests.crosscheck.respond.contact import LEFT, PAINLEVE, RIGHT, Body, Push, corner_acceleration, jacobians, reaction
 from tests.crosscheck.respond.impact import (
     FRICTION,
     GAP,
@@ -56,7 +56,7 @@ class Ground:
         return self.piece(k, offset)(0.0)
 
 
-def guards(body: Body, mode, push):
+def guard_functions(body: Body, mode, push):
     """Return a function of (tau, state) that gives the mode's guards, positive while it lives, and their names."""
     closed = [corner for corner in (RIGHT, LEFT) if mode[corner] is not None]
     ends = ["overturns", *(["a point touches"] * len(body.points))]
@@ -83,7 +83,7 @@ def guards(body: Body, mode, push):
     def slipping(tau, state):
         now = push(tau)
         jacobian = jacobians(body, state[THETA])
-        fall = of_corner(jacobian[corner], state[OMEGA], (-now.along, -now.weight, 0.0))[0]
+        fall = corner_acceleration(jacobian[corner], state[OMEGA], (-now.along, -now.weight, 0.0))[0]
         yields = reaction(body, jacobian, state[OMEGA], now, mode).mobility
         return [contact * state[SLIP + corner], -fall, yields - PAINLEVE, state[GAP + other], *of_ends(state)]
 
@@ -106,7 +106,7 @@ def equations(body: Body, mode, push):
             ay = turning = 0.0
         out = [state[VX], state[VY], omega, ax, ay, turning, *[0.0] * (SIZE - 6)]
         for corner in (RIGHT, LEFT):
-            upwards, sideways = of_corner(jacobian[corner], omega, (ax, ay, turning))
+            upwards, sideways = corner_acceleration(jacobian[corner], omega, (ax, ay, turning))
             if mode[corner] is None:
                 out[GAP + corner], out[RATE + corner] = state[RATE + corner], upwards
             if mode[corner] != 0:
@@ -120,7 +120,7 @@ def equations(body: Body, mode, push):
     return rates
 
 
-def stepped(rates, state, end: float, first: float):
+def integration_steps(rates, state, end: float, first: float):
     """Yield the steps of DOP853 from 0 to `end`: start, end, state at both, and the polynomial between."""
     solver = DOP853(rates, 0.0, state, end, **ACCURACY, first_step=min(first, end, 0.05))
     while solver.status == "running":
@@ -140,12 +140,12 @@ def first_zero(values, start: float, end: float, deaf) -> tuple[float, int] | No
     found = [
         (time, i)
         for i, since in enumerate(deaf)
-        if (time := zero_of(lambda tau: values(tau)[i], nodes[nodes >= since], table[nodes >= since, i])) is not None  # noqa: B023
+        if (time := guard_zero(lambda tau: values(tau)[i], nodes[nodes >= since], table[nodes >= since, i])) is not None  # noqa: B023
     ]
     return min(found, default=None)
 
 
-def zero_of(value, nodes, column) -> float | None:
+def guard_zero(value, nodes, column) -> float | None:
     """Return where one guard turns negative between nodes, also in a dip that the nodes do not show."""
     if column.size > 1 and column[0] < 0 and column[1] < 0:
         return float(nodes[0])
@@ -161,7 +161,7 @@ def zero_of(value, nodes, column) -> float | None:
     return None
 
 
-def refined(rates, before, length: float, start: float) -> list[float]:
+def state_at_event(rates, before, length: float, start: float) -> list[float]:
     """Return the state at an event, integrated anew from the step's beginning instead of read off its polynomial."""
     solver = DOP853(lambda tau, state: rates(start + tau, state), 0.0, before, length, **ACCURACY, first_step=min(length, 0.05))
     while solver.status == "running":

@@ -17,7 +17,7 @@ ROUNDS = 200
 
 
 @njit
-def contact(u, v, p, q, nn, tn, tt, mu):
+def contact_impulses(u, v, p, q, nn, tn, tt, mu):
     """Return the impulses of one corner that end its approach and its slip, when (u, v) belong to the impulses (p, q) so far."""
     det = nn * tt - tn * tn
     free_u, free_v = u - nn * p - tn * q, v - tn * p - tt * q
@@ -36,7 +36,7 @@ def contact(u, v, p, q, nn, tn, tt, mu):
 
 
 @njit
-def march(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
+def step_through(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
     """Return time and the six numbers at the end, the largest |x| and |theta|."""
     x, y, theta, vx, vy, omega = start
     inverse = np.array([1.0, 1.0, 1.0 / k2])
@@ -77,7 +77,7 @@ def march(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
                     continue
                 a, b = normal[corner], tangent[corner]
                 nn, tn, tt = (a * inverse * a).sum(), (a * inverse * b).sum(), (b * inverse * b).sum()
-                p, q = contact((a * velocity).sum(), (b * velocity).sum(), impulse[corner, 0], impulse[corner, 1], nn, tn, tt, mu)
+                p, q = contact_impulses((a * velocity).sum(), (b * velocity).sum(), impulse[corner, 0], impulse[corner, 1], nn, tn, tt, mu)
                 dp, dq = p - impulse[corner, 0], q - impulse[corner, 1]
                 velocity += inverse * (a * dp + b * dq)
                 impulse[corner, 0], impulse[corner, 1] = p, q
@@ -94,8 +94,8 @@ def march(arms, h, k2, mu, gravity, along, up, dt, step, start, settle):
     return np.array([time, x, y, theta, vx, vy, omega, far, lean])
 
 
-def stepped(case: Case, step: float, settle: float = 10.0) -> np.ndarray:
+def end_state(case: Case, step: float, settle: float = 10.0) -> np.ndarray:
     """Return the end of a case, (9,): time, the six numbers, the largest displacement and the largest lean."""
     body = case.body
     start = (0.0, body.h, 0.0, 0.0, 0.0, 0.0) if case.initial is None else tuple(map(float, case.initial))
-    return march(body.arms, body.h, body.k2, body.mu, body.gravity, case.along, case.up, case.dt, step, start, settle)
+    return step_through(body.arms, body.h, body.k2, body.mu, body.gravity, case.along, case.up, case.dt, step, start, settle)

@@ -1,0 +1,95 @@
+"""Lists of bodies as people keep them: spreadsheets in two languages, units where they like, and slips of the pen."""
+
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.edge_wear import EdgeWear
+from seisblock.bodies.kinds import of_kind
+from seisblock.bodies.table import read_bodies
+from seisblock.core.errors import BodyError
+from seisblock.core.units import SUN
+from seisblock.studies.batch.models import batch_model
+from seisblock.studies.report.models import body_models
+
+
+def read_table(tmp_path, text, encoding="utf-8"):
+    """Return what a table says of its bodies."""
+    path = tmp_path / "bodies.csv"
+    path.write_bytes(text.encode(encoding))
+    return {body.name: dict(body.parameters) for body in read_bodies(path)}
+
+
+def test_body_table_accepts_units_in_headings_or_cells(tmp_path):
+    """A cell's own unit counts, then that of its column, then metres and kilograms."""
+    text = "# the museum\nname,width (cm),height,mass_t,inset,slope (deg)\na,12,40cm,0.5,5%,\nb,8sun,1.6,900kg,1cm,3\n"
+    assert read_table(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
+        "a": {"width": 0.12, "height": 0.4, "mass": 500.0, "inset": EdgeWear(share=0.05)},
+        "b": {"width": pytest.approx(8 * SUN), "height": 1.6, "mass": 900.0, "inset": EdgeWear(length_m=0.01), "slope_deg": 3.0},
+    }
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
+def test_body_table_accepts_japanese(tmp_path, encoding):
+    """Names, full-width digits and encodings as spreadsheets in Japan write them."""
+    found = read_table(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
+    assert found == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
+
+
+def test_body_table_rows_may_name_bodies_or_files(tmp_path):
+    """A bundled body or a file, beside bodies named by themselves."""
+    (tmp_path / "b.csv").write_text("name,body,mu,side\npavilion,chozusha,0.3,long\n")
+    row, alone = read_bodies([tmp_path / "b.csv", "gravestone"])
+    assert (row.description["kind"], row.parameters, alone.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "contains no bodies"),
+        ("name,width\n", "contains no bodies"),
+        ("name,width,colour\na,1,red\n", "line 1: unknown column 'colour'"),
+        ("width,height\n1,2\n", "line 1: column name required"),
+        ("name,width,幅\na,1,2\n", "two columns mean width"),
+        ("name,width (gal)\na,1\n", "gal"),
+        ("name,mu (cm)\na,1\n", "unit 'cm' of column 'mu .cm.' is not known; known: none"),
+        ("name,width\na,wide\n", "line 2"),
+        ("name,width\n,1\n", "line 2: the name of a body is empty"),
+        ("name,width\na,1,2,3\n", "line 2: expected 2 cells"),
+        ("name,width\na,250\nb,300\nc,1\n", r"line 2: .*\(1 more invalid row: line 3\)"),
+        ("name,width\na,-0.25\n", "line 2: width must be positive, found -0.25 m"),
+        ("name,width,mu\na,0.25,-0.3\n", "line 2: mu must be zero or more, found -0.3"),
+        ("name,mu\na,nan\n", "line 2"),
+        ("name,body\na,gone\n", "line 2: .*gone"),
+    ],
+)
+def test_body_table_error_names_its_line(tmp_path, text, says):
+    """One sentence, with the file."""
+    with pytest.raises(BodyError, match=says) as error:
+        read_table(tmp_path, text)
+    assert "bodies.csv" in str(error.value)
+
+
+def test_body_table_rejects_other_files(tmp_path):
+    """A directory, a picture, a file that is not there, nothing at all."""
+    (tmp_path / "dir.csv").mkdir()
+    (tmp_path / "image.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0")
+    for name in ("dir.csv", "image.csv", "gone.csv"):
+        with pytest.raises(BodyError, match=name):
+            read_bodies(tmp_path / name)
+    with pytest.raises(BodyError, match="body required"):
+        read_bodies([])
+
+
+def test_body_table_kind_sets_edge_wear(tmp_path):
+    """As `--kind` does for one body, in both languages of the heading; beside a file, or misspelt, it is refused with its line."""
+    path = tmp_path / "stones.csv"
+    path.write_text("名前,幅,高さ,種類,mu\n墓,0.24,0.72,gravestone,0.6\n棚,0.3,1.8,furniture,0.6\n")
+    grave, shelf = (batch_model("respond").build_body(listed, {}).body for listed in read_bodies(path))
+    assert (grave.inset, grave.ranges.inset_m) == (of_kind(Block(0.24, 0.72), "gravestone").inset, (0.0, pytest.approx(0.024)))
+    assert (shelf.inset, shelf.ranges) == (0.0, None)
+    assert body_models("24cmx72cm", kind="gravestone").block.inset == grave.inset
+    for row, says in (("a,,,statue,0.5,lantern", "or `body`, not both"), ("a,0.2,0.6,grave,0.5,", "unknown kind of body 'grave'")):
+        path.write_text(f"name,width,height,kind,mu,body\n{row}\n")
+        (listed,) = read_bodies(path)
+        with pytest.raises(BodyError, match=rf"line 2: .*{says}"):
+            batch_model("respond").build_body(listed, {})

@@ -1,0 +1,91 @@
+"""Verdicts of many runs at once are those of one run after another (H11)."""
+
+import math
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.block_array import to_block_array
+from seisblock.core.errors import ComponentError, KindError, ParameterError
+from seisblock.models.rock import rock_params, rock_verdict, rock_verdicts, solve_rock
+from seisblock.models.rock.params import rock_batch_params
+from seisblock.records import Component, Motion, Record, motion_of
+from seisblock.studies.rocking.verdicts import overturns_at, parallel_verdicts
+
+RNG = np.random.default_rng(5)
+T = np.arange(1200) * 0.01
+ROWS = [
+    np.convolve(RNG.normal(size=T.size), np.hanning(40), "same") * 0.5 * size * np.exp(-(((T - 5.0) / 2.5) ** 2))
+    for size in (1.0, 0.8, 0.4)
+]
+RECORD = Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), ROWS, strict=True)), 0.01)
+MOTION = motion_of(RECORD, "NS")
+BLOCKS = [Block(w, h, centroid_offset=0.1 * w * k) for w, h in ((0.2, 0.5), (0.24, 0.72), (0.3, 1.2)) for k in (-1, 0, 1)]
+SCALES = (0.2, 0.8, 1.0, 1.3)
+OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravity": 9.0, "restitution": (0.8, 0.95)}]
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids=str)
+def test_rock_many_rows_equal_single_runs(options):
+    """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
+    rockers = [rock_params(block, MOTION, **options) for block in BLOCKS]
+    alone = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
+    assert {outcome.overturned for outcome in alone} == {False, True}
+    together = rock_verdicts(rockers, MOTION, rockers[0].gains())
+    assert together.overturned.tolist() == [outcome.overturned for outcome in alone]
+    np.testing.assert_array_equal(together.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone])
+    one = rockers[4]
+    scaled = rock_verdicts([one], MOTION, [one.gains(scale) for scale in SCALES])
+    for scale, overturned, ratio in zip(SCALES, scaled.overturned, scaled.max_rotation_ratio, strict=True):
+        found = rock_verdict(one.block, MOTION, scale=scale, **options)
+        assert (found.overturned, found.max_rotation_ratio) == (overturned, ratio)
+    np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
+
+
+def test_rock_many_with_block_array_equals_blocks():
+    """Blocks that were never objects have the verdicts of those that were, on a record that ends while some of them still rock."""
+    motion = motion_of(Record(tuple(Component(c.code, c.acceleration[:530]) for c in RECORD.components), 0.01), "NS")
+    arrays = rock_batch_params(to_block_array(BLOCKS), motion, vertical=True)
+    found = rock_verdicts(arrays, motion, arrays.gains(1.2))
+    scaled = Motion(1.2 * motion.acceleration, 0.01)
+    alone = [solve_rock(block, scaled, vertical=True).outcome for block in BLOCKS]
+    assert any(outcome.decided_after_record for outcome in alone)
+    assert found.overturned.tolist() == [outcome.overturned for outcome in alone]
+    np.testing.assert_allclose(found.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone], rtol=1e-9)
+
+
+def test_rock_many_in_threads_keeps_order():
+    """More runs than a thread takes at once come back as they were asked for, and progress reaches the end."""
+    told = []
+    rockers = [rock_params(BLOCKS[i % len(BLOCKS)], MOTION) for i in range(100)]
+    found = parallel_verdicts(rockers, MOTION, rockers[0].gains(), progress=lambda done, runs: told.append((done, runs)))
+    first = rock_verdicts(rockers[: len(BLOCKS)], MOTION, rockers[0].gains())
+    for i in range(100):
+        assert found.max_rotation_ratio[i] == first.max_rotation_ratio[i % len(BLOCKS)]
+    assert told[-1] == (100, 100) and [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+@pytest.mark.parametrize("azimuth", [0.0, 37.0, 90.0, 200.0])
+def test_gains_rotate_the_motion(azimuth):
+    """Cos and -sin on the rows along and across are the record turned clockwise, also while the block is at rest."""
+    angle = math.radians(azimuth)
+    for options in ({}, {"vertical": True}):
+        one = rock_params(BLOCKS[1], MOTION, **options)
+        turned = rock_verdicts([one], MOTION, (math.cos(angle), -math.sin(angle), one.vertical))
+        there = solve_rock(one.block, motion_of(RECORD, f"{azimuth:g}"), **options).outcome
+        assert turned.overturned[0] == there.overturned
+        assert turned.max_rotation_ratio[0] == pytest.approx(there.max_rotation_ratio, rel=1e-9)
+
+
+def test_rock_many_rejects_invalid_input_like_single_run():
+    """The same sentences as of a single run."""
+    level = Motion(MOTION.acceleration, 0.01, record=Record(RECORD.components[:2], 0.01))
+    for call, error in (
+        (lambda: rock_params(BLOCKS[0], RECORD), KindError),
+        (lambda: rock_params(BLOCKS[0], level, vertical=True), ComponentError),
+        (lambda: rock_params(BLOCKS[0], MOTION, restitution=1.1), ParameterError),
+        (lambda: rock_params(BLOCKS[0], MOTION, gravity=0.0), ParameterError),
+    ):
+        with pytest.raises(error):
+            call()

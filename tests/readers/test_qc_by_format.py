@@ -1,0 +1,147 @@
+"""What a careful reader notices is noticed in every format: the same motion, damaged in the same ways, in each of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seisblock.core.errors import InputError
+from seisblock.readers import read
+from tests.fuzz.formats import OPTIONS, ROWS, WRITERS
+
+MIDDLE = 310
+"""A sample in the strongest part of every component."""
+
+
+def damage_each(change):
+    """Make a damage of each component."""
+
+    def damage(rows):
+        found = [row.copy() for row in rows]
+        for row in found:
+            change(row)
+        return found
+
+    return damage
+
+
+def _clip(row):
+    row.clip(0.5 * row.min(), 0.5 * row.max(), out=row)
+
+
+def _spike(row):
+    row[MIDDLE] += 3000.0
+
+
+def _gap(row):
+    row[MIDDLE : MIDDLE + 25] = 0.0
+
+
+def _hold(row):
+    first = MIDDLE + int(np.flatnonzero(np.abs(row[MIDDLE:]) < 0.4 * np.abs(row).max())[0])
+    row[first : first + 25] = row[first]
+
+
+def _offset(row):
+    row += 60.0
+
+
+def _enlarge(row):
+    row *= 70.0
+
+
+SAMPLES_DAMAGED = {"clipped": _clip, "spike": _spike, "held": _gap, "held too": _hold, "offset": _offset, "size": _enlarge}
+
+
+def kinds_found(data, kind, tmp_path):
+    """Return the kinds of doubt about a file, `refused` where it is."""
+    path = tmp_path / "damaged"
+    path.write_bytes(data)
+    try:
+        return {doubt.kind for doubt in read(path, **OPTIONS.get(kind, {})).doubts}
+    except InputError:
+        return {"refused"}
+
+
+@pytest.mark.parametrize("damage", SAMPLES_DAMAGED)
+@pytest.mark.parametrize("kind", WRITERS)
+def test_sample_defects_are_flagged_in_every_format(kind, damage, tmp_path):
+    """Flat peaks, lone spikes, gaps filled with zeros or the last value, offsets, more than 5 g."""
+    data = WRITERS[kind](damage_each(SAMPLES_DAMAGED[damage])(ROWS))
+    found = kinds_found(data, kind, tmp_path)
+    assert found & {damage.split()[0], "refused"}
+
+
+def _lines(change):
+    """Make a damage of the lines of a text."""
+
+    def damage(data):
+        lines = data.splitlines(keepends=True)
+        change(lines)
+        return b"".join(lines)
+
+    return damage
+
+
+def _lose(lines):
+    del lines[-90]
+
+
+def _repeat(lines):
+    lines.insert(-90, lines[-90])
+
+
+LINES_DAMAGED = {
+    "cut in the last number": lambda data: data.rstrip()[:-2],
+    "cut in a number": lambda data: data[: data.find(b".", 2 * len(data) // 3) + 2] if b"." in data[-9:] else data[: 2 * len(data) // 3],
+    "a line lost": _lines(_lose),
+    "a line twice": _lines(_repeat),
+    "the last line lost": _lines(list.pop),
+}
+SILENT = {("one column", "a line lost"), ("one column", "a line twice"), ("one column", "the last line lost")}
+"""A column of bare numbers that ends with a whole line says of itself nothing that a reader could hold against it."""
+
+BARE = {
+    ("comma", "the last line lost"),
+    ("blank", "the last line lost"),
+    ("semicolon", "the last line lost"),
+    ("clock", "the last line lost"),
+}
+"""So does a table with a clock that ends with a whole line: it is a shorter record."""
+
+TEXTS = sorted(set(WRITERS) - {"mseed", "sac", "tar", "tar.gz", "zip"})
+
+
+@pytest.mark.parametrize("damage", LINES_DAMAGED)
+@pytest.mark.parametrize("kind", TEXTS)
+def test_line_defects_are_flagged_in_every_text_format(kind, damage, tmp_path):
+    """A count against the header, a clock that stumbles, seconds that are not whole, an end without an end of line."""
+    found = kinds_found(LINES_DAMAGED[damage](WRITERS[kind](ROWS)), kind, tmp_path)
+    assert bool(found - {"directions"}) != ((kind, damage) in SILENT | BARE), found
+
+
+@pytest.mark.parametrize("kind", ["mseed", "sac", "tar", "tar.gz", "zip"])
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.99])
+def test_truncated_binary_file_is_flagged(kind, share, tmp_path):
+    """A download that stopped; zeros behind the last member of a tar are nobody's loss."""
+    data = WRITERS[kind](ROWS).rstrip(b"\0" if kind == "tar" else b"")
+    assert kinds_found(data[: int(share * len(data))], kind, tmp_path) - {"directions"}
+
+
+TWICE = {"jma": (b"NS,EW,UD", b"NS,NS,UD"), "knet-csv": (b",N-S(gal),E-W(gal)", b",N-S(gal),N-S(gal)"), "comma": (b"EW (gal)", b"NS (gal)"),
+         "blank": (b"ew_gal", b"ns_gal"), "semicolon": (b"N80W", b"N10E")}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", TWICE)
+def test_duplicate_columns_are_rejected_in_every_format(kind, tmp_path):
+    """None of them is believed."""
+    data, (name, other) = WRITERS[kind](ROWS), TWICE[kind]
+    assert name in data
+    assert kinds_found(data.replace(name, other), kind, tmp_path) == {"refused"}
+
+
+def test_jma_record_without_whole_seconds_is_flagged(tmp_path):
+    """JMA publishes whole seconds: 599 samples at 100 Hz have lost one."""
+    lines = WRITERS["jma"](ROWS).splitlines(keepends=True)
+    assert kinds_found(b"".join(lines[:-1]), "jma", tmp_path) == {"count"}
+    assert kinds_found(b"".join(lines), "jma", tmp_path) == set()

@@ -1,0 +1,343 @@
+"""A record of 300 s, what each model makes of it, and every kind of figure that is drawn of it, each solved once."""
+
+import functools
+import inspect
+import pkgutil
+from dataclasses import replace
+from datetime import UTC, datetime
+from importlib import import_module
+
+import numpy as np
+
+from seisblock import (
+    Block,
+    Contact,
+    Pile,
+    PileStone,
+    SlidingBase,
+    SpringBlock,
+    TwoLayerBlock,
+    find_risk,
+    fit_block,
+    read_hazard,
+    run_fragility,
+    solve_jump,
+    solve_respond,
+    solve_rock,
+    solve_slide,
+    solve_stack,
+    solve_uplift,
+)
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.scan.scan import scan_body
+from seisblock.measures import measure, response_spectrum
+from seisblock.records import Component, Preparation, Record, motion_of
+from seisblock.records.process import scale
+from seisblock.records.site import Earthquake
+from seisblock.report import figures
+from seisblock.report.figures import (
+    azimuths,
+    body,
+    cemetery,
+    criteria,
+    field_test,
+    fit,
+    fragility,
+    infer,
+    input_panels,
+    mode_map,
+    risk,
+    slide_study,
+    sliding_spectrum,
+    spectrum,
+    stack_criterion,
+    uplift_harmonic,
+)
+from seisblock.report.figures import stations as stations_figure
+from seisblock.report.figures.measure import measure_figure
+from seisblock.report.registry import PRESENTERS, response_figure
+from seisblock.studies.criteria_comparison import compare_criteria
+from seisblock.studies.fragility.io import FragilityCurve
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.gravestone_criterion import CriterionStudy, GravestoneFit, Threshold
+from seisblock.studies.map.station_response import StationCemetery, StationResult
+from seisblock.studies.map.stations import StationReport, Stations
+from seisblock.studies.respond.azimuths import respond_directions
+from seisblock.studies.respond.mode_map import mode_map as map_of_modes
+from seisblock.studies.rocking.azimuths import rock_directions
+from seisblock.studies.rocking.spectrum import default_sizes, default_slendernesses, rocking_spectrum, rocking_spectrum_all_azimuths
+from seisblock.studies.sliding import slide_study as study_of_sliding
+from seisblock.studies.survey.assessment import AssessmentMethod, assess_cemetery, overturning_curve
+from seisblock.studies.survey.assumptions import make_assumptions
+from seisblock.studies.survey.estimate import estimate_shaking
+from seisblock.studies.survey.likelihood import counted_survey
+from seisblock.studies.survey.scale_search import scale_factors, slide_displacement
+from seisblock.studies.survey.shaking import component_shakings
+from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
+from seisblock.validation.furukawa_surveys import SURVEYS
+from tests.studies.fit.conftest import shaken
+
+DT, SAMPLES = 0.01, 30_000
+
+
+@functools.cache
+def record():
+    """Return 300 s at 100 Hz, three components, of which some twenty seconds shake."""
+    rng = np.random.default_rng(11)
+    time = DT * np.arange(SAMPLES)
+    envelope = np.where(time < 50.0, 0.0, ((time - 50.0) / 4.0) ** 2 * np.exp(-(time - 50.0) / 3.0)) + 1e-4
+    f = np.fft.rfftfreq(SAMPLES, DT)
+    parts = []
+    for code, peak, middle in (("NS", 4.5, 1.3), ("EW", 3.6, 1.0), ("UD", 1.4, 4.0)):
+        shape = f**2 / ((f**2 - middle**2) ** 2 + (1.2 * middle * f) ** 2 + 1e-9)
+        values = np.fft.irfft(np.fft.rfft(rng.standard_normal(SAMPLES)) * shape, SAMPLES) * envelope
+        parts.append(Component(code, values * peak / np.abs(values).max()))
+    told = {"clock": "JST", "station_name": "小さな町 $a_b$"}
+    return Record(tuple(parts), DT, station="X012", start=datetime(2024, 1, 1, 7, 10, tzinfo=UTC), metadata=told)
+
+
+def motion(component="NS", factor=1.0):
+    return motion_of(scale(record(), factor), component)
+
+
+PAVILION = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
+STONES = Pile("two", (PileStone("base", 0.5, 0.5, 0.2), PileStone("sao", 0.25, 0.25, 0.7, on="base")))
+
+SOLVED = {
+    "respond": lambda c: solve_respond(Block(0.45, 1.8), motion(c), mu=0.3),
+    "rock": lambda c: solve_rock(Block(0.3, 0.9), motion(c)),
+    "slide": lambda c: solve_slide(SlidingBase(0.15), motion(c)),
+    "jump": lambda c: solve_jump(PAVILION, motion(c, 1.6), contact=Contact(mu=0.18)),
+    "uplift": lambda c: solve_uplift(SpringBlock.from_frequency(1.0, 1.0, 2.0, frequency_vertical=6.0, beta=0.7), motion(c)),
+    "stack": lambda c: solve_stack(STONES, motion(c, 2.0)),
+}
+
+
+@functools.cache
+def response(model, component="NS"):
+    return SOLVED[model](component)
+
+
+@functools.cache
+def every_azimuth(model):
+    if model == "rock":
+        return rock_directions(Block(0.3, 0.9), record(), step_deg=15.0)
+    return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), mu=0.3, step_deg=15.0)
+
+
+AOYAMA = read_cemetery("aoyama.csv")
+BOTH = ("NS", "EW")
+
+
+def prepared_record():
+    """Return the record, worked on, so that the title has something to say of it."""
+    return Preparation(highpass_hz=0.1, scale=1.2).apply(record())
+
+
+@functools.cache
+def cards():
+    return [compare_criteria(record(), motion(name), Block(0.3, 0.9), gravity=9.81) for name in BOTH]
+
+
+@functools.cache
+def spectra():
+    return [(motion(c), rocking_spectrum(default_sizes(12), default_slendernesses(12), motion(c))) for c in BOTH]
+
+
+@functools.cache
+def azimuth_spectra():
+    found = rocking_spectrum_all_azimuths(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
+    return [(replace(motion("NS"), name="all-azimuths"), found)]
+
+
+@functools.cache
+def slides():
+    return [(motion(c), study_of_sliding([0.05 * i for i in range(1, 11)], motion(c))) for c in BOTH]
+
+
+@functools.cache
+def study(**choice):
+    return [study_of_sliding(motions=motion("NS"), **choice)]
+
+
+@functools.cache
+def maps(*, sizes=(1.0,), ratios=(0.1, 0.2, 0.3, 0.4, 0.5)):
+    return [(motion(c), map_of_modes([0.1, 0.2, 0.4, 0.6], sizes, np.arctan(ratios), motion(c))) for c in BOTH]
+
+
+@functools.cache
+def rates(*, after=False):
+    dowelled = AOYAMA.with_dowels() if after else None
+    return [assess_cemetery(AOYAMA, each, AssessmentMethod(), reinforced_cemetery=dowelled) for each in component_shakings(record(), BOTH)]
+
+
+@functools.cache
+def shaking_estimates():
+    survey, assumptions = counted_survey(AOYAMA, 35, 100), make_assumptions(None)
+    return "aoyama", survey, assumptions, [estimate_shaking(survey, f, assumptions) for f in (0.5, 1.0, 2.0, 3.0)]
+
+
+@functools.cache
+def risks():
+    hazard = read_hazard("synthetic_hazard.csv")
+    given = [FragilityCurve("stone", limit, "pgv", "m/s", Lognormal(median, 0.4)) for limit, median in (("rock", 0.3), ("overturn", 0.7))]
+    return [(each, find_risk(each.curve, hazard)) for each in given], hazard
+
+
+NAMES = tuple(f"益城町宮園中央小学校の長い名前の墓石その{i}" for i in range(1, 10))
+
+
+@functools.cache
+def many_risks():
+    """Return what becomes of nine bodies with long names."""
+    hazard = read_hazard("synthetic_hazard.csv")
+    given = [FragilityCurve(name, "overturn", "pgv", "m/s", Lognormal(0.2 + 0.1 * i, 0.3)) for i, name in enumerate(NAMES)]
+    return [(each, find_risk(each.curve, hazard)) for each in given], hazard
+
+
+@functools.cache
+def fragilities(*, names=("stone",), limits=("rock", "overturn")):
+    """Return the curves of some bodies, each wider than the one before, over the record and two others."""
+    bodies = {name: Block(0.3 + 0.01 * i, 0.9) for i, name in enumerate(names)}
+    suite = [record(), "elcentro_1940_ns.csv", "synthetic_jma.csv"]
+    return run_fragility(suite, bodies, "rock", limits=limits, im="pgv", steps=10, bootstrap=20)
+
+
+@functools.cache
+def factors():
+    base = SlidingBase(0.15)
+    return [(record(), scale_factors(slide_displacement(base, motion(c)), 0.05, motion(c), limit=2.0, steps=20)) for c in BOTH]
+
+
+@functools.cache
+def regions(figure=None, **ratios):
+    names = dict.fromkeys(("alpha", "gamma", "phi", "rho", "beta", "damping")) | ratios
+    return [uplift_region(body, DEFAULT_RATIOS, phi_deg=phi, rho_deg=rho) for body, phi, rho in harmonic_blocks(names, figure=figure)]
+
+
+def criterion():
+    """Return a criterion study as it comes out, without its hours of work: thresholds on the published level."""
+    fit = GravestoneFit(8.0, 1.9, 4.6, "this")
+    levels = {f: 8.0 * (1.0 + (f / 1.9) ** 4.6) for f in (0.5, 1.0, 2.0, 3.0)}
+    thresholds = tuple(Threshold(f, a, level / a) for f, level in levels.items() for a in (3.0, 4.0, 6.0, 9.0) if 1.0 < level / a < 7.0)
+    scaled = {"X012 NS": tuple(Threshold(1.4, a, 12.0 / a) for a in (3.0, 4.0, 6.0))}
+    return CriterionStudy(thresholds, levels, fit), {f: 0.9 * level for f, level in levels.items()}, scaled
+
+
+@functools.cache
+def stations(subject=None):
+    """Return a dozen stations of an earthquake around an epicentre, the worst first, two of them nowhere."""
+    answers = []
+    for number in range(12):
+        north, east = 35.0 + 0.05 * np.sin(2.4 * number) * number, 139.0 + 0.4 * np.cos(2.4 * number)
+        effect = StationResult(90.0, max(1.0 - 0.12 * number, 0.0))
+        code, pga = f"X{number:03d}", 8.0 / (1 + number)
+        answers.append(StationReport(f"{code}.NS", code, "小さな町", north, east, pga_m_s2=pga, effect=effect))
+    nowhere = [StationReport("a.csv", pga_m_s2=1.0), StationReport("b.csv", failure="cut short")]
+    return Stations((*answers, *nowhere), Earthquake(None, 35.0, 139.0, 10.0, 6.8, "test"), "2024-01-01 16:10:00 JST"), subject
+
+
+def fitted_block():
+    """Return the block that explains what one did under twelve pulses."""
+    return fit_block(shaken(12, 0), runs=1)
+
+
+def model_figures():
+    """Yield the figure of each model, of one direction and of two."""
+    for model in PRESENTERS:
+        function = getattr(import_module(f"{figures.__name__}.{model}"), "record_figure" if model == "uplift" else "figure")
+        yield model, (function, lambda gal, model=model: response_figure([response(model)], gal=gal))
+        if model != "stack":
+            yield f"{model}, two", (function, lambda gal, model=model: response_figure([response(model, c) for c in BOTH], gal=gal))
+
+
+PLANE = {"mu": tuple(np.linspace(0.1, 0.6, 9)), "slope_deg": tuple(np.linspace(0.0, 16.0, 9)), "kappa": (0.75, 1.0)}
+
+OF_THE_RECORD = dict(model_figures()) | {
+    "measure": (measure_figure, lambda gal: measure_figure(record(), measure(record()), gal=gal)),
+    "criteria": (criteria.figure, lambda gal: criteria.figure(cards(), gal=gal)),
+    "rocking": (spectrum.figure, lambda _: spectrum.figure(spectra(), "rocking", 9.81)),
+    "overturning": (spectrum.figure, lambda _: spectrum.figure(spectra()[:1], "overturning", 9.81)),
+    "overturning, all azimuths": (spectrum.figure, lambda _: spectrum.figure(azimuth_spectra(), "overturning", 9.81)),
+    "sliding": (sliding_spectrum.figure, lambda _: sliding_spectrum.figure(slides())),
+    "study": (
+        slide_study.figure,
+        lambda _: slide_study.figure([record()], study(mu=(0.1, 0.2, 0.3), kappa=(0.5, 1.0)), slope_length=None, gravity=9.81),
+    ),
+    "plane": (slide_study.figure, lambda _: slide_study.figure([record()], study(**PLANE), slope_length=None, gravity=9.81)),
+    "modes": (mode_map.figure, lambda _: mode_map.figure(maps())),
+    "modes of sizes": (mode_map.figure, lambda _: mode_map.figure(maps(sizes=(0.5, 1.0, 2.0), ratios=(1 / 3,)))),
+    "rate": (
+        cemetery.overturn_rate_figure,
+        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [(record(), rates())], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal),
+    ),
+    "rate with dowels": (
+        cemetery.overturn_rate_figure,
+        lambda gal: cemetery.overturn_rate_figure(
+            AOYAMA, [(record(), rates(after=True))], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal
+        ),
+    ),
+    "factors": (infer.factor_figure, lambda _: infer.factor_figure(factors())),
+    "rock, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rock")], [every_azimuth("rock")])),
+    "respond, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("respond")], [every_azimuth("respond")])),
+    "a record": (input_panels.record_figure, lambda _: input_panels.record_figure(record())),
+    "a motion": (input_panels.motion_figure, lambda _: input_panels.motion_figure(motion())),
+}
+"""What is drawn of a record: by its name, the function and a call of it, given whether accelerations are in gal."""
+
+OF_NO_RECORD = {
+    "a scan": (body.figure, lambda _: body.figure(scan_body("boulder.ply", inset=0.1))),
+    "estimate": (infer.estimate_figure, lambda gal: infer.estimate_figure(*shaking_estimates(), gal=gal)),
+    "rate, curves": (
+        cemetery.overturn_rate_figure,
+        lambda gal: cemetery.overturn_rate_figure(AOYAMA, [], overturning_curve(AOYAMA, AssessmentMethod()), gal=gal),
+    ),
+    "as fig. 14": (cemetery.figure_14, lambda _: cemetery.figure_14(AOYAMA)),
+    "as fig. 16": (cemetery.figure_16, lambda _: cemetery.figure_16(AOYAMA, surveys=SURVEYS)),
+    "as fig. 20": (cemetery.figure_20, lambda _: cemetery.figure_20(AOYAMA)),
+    "harmonic": (uplift_harmonic.harmonic_figure, lambda _: uplift_harmonic.harmonic_figure(regions(damping=(0.02, 0.05)))),
+    **{
+        f"as fig. {number} of Okumura": (
+            uplift_harmonic.harmonic_figure,
+            lambda _, number=number: uplift_harmonic.harmonic_figure(regions(number), number),
+        )
+        for number in (3, 4, 6, 8, 11)
+    },
+    "criterion": (
+        stack_criterion.figure,
+        lambda gal: stack_criterion.figure(*criterion(), reinforced=False, gal=gal),
+    ),
+    "risk of nine": (risk.figure, lambda gal: risk.figure(*many_risks(), gal=gal)),
+    "fragility": (fragility.figure, lambda gal: fragility.figure(fragilities(), gal=gal)),
+    "fragility of nine": (fragility.figure, lambda gal: fragility.figure(fragilities(names=NAMES, limits=("overturn",)), gal=gal)),
+    "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
+    "fit": (fit.fit_figure, lambda gal: fit.fit_figure(fitted_block(), "shaken.csv", gal=gal)),
+    "stations": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(StationCemetery(AOYAMA)), gal=gal)),
+    "stations, their shaking": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(), gal=gal)),
+    "field test": (field_test.figure, lambda _: field_test.figure()),
+    "response spectrum": (
+        input_panels.response_spectrum_figure,
+        lambda _: input_panels.response_spectrum_figure(response_spectrum(motion().horizontal, DT)),
+    ),
+    "rocking spectrum": (input_panels.rocking_spectrum_figure, lambda _: input_panels.rocking_spectrum_figure(spectra()[0][1])),
+}
+"""What is drawn of a paper, a cemetery or of numbers alone."""
+
+EVERY = OF_THE_RECORD | OF_NO_RECORD
+
+NOT_A_KIND = {"style", "svg", "fonts", "fit_size"}
+"""Modules that help to draw, and draw nothing themselves."""
+
+
+def drawing_functions():
+    """Return every public function of the figures' modules that returns a figure."""
+    modules = [import_module(f"{figures.__name__}.{each.name}") for each in pkgutil.iter_modules(figures.__path__)]
+    return {
+        function
+        for module in modules
+        if module.__name__.rsplit(".", 1)[1] not in NOT_A_KIND
+        for name, function in inspect.getmembers(module, inspect.isfunction)
+        if function.__module__ == module.__name__
+        and not name.startswith("_")
+        and function.__annotations__.get("return") in ("Figure", "StyledFigure")
+    }

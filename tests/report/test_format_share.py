@@ -1,0 +1,66 @@
+"""A share has one form: what is small and not nothing says so, wherever it is told."""
+
+from dataclasses import replace
+
+import pytest
+
+from seisblock.core.i18n import use_locale
+from seisblock.report.html.report_text import sentences, verdict
+from seisblock.report.registry import response_figure, verdict_text
+from seisblock.studies.assessment import ModelResponse
+from tests.report.long_record import response
+
+SMALL = {"en": "less than 1 % of the overturning angle", "ja": "転倒限界角の 1 % 未満"}
+
+
+@pytest.mark.parametrize("lang", SMALL)
+def test_tilt_below_one_percent_has_same_text_everywhere(lang):
+    """The line of the text, the line on the page's card and the sentence below it; none of them says 0 %."""
+    found = response("rock")
+    faint = replace(found, outcome=replace(found.outcome, overturned=False, overturned_towards=None, rocks=True, max_rotation_ratio=0.004))
+    with use_locale(lang):
+        effect = ModelResponse("rock", faint, None, None)
+        told = [verdict_text(faint), verdict(effect), " ".join(sentences(effect))]
+    assert [text for text in told if SMALL[lang] in text] == told
+    assert not [text for text in told if " 0 %" in text]
+
+
+def test_best_estimate_uses_same_share_text():
+    """What rocks a little while it slides."""
+    found = response("respond")
+    time = {**found.outcome.time_in_mode_s, "rock": 1.0}
+    changed = replace(found.outcome, outcome="moves", overturned=False, time_in_mode_s=time, max_rotation_ratio=0.004)
+    with use_locale("en"):
+        assert "rocks slightly (peak tilt less than 1 % of the overturning angle)" in verdict_text(replace(found, outcome=changed))
+
+
+@pytest.mark.parametrize(("lang", "said"), [("en", "NS: slides less than 0.01 mm in total."), ("ja", "NS：滑動 合計 0.01 mm 未満")])
+def test_tiny_slip_is_not_reported_as_zero(lang, said):
+    """The sentence of ``slide``, as that of ``jump`` does; the card of a report does, too."""
+    found = response("slide")
+    faint = dict.fromkeys(("max_slip_m", "path_m", "residual_slip_m", "final_slip_m"), 1e-6)
+    outcome = replace(found.outcome, slips=True, fell_off_slope=False, lifted_off=False, **faint)
+    changed = replace(found, outcome=outcome, motion=replace(found.motion, name="NS"))
+    with use_locale(lang):
+        assert verdict_text(changed) == said
+        assert "0.01 mm" in verdict(ModelResponse("slide", changed, None, None))
+
+
+def test_rock_figure_title_states_outcome():
+    """As that of the governing answer does: above the ground motion."""
+    found = response("rock")
+    for fell, told in ((True, ": overturned; "), (False, ": rocking; ")):
+        outcome = replace(found.outcome, rocks=True, overturned=fell, overturned_towards="+x" if fell else None)
+        with use_locale("en"):
+            titles = [axis.get_title(loc="left") for axis in response_figure([replace(found, outcome=outcome)]).axes]
+        assert any(told in title for title in titles), titles
+
+
+def test_response_repr_is_one_line():
+    """Model, body, direction, the first facts and how it ended; of many things the page says how many it leaves out."""
+    found = response("respond")
+    assert len(repr(found)) < 300 and repr(found).startswith("<Response respond of ") and "overturned=" in repr(found)
+    with use_locale("en"):
+        shown = found._repr_html_()
+    count = len(found.outcome.events)
+    assert count > 8 and f"events (8 of {count})" in shown

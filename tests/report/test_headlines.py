@@ -1,0 +1,72 @@
+"""The first line holds the number that matters, and no two lines say 1.00 and mean different things."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock import Block, Contact, SlidingBase, motion_of, read, solve_jump, solve_respond, solve_rock, solve_slide
+from seisblock.criteria.compare import CriterionResult
+from seisblock.report.text.criteria import format_ratio
+from seisblock.report.text.jump import verdict as jump_verdict
+from seisblock.report.text.respond import verdict as respond_verdict
+from seisblock.report.text.rock import first_line
+from seisblock.report.text.slide import sentence as slide_sentence
+from seisblock.report.text.threshold import SLIDES, threshold_text
+from tests.report.long_record import PAVILION, motion
+
+
+def test_no_motion_headline_states_factor_to_move():
+    """Whatever rests answers with the shaking that would move it, and with how many times the record's peak that is."""
+    still = motion("NS", 0.1)
+    peak = np.abs(still.horizontal).max()
+    found = {
+        first_line(solve_rock(Block(0.3, 0.9), still)): 9.80665 / 3.0,
+        slide_sentence(solve_slide(SlidingBase(0.3), still)): 0.3 * 9.80665,
+        respond_verdict(solve_respond(Block(0.45, 1.8), still, mu=0.2, vertical=False)): 0.2 * 9.80665,
+        jump_verdict(solve_jump(PAVILION, still, contact=Contact(mu=0.18))): 4.6124,
+    }
+    for told, level in found.items():
+        acceleration, times = map(float, re.search(r"threshold (\S+) gal \((\S+) times this record's PGA", told).groups())
+        assert acceleration == pytest.approx(100.0 * level, abs=0.06) and times == pytest.approx(level / peak, rel=6e-3)
+    above = replace(still, rows=40.0 * still.rows)
+    assert threshold_text(SLIDES, (0.2, 0.2), above, gravity=10.0, gal=False) == "sliding threshold 2.0000 m/s²"
+
+
+def _stated_factor(sentence):
+    """Return how many times the record a sentence says that it takes."""
+    return float(re.search(r"([^\s(]+) times this record", sentence).group(1))
+
+
+@pytest.mark.parametrize("component", ["10", "280"])
+def test_factor_to_move_holds_with_vertical_motion(component):
+    """The vertical motion takes weight off and adds it: the factor told is that of both together, in each model that has it."""
+    still = motion_of(read("hanmer_springs_2016"), component)
+    stronger = {
+        lambda m: solve_rock(Block(0.24, 0.72), m, vertical=True): (first_line, lambda outcome: outcome.rocks),
+        lambda m: solve_respond(Block(0.24, 0.72), m, mu=0.4): (respond_verdict, lambda outcome: outcome.outcome != "rests"),
+        lambda m: solve_slide(SlidingBase(0.4), m, vertical=True): (slide_sentence, lambda outcome: outcome.slips),
+    }
+    for solve, (say, moves) in stronger.items():
+        factor = _stated_factor(say(solve(still)))
+        assert factor != pytest.approx(0.4 * 9.80665 / np.abs(still.horizontal).max(), rel=0.02)
+        assert not moves(solve(replace(still, rows=0.99 * factor * still.rows)).outcome)
+        assert moves(solve(replace(still, rows=1.01 * factor * still.rows)).outcome)
+
+
+@pytest.mark.parametrize("offset", [-0.02, 0.02])
+def test_factor_to_move_uses_peak_towards_weaker_side(offset):
+    """The record's larger peak may push to the stronger side."""
+    still, block = motion_of(read("elcentro_1940_ns.csv"), "NS"), Block(0.24, 0.72, centroid_offset=offset)
+    still = replace(still, rows=0.5 * still.rows)
+    factor = _stated_factor(first_line(solve_rock(block, still)))
+    assert factor == _stated_factor(respond_verdict(solve_respond(block, still, mu=0.6)))
+    assert not solve_rock(block, replace(still, rows=0.99 * factor * still.rows)).outcome.rocks
+    assert solve_rock(block, replace(still, rows=1.01 * factor * still.rows)).outcome.rocks
+
+
+def test_ratio_near_one_shows_enough_digits():
+    """1.00 stands and 1.00 falls are not told apart: there are as many digits as it takes."""
+    for demand, told in ((0.9996, "0.9996"), (1.0, "1.00"), (1.0 + 1e-5, "1.00001"), (1.0 + 1e-9, "1.000000"), (1.02, "1.02")):
+        assert format_ratio(CriterionResult("criterion", "where", "m/s^2", None, None, 1.0, demand, demand > 1.0)) == told

@@ -1,0 +1,182 @@
+"""A batch says what the single commands say, and a row that has no answer says why."""
+
+import csv
+import math
+from pathlib import Path
+
+import pytest
+
+import seisblock
+from seisblock.core.errors import KindError, ParameterError
+from tests.studies.batch.conftest import document, run, write_record
+
+
+def table(path):
+    """Return the rows of a CSV file."""
+    with Path(path).open(newline="", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def equals_document(cell, value):
+    """Whether a cell of the table says what a document says, to the last digit."""
+    if value is None or value == "":
+        return cell == ""
+    if isinstance(value, bool):
+        return cell == str(value)
+    return cell == value if isinstance(value, str) else float(cell) == value
+
+
+SINGLE = {
+    "respond": ("", "--width {width} --height {height} --mu {mu} {inset} --runs 0"),
+    "rock": ("", "--width {width} --height {height} {inset}"),
+    "slide": ("", "--mu {mu}"),
+}
+SLENDER = {"width": "20cm", "height": "1m", "mu": "0.6", "inset": ""}
+SQUAT = {"width": "80cm", "height": "1.2m", "mu": "0.25", "inset": "--inset 5%"}
+
+
+@pytest.mark.parametrize("solver", SINGLE)
+def test_batch_rows_equal_single_commands(folder, solver):
+    """Every scalar of every row, bit by bit."""
+    assert run(f"batch records --bodies bodies.csv --solver {solver} --out t.csv").exit_code == 0
+    rows = {(row["record"], row["component"], row["body"]): row for row in table("t.csv")}
+    assert len(rows) == 4 * 2 * 3
+    for name, sizes in (("slender", SLENDER), ("squat", SQUAT)):
+        for record in ("r1.csv", "r3.csv"):
+            found = document(f"{solver} records/{record} " + SINGLE[solver][1].format(**sizes))["results"]
+            for result in found:
+                row = rows[record, result["component"], name]
+                scalars = {k: v for k, v in result.items() if not isinstance(v, (list, dict)) and k in row}
+                wrong = {k: (row[k], v) for k, v in scalars.items() if not equals_document(row[k], v)}
+                assert len(scalars) > 10
+                assert not wrong
+
+
+@pytest.mark.parametrize("solver", SINGLE)
+def test_batch_all_azimuths_gives_worst_per_row(folder, solver):
+    """A row for each record and body: the worst azimuth and its scalars as the single command has them, and in how many it falls."""
+    line = f"batch records/r1.csv records/r3.csv --bodies bodies.csv --solver {solver} --component all-azimuths --out t.csv"
+    assert run(line).exit_code == 0
+    rows = {(row["record"], row["body"]): row for row in table("t.csv")}
+    assert len(rows) == len(table("t.csv")) == 2 * 3
+    single = SINGLE[solver][1].format(**SLENDER).replace("--runs 0", "")
+    found = document(f"{solver} records/r3.csv {single} --component all-azimuths")
+    (result,) = found["results"]
+    row = rows["r3.csv", "slender"]
+    wrong = {k: (row[k], v) for k, v in result.items() if not isinstance(v, (list, dict)) and k in row and not equals_document(row[k], v)}
+    assert not wrong
+    assert row["component"] == result["component"] and row["directions"] == "36"
+    if solver != "slide":
+        assert int(row["directions_overturned"]) == sum(each["overturned"] for each in result["directions"])
+
+
+def test_batch_all_azimuths_rejects_conflicting_options(folder):
+    """Beside a component, with a solver that looks in none, or with an option of one direction: one sentence each."""
+    block = seisblock.Block(0.2, 1.0)
+    for components, solver, options, why in (
+        (["all-azimuths", "NS"], "rock", {}, "give no other component"),
+        ("all-azimuths", "stack", {}, "stack does not support all azimuths"),
+        ("all-azimuths", "rock", {"initial": (0.1, 0.0)}, "has no option `initial`"),
+    ):
+        with pytest.raises(ParameterError, match=why):
+            seisblock.run_batch("records", "lantern" if solver == "stack" else [block], solver, components=components, **options)
+    (folder / "one.csv").write_text("time,NS (gal)\n0.00,1\n0.01,200\n0.02,-100\n0.03,5\n")
+    (failure,) = seisblock.run_batch("one.csv", [block], "rock", components="all-azimuths").failures
+    assert failure["component"] == "all-azimuths" and "two horizontal" in failure["failure"]
+
+
+def test_batch_of_jump_uplift_and_stack_equals_commands(folder):
+    """Jump, uplift and stack, against their commands."""
+    write_record(folder / "strong.csv", 9, samples=800, peak=6.0)
+    for solver, body, single in (
+        ("jump", "chozusha", "--block chozusha"),
+        ("uplift", "u.csv", "--width 1 --height 2 --mass 900 --frequency-vertical 6 --damping 0.1"),
+    ):
+        (folder / "u.csv").write_text("name,width,height,mass,frequency_vertical,damping\nu,1,2,900,6,0.1\n")
+        assert run(f"batch strong.csv --bodies {body} --solver {solver} --out {solver}.csv").exit_code == 0
+        results = document(f"{solver} strong.csv {single}")["results"]
+        rows = table(f"{solver}.csv")
+        assert len(rows) == 2
+        for row in rows:
+            result = next(each for each in results if each["component"] == row["component"])
+            scalars = {k: v for k, v in result.items() if not isinstance(v, (list, dict)) and k in row}
+            assert {k for k, v in scalars.items() if not equals_document(row[k], v)} == set()
+    stones = seisblock.run_batch("strong.csv", "lantern", "stack", components="NS", points=2, step=3e-4)
+    alone = seisblock.solve_stack(
+        seisblock.load_pile("lantern"), seisblock.motion_of(seisblock.read("strong.csv"), "NS"), points=2, step=3e-4
+    )
+    assert stones["overturned_any"] == [alone.outcome.overturned_any]
+    assert stones["ground_work_j"] == [alone.outcome.ground_work_j]
+
+
+def test_batch_probability_equals_single_study(folder):
+    """Perturbed runs under the same seed."""
+    found = seisblock.run_batch("records/r2.csv", {"a": seisblock.Block(0.2, 1.0)}, "respond", mu=0.6, runs=30, seed=4)
+    motion = seisblock.motion_of(seisblock.read("records/r2.csv"), "EW")
+    alone = seisblock.respond_probability(seisblock.Block(0.2, 1.0), motion, mu=0.6, runs=30, seed=4)
+    row = found.rows[found["component"].index("EW")]
+    assert (row["probability_overturned"], row["probability_moved"]) == (alone.overturned, alone.moved)
+    assert (row["probability_low"], row["probability_high"]) == alone.interval
+    rocking = seisblock.run_batch("records/r2.csv", [seisblock.Block(0.2, 1.0)], "rock", components="EW", runs=30, seed=4)
+    expected = seisblock.perturb(seisblock.Block(0.2, 1.0), motion, 30, seed=4)
+    assert rocking["probability_overturned"] == [expected.probability]
+
+
+def test_batch_failure_is_a_row_with_reason(folder):
+    """A file that is none, a component that is not there, a body that cannot be, each by itself; the rest is answered."""
+    (folder / "records" / "broken.csv").write_text("time,NS (gal)\n0.00,1\n0.01,what\n")
+    bodies = {"good": seisblock.Block(0.2, 1.0), "slope": seisblock.Block(0.3, 0.9)}
+    found = seisblock.run_batch(["records", "gone.csv"], bodies, "rock", components=["EW", "37X"])
+    by_reason = {row["failure"]: row for row in found.failures}
+    assert len(found.failures) == 2 + 4
+    assert any("gone.csv" in reason and "no such file" in reason for reason in by_reason)
+    assert any("line 3" in reason for reason in by_reason)
+    assert sum("37X" in row["failure"] for row in found.failures) == 4
+    assert len(found) == 4 * 2 + 6
+    assert all(row["rocks"] is not None for row in found.rows if not row.get("failure"))
+
+
+def test_batch_unsuitable_body_fails_its_rows_only(folder):
+    """Friction is missing for one of three."""
+    (folder / "b.csv").write_text("name,width,height,mu\na,0.2,1,0.5\nb,0.2,1,\n")
+    found = seisblock.run_batch("records/r0.csv", "b.csv", "respond", components="NS")
+    assert [bool(row.get("failure")) for row in found.rows] == [False, True]
+    assert "friction required" in found.rows[1]["failure"]
+    with pytest.raises(ParameterError, match="none of the bodies"):
+        seisblock.run_batch("records/r0.csv", [body for body in seisblock.read_bodies("b.csv") if body.name == "b"], "respond")
+
+
+def test_batch_processes_records_and_rotates_components(folder):
+    """What is done to a record, and a direction that is no component."""
+    preparation = seisblock.Preparation(scale=1.5, window=(2.0, 9.0))
+    found = seisblock.run_batch("records/r1.csv", [seisblock.Block(0.2, 1.0)], "rock", components="37", preparation=preparation)
+    motion = seisblock.motion_of(preparation.apply(seisblock.read("records/r1.csv")), "37")
+    assert found["max_rotation_rad"] == [seisblock.solve_rock(seisblock.Block(0.2, 1.0), motion).outcome.max_rotation_rad]
+
+
+def test_batch_result_converts_to_dataframe(folder):
+    """The table in pandas: missing cells are missing, types are kept."""
+    frame = seisblock.run_batch(["records/r0.csv", "gone.csv"], [0.02, 0.5], "slide").to_pandas()
+    assert len(frame) == 5
+    assert str(frame["slips"].dtype) == "boolean"
+    assert frame["slips"].isna().sum() == 1
+    assert str(frame["slip_count"].dtype) == "Int64"
+    assert frame.loc[frame["body"] == "body 1", "slips"].all()
+    assert math.isnan(frame["max_slip_m"].iloc[-1])
+
+
+def test_batch_rejects_invalid_arguments(folder):
+    """One sentence each."""
+    block = seisblock.Block(0.2, 1.0)
+    with pytest.raises(ParameterError, match="unknown batch solver 'fly'"):
+        seisblock.run_batch("records", [block], "fly")
+    with pytest.raises(KindError, match="slide requires SlidingBase"):
+        seisblock.run_batch("records", [block], "slide")
+    with pytest.raises(ParameterError, match="the name 'a'"):
+        seisblock.run_batch("records", [seisblock.Block(0.2, 1.0, name="a"), seisblock.Block(0.3, 1.0, name="a")], "rock")
+    with pytest.raises(ParameterError, match="does not support samples"):
+        seisblock.run_batch("records", [0.2], "slide", runs=3)
+    with pytest.raises(KindError, match="bodies required"):
+        seisblock.run_batch("records", 3.5j, "rock")
+    with pytest.raises(ParameterError, match="at least one"):
+        seisblock.run_batch("records", [], "rock")

@@ -1,0 +1,46 @@
+"""Intervals hold the truth as often as they claim: experiments drawn from what is thought before, and fitted."""
+
+import numpy as np
+import pytest
+
+from seisblock import Observation, fit_block
+from seisblock.studies.fit.block_family import BlockFamily
+from seisblock.studies.fit.dataset import make_experiment
+from seisblock.studies.fit.likelihood import make_lapse_rate
+from seisblock.studies.fit.priors import make_priors
+from seisblock.studies.fit.simulate import outcome_shares
+from tests.studies.fit.conftest import TRUTH, pulse
+
+BOUNDS = {"alpha": (0.1, 0.5)}
+PULSES = 10
+
+
+def truth_in_interval(number):
+    """Return whether the intervals of alpha, scatter and lapses, and the half of alpha's, hold the truth of one experiment."""
+    dice = np.random.default_rng([5, number])
+    family = BlockFamily(make_priors(["alpha"], BOUNDS, scatter=None, block=TRUTH), TRUTH, None, 0.0, 0.0, False, 9.80665)
+    place, lapse = dice.random((1, 2)), dice.choice(make_lapse_rate(None).values)
+    shaking = [Observation(pulse(p, f), True) for p, f in zip(dice.uniform(1.0, 12.0, PULSES), dice.uniform(0.5, 3.0, PULSES), strict=True)]
+    falls = outcome_shares(make_experiment(shaking), family, place, np.ones(PULSES, dtype=int), (9, number))[:, 0] > 0
+    fell = np.where(dice.random(PULSES) < lapse, dice.random(PULSES) < 0.5, falls)
+    seen = [Observation(each.motion, bool(happened)) for each, happened in zip(shaking, fell, strict=True)]
+    truth = {name: float(value[0]) for name, value in family.values(place).items()} | {"lapse": float(lapse)}
+    found = fit_block(seen, free=["alpha"], bounds=BOUNDS, block=TRUTH, runs=4, folds=2, seed=number)
+    inside = [found[name].interval[0] <= value <= found[name].interval[1] for name, value in truth.items()]
+    middle = np.quantile(found.draws["alpha"], [0.25, 0.75])
+    return [*inside, middle[0] <= truth["alpha"] <= middle[1]]
+
+
+def test_fit_intervals_contain_truth_in_six_experiments():
+    """Six experiments, three parameters each: not more misses than one in a hundred such tests has."""
+    found = np.array([truth_in_interval(number) for number in range(6)])
+    assert found[:, :3].sum() >= 13
+    assert 1 <= found[:, 3].sum() <= 5
+
+
+@pytest.mark.slow
+def test_fit_intervals_have_nominal_coverage():
+    """A hundred experiments: 90 % intervals hold 90 %, within what a hundred leave open (three standard deviations), halves a half."""
+    shares = np.mean([truth_in_interval(number) for number in range(100)], axis=0)
+    assert (np.abs(shares[:3] - 0.9) < 0.09).all(), shares
+    assert abs(shares[3] - 0.5) < 0.15, shares
