@@ -23,17 +23,8 @@ _PLOT_PATTERN = re.compile(
     r"\.(?:ps|eps|gif|png|jpe?g|tiff?|pdf|svg|html?)(?:\.gz)?\Z|\.img\.tar\.gz\Z|(?:^|/)(?:\._|__MACOSX/)", re.IGNORECASE
 )
 # gzip's errors are OSErrors, those of unknown compression methods RuntimeErrors
-_DAMAGE_ERRORS = (
-    tarfile.TarError,
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    lzma.LZMAError,
-    RuntimeError,
-    struct.error,
-    ValueError,
-    OSError,
-)
+_FORMAT_ERRORS = (tarfile.TarError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error)
+_DAMAGE_ERRORS = (*_FORMAT_ERRORS, EOFError, RuntimeError, ValueError, OSError)
 """Exceptions raised by the standard library on truncated, damaged or encrypted archives."""
 
 _DECOMPRESSORS: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
