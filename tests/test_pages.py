@@ -15,10 +15,16 @@ ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
 """A page whose lines take seconds each, and lead to files that a test of its own looks at."""
 
 LANGUAGES = {"console", "python", "sh", "toml", "jinja"}
+FILE_OF_A_RECIPE = "# seisblock/"
+"""Head of a block that is a file; tests/architecture/test_recipes.py runs these."""
+
+RECIPES = {name for name, page in PAGES.items() if f"```python\n{FILE_OF_A_RECIPE}" in page.read_text("utf-8")}
 RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE)])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE - RECIPES)]
+)
 def test_page_output_equals_program(name, tmp_path, monkeypatch):
     """What a reader sees is what the commands print at 80 columns, what Python answers, and what the figures' lines draw."""
     monkeypatch.setenv("COLUMNS", "80")
@@ -32,10 +38,10 @@ def test_page_lines_are_all_recognised():
     kinds = {kind for page in PAGES.values() for kind, _ in FENCED.findall(page.read_text("utf-8"))}
     assert {"console", "python", "sh"} <= kinds <= LANGUAGES
     blocks = [block for page in PAGES.values() for kind, block in FENCED.findall(page.read_text("utf-8")) if kind == "python"]
-    assert [block for block in blocks if not block.startswith(">>> ")] == []
+    assert [block for block in blocks if not block.startswith((">>> ", FILE_OF_A_RECIPE))] == []
 
 
-@pytest.mark.parametrize("name", sorted(PAGES))
+@pytest.mark.parametrize("name", sorted(PAGES.keys() - RECIPES))
 def test_shown_commands_and_options_exist(name):
     """Every command and option of a page exists, those that are shown only and those in a sentence too."""
     text = PAGES[name].read_text(encoding="utf-8")
