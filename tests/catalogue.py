@@ -25,7 +25,7 @@ from seisblock.samples import list_samples, sample_directory
 from seisblock.validation import cases
 
 PACKAGE = Path(seisblock.__file__).parent
-GETTEXT_FUNCTIONS = {"lazy_gettext", "gettext", "N_", "info", "warning", "always", "progress", "set_task", "error"}
+GETTEXT_FUNCTIONS = {"lazy_gettext", "gettext", "N_", "info", "warning", "always", "progress", "set_task", "error", "line_error", "qc_flag"}
 CHECK_FUNCTIONS = {"finite", "positive", "non_negative", "in_interval", "fraction", "function", "float_array", "float_vector", "integer"}
 """Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
 

@@ -1,7 +1,7 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per line)
-is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature`, `options` or `names` (one public
+name per line) is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect
@@ -22,10 +22,11 @@ from seisblock.cli.command import SECTIONS
 from seisblock.cli.help import help_rows, paragraphs
 from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.registry import get_solver, solver_names
+from seisblock.readers.registry import list_formats
 from seisblock.references import REFERENCES, cited_commands, command_papers
 from seisblock.report.json.registry import document_commands, json_schema
 
-FENCE = re.compile(r"^```\{(commands|documents|gallery|glossary|literature|options|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|formats|gallery|glossary|literature|options|names)\}\n(.*?)^```$", re.M | re.S)
 DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
@@ -108,6 +109,17 @@ def documents(_: str) -> str:
     return "\n".join((*parts, "## Types that several documents share\n", *(table(name, shared[name]) for name in sorted(shared))))
 
 
+def formats(_: str) -> str:
+    """Return the registered formats of records: names, files of a recording, name in ObsPy."""
+    rows = []
+    for file_format in sorted(list_formats(), key=lambda each: each.name):
+        summary = (inspect.getdoc(inspect.getmodule(file_format.parse)) or "").partition("\n")[0].replace("``", "`")
+        spellings = ", ".join(f"`{name}`" for name in (file_format.name, *file_format.aliases))
+        files = "one of the set" if file_format.file_set else "one file"
+        rows.append(f"| {spellings} | {summary} | {files} | {file_format.obspy_name if file_format.plugin else ''} |")
+    return "\n".join(("| `--format` | contents | give | ObsPy plug-in |", "|---|---|---|---|", *rows, ""))
+
+
 def gallery(_: str) -> str:
     """Return every figure of the pages, with the command that draws it."""
     parts = []
@@ -188,6 +200,7 @@ def glossary(language: str) -> str:
 GENERATORS = {
     "commands": commands,
     "documents": documents,
+    "formats": formats,
     "gallery": gallery,
     "glossary": glossary,
     "literature": literature,

@@ -238,8 +238,8 @@ class SeisblockGroup(click.Group):
 def main() -> None:
     """Seismic response of unanchored objects: sliding, rocking, overturning.
 
-    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded archive), PEER AT2, CSMIP,
-    COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or any format that ObsPy reads. Default: a bundled sample record.
+    RECORD is any strong-motion file: of a format that --format lists (of K-NET or KiK-net: one file of the set, or the downloaded
+    archive), a table, or of any format that ObsPy reads. Default: a bundled sample record.
     """
 
 

@@ -170,7 +170,7 @@ def fit(outcomes: str, source: Source, output: OutputOptions, **params: Any) -> 
 def _read_outcomes(outcomes: str, source: Source, kind: str | None) -> Any:
     from seisblock.cli.load_records import check_single_window, make_preparation
     from seisblock.cli.progress import progress
-    from seisblock.readers.dispatch import ReadOptions
+    from seisblock.readers.options import ReadOptions
     from seisblock.studies.fit.outcome_table import read_outcomes
 
     check_single_window(source)

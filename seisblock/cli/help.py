@@ -63,5 +63,6 @@ def help_rows(parameters: Iterable[click.Parameter], ctx: click.Context) -> Iter
         row = parameter.get_help_record(ctx)
         if row is not None:
             text = getattr(parameter, "help", None) or ""
-            meaning = row[1].replace(text, gettext(text), 1)
+            names = getattr(parameter.type, "names", ())
+            meaning = row[1].replace(text, gettext(text) + (f" {', '.join(names)}" if names else ""), 1)
             yield parameter, (row[0], CLICK_SUFFIX.sub(r"［\1］", meaning) if is_wide(meaning) else meaning)

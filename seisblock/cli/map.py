@@ -113,7 +113,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.cli.write_results import write_results
     from seisblock.core.errors import RecordError
     from seisblock.readers import REAL_SAMPLE
-    from seisblock.readers.dispatch import ReadOptions
+    from seisblock.readers.options import ReadOptions
     from seisblock.report.io.atomic import check_distinct_outputs
     from seisblock.report.io.suffix import check_text_suffix
     from seisblock.report.json.map import document

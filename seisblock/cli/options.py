@@ -14,7 +14,7 @@ from seisblock.cli import shell_completion
 from seisblock.cli.command import argument, option
 from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
-from seisblock.cli.types import SIZE, STOREY, WINDOW
+from seisblock.cli.types import SIZE, STOREY, WINDOW, FormatType
 from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
@@ -137,7 +137,7 @@ _RECORD_OPTIONS = (
         section="Record",
         help="Remove the mean of each component. [default: only for K-NET/KiK-net, whose counts carry an offset]",
     ),
-    option("--format", section="Record", help="File format. [default: recognised from the content]"),
+    option("--format", type=FormatType(), section="Record", help="File format [default: recognised from the content]:"),
     option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the values, where the file states none."),
     option("--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file states none, s."),
     option(

@@ -21,7 +21,7 @@ from seisblock.core.errors import OutputError, ParameterError, RecordError, Seis
 from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
 from seisblock.readers import DEFAULT_SAMPLE
 from seisblock.readers.discover import expand_names, group_files
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.report.io.atomic import check_target, read_table, write_table
 from seisblock.report.io.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.report.json.batch import document

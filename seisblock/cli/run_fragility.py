@@ -19,7 +19,7 @@ from seisblock.cli.progress import progress
 from seisblock.cli.write_results import write_results
 from seisblock.core.errors import OutputError, ParameterError
 from seisblock.core.i18n import gettext, lazy_gettext
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.records import Record
 from seisblock.records.synthetic.suite import DEFAULT_SUITE, parse_suite
 from seisblock.report.exports.knet import write_knet

@@ -6,10 +6,12 @@ import math
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.cli.command import Finite
 from seisblock.core.errors import InputError
+from seisblock.core.format_names import format_names
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
 from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
@@ -45,6 +47,16 @@ class Count(click.ParamType):  # type: ignore[type-arg]
         except InputError as error:
             self.fail(gettext(error.message), param, ctx)
         return count
+
+
+class FormatType(click.types.StringParamType):
+    """Format of a record; help and completion list the names."""
+
+    names = tuple("OBSPY:NAME" if name == "OBSPY" else name for name in format_names())
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Complete the name of a format."""
+        return [CompletionItem(name) for name in self.names if name.startswith(incomplete.upper())]
 
 
 class ContactType(click.ParamType):  # type: ignore[type-arg]

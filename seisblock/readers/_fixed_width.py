@@ -9,13 +9,9 @@ from math import ceil, isfinite
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import MAX_COUNT
-from seisblock.readers.table.parse import raise_line_error
-
-DOS_EOF = "\x1a"
-"""End-of-file character of DOS text files."""
+from seisblock.readers.lines import line_error
 
 _FORTRAN_FORMAT = re.compile(r"\(\s*(\d*)[FEGI](\d+)(?:\.\d+)?\s*\)", re.IGNORECASE)
 
@@ -33,60 +29,28 @@ def parse_fortran_format(text: str) -> tuple[int, int] | None:
     return (per_line, width) if per_line and width else None
 
 
-def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> FloatArray:
-    """Return fixed-width numbers, (count,).
+def parse_fixed_width(name: str, lines: Sequence[str], first: int, count: int, layout: tuple[int, int]) -> tuple[FloatArray, int]:
+    """Return `count` fixed-width numbers, (count,), and the index of the line after them.
 
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    lines : sequence of str
-        Lines of the whole file.
-    first : int
-        Index of the first line of numbers.
-    count : int
-        Number of values stated by the header.
-    layout : tuple of int
-        Numbers per line and field width.
-
-    Raises
-    ------
-    RecordFormatError
-        If the file is too short, a line has the wrong length, or a cell is not a number.
+    `layout` is numbers per line and field width, `first` the index of the first of `lines` with numbers. Raise RecordFormatError if the
+    file is too short, a line has the wrong length, or a cell is not a number.
     """
     per_line, width = layout
     field_lines = lines[first : first + ceil(count / per_line)]
     if count < 1 or len(field_lines) * per_line < count:
-        raise RecordFormatError(
-            "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again",
-            name=name,
-            count=count,
-            line=first + 1,
-        )
+        message = "{name}: file truncated: {count} numbers expected from line {line} on, end of file reached; download the file again"
+        raise RecordFormatError(message, name=name, count=count, line=first + 1)
     values = np.empty(count)
     for row, text in enumerate(field_lines):
         line_count = min(per_line, count - row * per_line)
         line = text.rstrip()
         # a lost or inserted character shifts all later fields of the line
         if len(line) != line_count * width:
-            message = lazy_gettext(
-                "expected {count} numbers of {width} characters each, found {text!r}", count=line_count, width=width, text=line.strip()[:80]
-            )
-            raise_line_error(name, first + row + 1, message)
+            message = "expected {count} numbers of {width} characters each, found {text!r}"
+            raise line_error(message, name, first + row + 1, count=line_count, width=width, text=line.strip()[:80])
         for column in range(line_count):
             values[row * per_line + column] = _parse_field(name, first + row + 1, line[column * width : (column + 1) * width])
-    return values
-
-
-def count_lines(count: int, layout: tuple[int, int]) -> int:
-    """Return the number of lines occupied by `count` numbers.
-
-    Examples
-    --------
-    >>> count_lines(100, (16, 5)), count_lines(80, (8, 10))
-    (7, 10)
-    """
-    return ceil(count / layout[0])
+    return values, first + len(field_lines)
 
 
 def _parse_field(name: str, line: int, cell: str) -> float:
@@ -96,19 +60,13 @@ def _parse_field(name: str, line: int, cell: str) -> float:
         value = float("nan")
     # float() accepts underscores between digits
     if not isfinite(value) or "_" in cell:
-        raise_line_error(name, line, lazy_gettext("expected a number, found {cell!r}", cell=cell.strip()))
+        raise line_error("expected a number, found {cell!r}", name, line, cell=cell.strip())
     return value
 
 
 def parse_sample_count(name: str, line: int, text: str) -> int:
-    """Return the number of samples stated by a header.
-
-    Raises
-    ------
-    RecordFormatError
-        If the text is not a whole number, or below 2.
-    """
+    """Return the number of samples stated by a header; raise RecordFormatError unless it is a whole number of at least 2."""
     # 20 digits suffice to exceed MAX_COUNT; int() of a longer text is slow, and refused beyond 4300 digits
     if not text.strip().isascii() or not text.strip().isdigit() or not 2 <= int(text[:20]) < MAX_COUNT:
-        raise_line_error(name, line, lazy_gettext("expected the number of samples, found {text!r}", text=text.strip()[:40]))
+        raise line_error("expected the number of samples, found {text!r}", name, line, text=text.strip()[:40])
     return int(text)

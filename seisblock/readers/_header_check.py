@@ -1,6 +1,8 @@
-"""Check of the samples against the peak stated in the header."""
+"""Quality flags of files, and checks of the samples against the header."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -8,6 +10,11 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import parse_number
 from seisblock.records import QCFlag
+
+
+def qc_flag(message: str, kind: str, component: str = "", /, **values: object) -> QCFlag:
+    """Return a quality flag with a translatable message, the template first."""
+    return QCFlag(kind, lazy_gettext(message, **({"component": component} if component else {}), **values), component)
 
 
 def half_last_digit(text: str) -> float:
@@ -24,36 +31,39 @@ def half_last_digit(text: str) -> float:
 def flag_peak_mismatch(code: str, peak_text: str, values: FloatArray, unit: str, slack: float) -> tuple[QCFlag, ...]:
     """Return a flag if the largest sample differs from the header peak.
 
-    Parameters
-    ----------
-    code : str
-        Component code.
-    peak_text : str
-        Peak as printed in the header, with sign.
-    values : (n,) array
-        Samples in the unit of the header.
-    unit : str
-        Name of the unit.
-    slack : float
-        Tolerance in this unit, from the printed digits of both.
+    `peak_text` is the peak as printed, with sign; `values`, (n,), and `slack`, the tolerance from the printed digits of both, are in
+    `unit`.
     """
     peak = parse_number(peak_text)
     if peak is None:
-        text = lazy_gettext(
-            "{component}: header peak {text!r} is not a number; peak of the samples not checked", component=code, text=peak_text[:20]
-        )
-        return (QCFlag("header", text, code),)
+        message = "{component}: header peak {text!r} is not a number; peak of the samples not checked"
+        return (qc_flag(message, "header", code, text=peak_text[:20]),)
     extremes = np.array([values.max(), values.min()])
     # both extremes when their sizes agree within the rounding: the header may state either
     largest = extremes[np.abs(extremes) >= np.abs(extremes).max() - slack]
     # 1e-6: rounding of the tolerance itself
     if (np.abs(largest - peak) <= slack * (1.0 + 1e-6)).any():
         return ()
-    text = lazy_gettext(
-        "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}",
-        component=code,
-        told=peak,
-        unit=unit,
-        peak=float(largest[0]),
-    )
-    return (QCFlag("header", text, code),)
+    message = "{component}: header peak {told:g} {unit} differs from the peak of the samples, {peak:g} {unit}"
+    return (qc_flag(message, "header", code, told=peak, unit=unit, peak=float(largest[0])),)
+
+
+def flag_count(promised: int, count: int) -> tuple[QCFlag, ...]:
+    """Return a flag if the number of samples differs from the one in the header."""
+    if promised == count:
+        return ()
+    return (qc_flag("header states {promised} samples, file contains {count}", "count", promised=promised, count=count),)
+
+
+def flag_duration(text: str, count: int, dt: float, slack: float | None = None, *, counts: Sequence[int] = ()) -> tuple[QCFlag, ...]:
+    """Return a flag if the duration printed in the header, s, differs from that of `count` samples at intervals of `dt`, s.
+
+    `slack`, s, is by default 1.5 intervals and half the last printed digit: the duration may count samples or intervals. `counts` are the
+    numbers of intervals that the duration may state (default: `count`).
+    """
+    seconds = parse_number(text)
+    slack = 1.5 * dt + half_last_digit(text) if slack is None else slack
+    if seconds is not None and any(abs(seconds - intervals * dt) <= slack for intervals in counts or (count,)):
+        return ()
+    message = "header duration {text} s differs from the duration of {count} samples, {seconds:g} s"
+    return (qc_flag(message, "count", text=text[:20] or "-", count=count, seconds=count * dt),)

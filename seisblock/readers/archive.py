@@ -22,19 +22,9 @@ from seisblock.readers.source import BytesReader, RawFile
 _PLOT_PATTERN = re.compile(
     r"\.(?:ps|eps|gif|png|jpe?g|tiff?|pdf|svg|html?)(?:\.gz)?\Z|\.img\.tar\.gz\Z|(?:^|/)(?:\._|__MACOSX/)", re.IGNORECASE
 )
-_DAMAGE_ERRORS = (
-    tarfile.TarError,
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    gzip.BadGzipFile,
-    lzma.LZMAError,
-    NotImplementedError,
-    RuntimeError,
-    struct.error,
-    ValueError,
-    OSError,
-)
+# gzip's errors are OSErrors, those of unknown compression methods RuntimeErrors
+_FORMAT_ERRORS = (tarfile.TarError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error)
+_DAMAGE_ERRORS = (*_FORMAT_ERRORS, EOFError, RuntimeError, ValueError, OSError)
 """Exceptions raised by the standard library on truncated, damaged or encrypted archives."""
 
 _DECOMPRESSORS: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
@@ -65,21 +55,8 @@ def list_members(blob: RawFile, budget: ReadBudget) -> list[RawFile]:
 def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[RawFile]:
     """Yield the files in an archive and in nested archives, without plots and sparse members.
 
-    Parameters
-    ----------
-    blob : RawFile
-        Archive.
-    budget : ReadBudget
-        Read limits; declared member sizes are checked before reading.
-    depth : int
-        Nesting depth, 1 for an archive that is not inside another.
-
-    Raises
-    ------
-    RecordFormatError
-        If the archive is damaged or encrypted.
-    RecordError
-        If it exceeds a limit.
+    Declared member sizes are checked against the budget before reading; `depth` is 1 for an archive that is not inside another. Raise
+    RecordFormatError if the archive is damaged or encrypted, RecordError if it exceeds a limit.
     """
     budget.check_nesting(blob.name, depth)
     members = _iter_archive(blob, budget)
@@ -90,11 +67,8 @@ def iter_members(blob: RawFile, budget: ReadBudget, depth: int = 1) -> Iterator[
         except InputError:
             raise
         except _DAMAGE_ERRORS as error:
-            raise RecordFormatError(
-                "{name}: archive damaged or encrypted ({error}); download it again or unpack it first",
-                name=blob.name,
-                error=str(error)[:200],
-            ) from error
+            message = "{name}: archive damaged or encrypted ({error}); download it again or unpack it first"
+            raise RecordFormatError(message, name=blob.name, error=str(error)[:200]) from error
         if member is None:
             return
         if not member.data:

@@ -1,4 +1,4 @@
-"""Assembly of files or channels of one recording into one record."""
+"""Third stage of reading: components of one recording to one record."""
 
 from __future__ import annotations
 
@@ -7,32 +7,21 @@ from dataclasses import replace
 
 from seisblock.core.errors import ComponentError, RecordError
 from seisblock.core.i18n import lazy_gettext
+from seisblock.readers.registry import find_format
 from seisblock.readers.source import MAX_QUOTED_LENGTH
 from seisblock.records import Component, Record
 from seisblock.records.site import matches_station
 
 LEVELS = ("surface", "borehole")
 _COMPONENT_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # other codes: before the vertical
-SYNCHRONOUS_FORMATS = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
-"""Formats whose components have a common start but may differ in length."""
-
 TRIM_TOLERANCE = 0.05
 """Largest relative excess in length over the shortest component that is trimmed."""
 
 
 def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
-    """Return one record from parts with a common station, level, start and sampling interval.
+    """Return one record from parts, at least one, with a common station, level, start and sampling interval.
 
-    Parameters
-    ----------
-    name : str
-        Source name, for messages.
-    parts : sequence of Record
-        At least one part, with one or several components each.
-    station : str or None
-        Station to select if there are several.
-    level : {"surface", "borehole"} or None
-        Sensor of a KiK-net station; None selects the surface sensor if present.
+    `station` selects one of several. `level` is the sensor of a station with two; None selects the surface sensor if present.
 
     Raises
     ------
@@ -45,9 +34,8 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     # formats without a time are compared by their event
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in selected_parts})
     if len(starts) > 1:
-        raise RecordError(
-            "{name}: start times differ ({starts}), so the files are not one recording; read them separately", name=name, starts=starts
-        )
+        message = "{name}: start times differ ({starts}), so the files are not one recording; read them separately"
+        raise RecordError(message, name=name, starts=starts)
     intervals = sorted({p.dt for p in selected_parts})
     if len(intervals) > 1:
         interval_texts = [f"{dt:g} s" for dt in intervals]
@@ -55,7 +43,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     components = [c for part in selected_parts for c in part.components]
     history = dict.fromkeys(line for part in selected_parts for line in part.history)
     # other formats with unequal lengths are rejected by Record
-    if selected_parts[0].format in SYNCHRONOUS_FORMATS:
+    if find_format(selected_parts[0].format).synchronous:
         components, trim_notes = _trim_to_shortest(components)
         history.update(dict.fromkeys(trim_notes))
     components.sort(key=lambda c: _COMPONENT_ORDER.get(c.code, 2))
@@ -94,9 +82,8 @@ def _select_station(name: str, parts: Sequence[Record], station: str | None) -> 
             raise ComponentError("{name}: no station {station!r}; available: {listed}", name=name, station=station, listed=station_names)
         return matching_parts
     if len(stations) > 1:
-        raise ComponentError(
-            "{name} contains {count} stations; select one with `station`: {listed}", name=name, count=len(stations), listed=station_names
-        )
+        message = "{name} contains {count} stations; select one with `station`: {listed}"
+        raise ComponentError(message, name=name, count=len(stations), listed=station_names)
     return parts
 
 
@@ -113,13 +100,8 @@ def _select_level(name: str, parts: Sequence[Record], level: str | None) -> tupl
     matching_parts = [p for p in parts if p.metadata.get("level") == selected_level]
     if not matching_parts:
         raise ComponentError("{name}: no {taken} sensor; available: {levels}", name=name, taken=selected_level, levels=sorted(levels))
-    reason = (
-        lazy_gettext("selected by `level`")
-        if level
-        else lazy_gettext("default")
-        if len(levels) > 1
-        else lazy_gettext("only sensor in the files")
-    )
+    default_reason = lazy_gettext("default") if len(levels) > 1 else lazy_gettext("only sensor in the files")
+    reason = lazy_gettext("selected by `level`") if level else default_reason
     text = "KiK-net surface sensor used ({why})" if selected_level == "surface" else "KiK-net borehole sensor used ({why})"
     return matching_parts, (lazy_gettext(text, why=reason),)
 
@@ -132,13 +114,8 @@ def _trim_to_shortest(components: Sequence[Component]) -> tuple[list[Component],
         return list(components), []
     length_texts = [f"{c.code} {n}" for c, n in zip(components, lengths, strict=True)]
     trimmed_components = [replace(c, acceleration=c.acceleration[:min_length]) for c in components]
-    return trimmed_components, [
-        lazy_gettext(
-            "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})",
-            shortest=min_length,
-            lengths=length_texts,
-        )
-    ]
+    message = "all components truncated to the shortest, {shortest} samples (file lengths: {lengths})"
+    return trimmed_components, [lazy_gettext(message, shortest=min_length, lengths=length_texts)]
 
 
 def _merge_metadata(parts: Sequence[Record]) -> dict[str, object]:

@@ -45,18 +45,10 @@ _SEED_POINTS = {"N": "NS", "E": "EW", "Z": "UD"}
 class Direction:
     """A direction of ground motion.
 
-    Parameters
-    ----------
-    code : str
-        ``NS``, ``EW``, ``UD``; the azimuth in degrees (``164``); else the name of an axis of unknown azimuth.
-    azimuth_deg : float or None
-        Azimuth of the positive direction, degrees clockwise from north; None if vertical or unknown.
-    sign : float
-        -1 if the name is positive down; samples are converted to ``UD``, positive up.
-    is_bare_number : bool
-        A number without a degree mark: an azimuth only together with a perpendicular one.
-    velocity : bool
-        SEED code of a velocity sensor.
+    `code` is ``NS``, ``EW``, ``UD``, the azimuth in degrees (``164``), or the name of an axis of unknown azimuth; `azimuth_deg` the azimuth
+    of the positive direction, degrees clockwise from north. `sign` is -1 if the name is positive down: samples are converted to ``UD``,
+    positive up. A bare number has no degree mark: an azimuth only together with a perpendicular one. `velocity` marks the SEED code of a
+    velocity sensor.
     """
 
     code: str

@@ -1,4 +1,4 @@
-"""Discovery of recordings in files, folders, patterns, lists and archives.
+"""First stage of reading: names of files, folders, patterns, lists and archives to named bytes, one recording at a time.
 
 Files are grouped into recordings by name, as one component stands for its set; nothing is read before its turn. Of an archive, only
 members of incomplete sets are buffered.
@@ -9,23 +9,20 @@ from __future__ import annotations
 import glob
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
-from seisblock.core.errors import InputError, RecordFormatError, RecordNotFoundError, os_error_text
-from seisblock.core.io.files import read_bytes
+from seisblock.core.errors import InputError, RecordError, RecordFormatError, RecordNotFoundError, os_error_text
+from seisblock.core.i18n import lazy_gettext
+from seisblock.core.io.files import read_bytes as read_list
 from seisblock.core.io.overwrite import mark_read
 from seisblock.readers.archive import is_archive, iter_members
-from seisblock.readers.components import channel_file_set, knet_file_set
-from seisblock.readers.detect import OBSPY, detect_format
-from seisblock.readers.dispatch import ReadOptions
-from seisblock.readers.formats.at2 import split_direction
 from seisblock.readers.limits import ReadBudget
 from seisblock.readers.member_buffer import MemberBuffer
-from seisblock.readers.read import read, record_from_files
-from seisblock.readers.source import RawFile, open_source, resolve_path
-from seisblock.records import Record
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.registry import FALLBACK, HEAD_BYTES, Format, detect_format, format_titles, list_formats, match_head
+from seisblock.readers.source import RawFile, open_source, read_bytes, resolve_path
 
 LIST_PREFIX = "@"
 """Prefix of the name of a record list."""
@@ -33,25 +30,15 @@ LIST_PREFIX = "@"
 _IGNORED_SUFFIXES = frozenset({".md", ".pdf", ".png", ".jpg", ".jpeg", ".gif", ".ps", ".html", ".toml", ".py", ".parquet", ".journal"})
 """Suffixes of files in a folder that are skipped without reading."""
 
+_COMPONENT_ORDER = {"NS": 0.0, "EW": 1.0, "UD": 2.0}
+
 
 @dataclass(frozen=True)
 class RecordSource:
     """One recording to be read.
 
-    Parameters
-    ----------
-    name : str
-        File name of its first file.
-    path : str
-        Path of its first file; archive/member for a member of an archive.
-    stamp : str
-        Sizes and modification times of its files; identifies the content under this path.
-    files : tuple of str
-        Files of the recording; empty if `blobs` are given.
-    blobs : tuple of RawFile
-        Archive members of the recording.
-    failure : InputError or None
-        Error that prevents reading.
+    `name` and `path` are those of its first file (archive/member in an archive); `stamp`, the sizes and modification times of its files,
+    identifies the content under this path. The bytes are in `files` or, of an archive, in `blobs`; `failure` prevents reading.
     """
 
     name: str
@@ -65,21 +52,6 @@ class RecordSource:
     def key(self) -> tuple[str, str]:
         """Identity: path and stamp."""
         return self.path, self.stamp
-
-    def read(self, options: ReadOptions) -> Record:
-        """Return the record, read with a fresh budget.
-
-        Raises
-        ------
-        InputError
-            If the recording cannot be read.
-        """
-        if self.failure is not None:
-            raise self.failure
-        if self.blobs:
-            return record_from_files(self.path, self.blobs, replace(options, budget=ReadBudget()))
-        read_options = {key: getattr(options, key) for key in ("format", "units", "dt", "station", "level")}
-        return read(list(self.files), **read_options)
 
 
 def iter_records(names: Iterable[str], options: ReadOptions) -> Iterator[RecordSource]:
@@ -132,16 +104,13 @@ def _expand_name(name: str, options: ReadOptions, open_lists: tuple[str, ...] = 
         if not matches:
             raise RecordNotFoundError("no file matches the pattern {name}", name=name)
         yield from matches
+    elif exists:
+        yield name
     else:
-        yield name if exists else _sample_path(name)
-
-
-def _sample_path(name: str) -> str:
-    """Return the path of a bundled sample, else the name unchanged, which fails on reading."""
-    try:
-        return str(resolve_path(name))
-    except RecordNotFoundError:
-        return name
+        # an unknown name fails on reading
+        with suppress(RecordNotFoundError):
+            name = str(resolve_path(name))
+        yield name
 
 
 def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) -> Iterator[str]:
@@ -150,7 +119,7 @@ def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) 
     if real_path in open_lists:
         raise RecordNotFoundError("{name}: the record list contains itself; remove that line", name=path)
     try:
-        lines = read_bytes(path, str(path), RecordNotFoundError).decode("utf-8-sig").splitlines()
+        lines = read_list(path, str(path), RecordNotFoundError).decode("utf-8-sig").splitlines()
     except UnicodeDecodeError as error:
         raise RecordNotFoundError("{name}: cannot read the record list: {reason}", name=path, reason=str(error)) from error
     entries = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith("#")]
@@ -164,9 +133,8 @@ def _expand_list(path: Path, options: ReadOptions, open_lists: tuple[str, ...]) 
 def _expand_folder(path: Path, options: ReadOptions) -> Iterator[str]:
     """Yield the files in a folder and its subfolders that may be records."""
     try:
-        files = sorted(
-            file for file in path.rglob("*") if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)
-        )
+        paths = sorted(path.rglob("*"))
+        files = [file for file in paths if file.is_file() and not any(p.startswith(".") for p in file.relative_to(path).parts)]
     except OSError as error:
         raise RecordNotFoundError("{name}: cannot read the folder: {reason}", name=path, reason=os_error_text(error)) from error
     candidates = [str(file) for file in files if options.format is not None or _may_be_record(file)]
@@ -184,34 +152,26 @@ def _may_be_record(path: Path) -> bool:
             head = stream.read(65536)
     except OSError:
         return True  # reading reports the error later
-    return bool(head.strip()) and (is_archive(head) or detect_format(RawFile(str(path), head)) != OBSPY)
+    return bool(head.strip()) and (is_archive(head) or _has_own_format(RawFile(str(path), head)))
 
 
-class _FileSet(NamedTuple):
-    """Common name key of the files of one recording, and the number of files in a complete set."""
-
-    key: tuple[str, ...]
-    size: int
+def _has_own_format(blob: RawFile) -> bool:
+    return detect_format(blob).name != FALLBACK
 
 
-def _file_set(name: str) -> _FileSet:
-    """Return the set of a file by its name; a set of one for other names."""
+def _file_set(name: str) -> tuple[tuple[str, ...], int]:
+    """Return the set of a file by its name, with its folder, and the size of the set; a set of one for other names."""
     path = Path(name)
-    knet = knet_file_set(path.name)
-    if knet is not None:
-        return _FileSet((str(path.parent), knet[0].upper()), knet[1])
-    channels = channel_file_set(path.name)
-    if channels is not None:
-        return _FileSet((str(path.parent), channels.upper()), 3)
-    at2 = split_direction(path.name) if path.suffix.lower() == ".at2" else None
-    return _FileSet((name,), 1) if at2 is None else _FileSet((str(path.parent), at2[0].upper()), 3)
+    file_sets = (f.file_set(path.name) for f in list_formats() if f.file_set is not None)
+    file_set = next((item for item in file_sets if item is not None), None)
+    return ((name,), 1) if file_set is None else ((str(path.parent), file_set.key.upper()), file_set.size)
 
 
 def group_files(files: Iterable[str], options: ReadOptions) -> Iterator[RecordSource]:
     """Yield the recordings made up of files, in the order of their first files."""
     sets: dict[tuple[str, ...], list[str]] = {}
     for name in files:
-        sets.setdefault(_file_set(name).key, []).append(name)
+        sets.setdefault(_file_set(name)[0], []).append(name)
     for members in sets.values():
         for member in members:
             mark_read(Path(member))
@@ -250,8 +210,7 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
     with MemberBuffer() as buffer:
         try:
             for member in iter_members(open_source(path, archive_budget), archive_budget):
-                # members such as notes are skipped unless the options declare them to be records
-                if options.format is None and options.units is None and detect_format(member) == OBSPY:
+                if not _may_be_member(member, options):
                     continue
                 key, size = _file_set(member.name)
                 member_count += 1
@@ -262,12 +221,81 @@ def _iter_archive_sources(path: Path, options: ReadOptions) -> Iterator[RecordSo
             yield RecordSource(path.name, str(path), stamp, failure=error)
         else:
             if not member_count:
-                yield RecordSource(
-                    path.name, str(path), stamp, failure=RecordFormatError("{name}: no record found in this archive", name=path)
-                )
+                failure = RecordFormatError("{name}: no record found in this archive", name=path)
+                yield RecordSource(path.name, str(path), stamp, failure=failure)
         for incomplete_key in buffer.keys:
             yield _archive_source(buffer.pop(incomplete_key), stamp)
 
 
 def _archive_source(members: list[RawFile], stamp: str) -> RecordSource:
     return RecordSource(members[0].basename, members[0].name, stamp, blobs=tuple(members))
+
+
+def _may_be_member(blob: RawFile, options: ReadOptions) -> bool:
+    """Return whether a member of an archive may be a record; notes are skipped unless the options declare them to be records."""
+    return options.format is not None or options.units is not None or _has_own_format(blob)
+
+
+def unpack(blob: RawFile, options: ReadOptions) -> list[RawFile]:
+    """Return the records in an archive, nested archives included, or a file that is not an archive.
+
+    Raise RecordFormatError if the archive is damaged or no member is a record, RecordError if it exceeds a limit.
+    """
+    if not is_archive(blob.content[:512]):
+        return [blob]
+    members = list(iter_members(blob, options.budget))
+    records = [member for member in members if _may_be_member(member, options)]
+    if not records:
+        message = "{name}: no record found in this archive (contents: {held}); expected {formats}, or a plain table"
+        contents = [member.basename for member in members[:8]] or lazy_gettext("plots only")
+        raise RecordFormatError(message, name=blob.name, held=contents, formats=format_titles())
+    return records
+
+
+def load_component_files(blob: RawFile, budget: ReadBudget, level: str | None = None) -> list[RawFile]:
+    """Return a file and the other component files of its set in the same folder, in the order NS, EW, others, UD.
+
+    Files belong together by their names and, where the format has such entries, by their headers. For a station with two sensors, the
+    files of the same sensor or of the sensor `level`.
+
+    Raises
+    ------
+    RecordError
+        If a component file cannot be read.
+    """
+    file_format = match_head(blob.content[:HEAD_BYTES])
+    if file_format is None or file_format.file_set is None or blob.path is None:
+        return [blob]
+    own_set = file_format.file_set(blob.path.name)
+    if own_set is None:
+        return [blob]
+    level = level if level and own_set.level else own_set.level
+    files: dict[str, RawFile] = {}
+    for path in _directory_files(blob.path):
+        file_set = file_format.file_set(path.name)
+        if file_set is not None and (file_set.key, file_set.level) == (own_set.key, level):
+            file = blob if path == blob.path else _load_file(path, blob, budget)
+            if _recording_key(file_format, file) == _recording_key(file_format, blob):
+                # by component: of two files with one direction, the last
+                files[file_set.component] = file
+    if not files or (level == own_set.level and not any(file is blob for file in files.values())):
+        return [blob]
+    return [files[code] for code in sorted(files, key=lambda code: (_COMPONENT_ORDER.get(code, 1.5), code))]
+
+
+def _recording_key(file_format: Format, blob: RawFile) -> object:
+    return None if file_format.recording_key is None else file_format.recording_key(blob.content[: 2 * HEAD_BYTES])
+
+
+def _directory_files(path: Path) -> list[Path]:
+    try:
+        return sorted(p for p in path.parent.iterdir() if p.is_file())
+    except OSError:
+        return [path]
+
+
+def _load_file(path: Path, origin: RawFile, budget: ReadBudget) -> RawFile:
+    try:
+        return RawFile(str(path), read_bytes(path, str(path), budget), path)
+    except RecordError as error:
+        raise RecordError("{error} (component file of the same set as {name})", error=error.message, name=origin.name) from error

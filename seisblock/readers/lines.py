@@ -10,9 +10,13 @@ from typing import overload
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
+from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import IntArray
 from seisblock.readers import source
 from seisblock.readers.source import FileBytes, RawFile, decode_text, is_binary
+
+DOS_EOF = "\x1a"
+"""End-of-file character of DOS text files."""
 
 CHUNK_LINES = 2**16
 """Lines decoded at a time."""
@@ -22,17 +26,8 @@ CHUNK_LINES = 2**16
 class LazyLines(Sequence[str]):
     """Lines of a large text file, decoded on access.
 
-    Parameters
-    ----------
-    data : bytes or FileBytes
-        Bytes of the whole file.
-    encoding : str
-    offsets : (m,) array of int
-        Byte offsets of every ``CHUNK_LINES``-th line, and of the end of the data.
-    begin, stop : int
-        Range of the lines in the file.
-    transforms : tuple of callable
-        Functions applied to each line, in this order.
+    `offsets` are the byte offsets of every ``CHUNK_LINES``-th line, and of the end of the data; `begin` and `stop` the range of the lines
+    in the file; `transforms` functions applied to each line, in this order.
     """
 
     data: bytes | FileBytes
@@ -81,13 +76,7 @@ class LazyLines(Sequence[str]):
 
 
 def read_lines(blob: RawFile) -> Sequence[str]:
-    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode_text`.
-
-    Raises
-    ------
-    RecordFormatError
-        If the bytes are not text.
-    """
+    """Return the lines of a text file, see :func:`~seisblock.readers.source.decode_text`; raise RecordFormatError if it is not text."""
     data = blob.content
     if len(data) < source.LARGE_FILE_BYTES or not _has_simple_line_ends(blob):
         return decode_text(blob).split("\n")
@@ -102,6 +91,17 @@ def read_lines(blob: RawFile) -> Sequence[str]:
             continue
         return lines
     raise RecordFormatError("{name}: not a text file (UTF-8, Shift-JIS or EUC-JP): expected a record in a text format", name=blob.name)
+
+
+def read_trimmed_lines(blob: RawFile) -> list[str]:
+    """Return the lines of a text file without DOS end-of-file characters and blank lines at the end."""
+    return decode_text(blob).replace(DOS_EOF, "").rstrip().split("\n")
+
+
+def line_error(message: str, name: str, line: int, /, **values: object) -> RecordFormatError:
+    """Return the error of a line, counted from 1, of the file `name`; the template says what was expected, and what was found."""
+    what = lazy_gettext(message, **values)
+    return RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=what)
 
 
 def map_lines(lines: Sequence[str], transform: Callable[[str], str]) -> Sequence[str]:

@@ -22,12 +22,7 @@ class _BufferedMember(NamedTuple):
 
 @dataclass
 class MemberBuffer:
-    """Archive members grouped by key, spooled to a temporary file.
-
-    Parameters
-    ----------
-    in_memory : int
-        Bytes kept in memory before a temporary file is used.
+    """Archive members grouped by key, spooled to a temporary file beyond `in_memory` bytes.
 
     Examples
     --------
@@ -50,24 +45,14 @@ class MemberBuffer:
         self._open.close()
 
     def add(self, key: Hashable, blob: RawFile) -> int:
-        """Store a member and return the number of members under its key.
-
-        Raises
-        ------
-        RecordError
-            If the temporary file cannot be written.
-        """
+        """Store a member and return the number of members under its key; raise RecordError if the file cannot be written."""
         members = self._sets.setdefault(key, [])
         try:
             begin = self._file.seek(0, 2)
             self._file.write(blob.data)
         except OSError as error:
-            raise RecordError(
-                "{name}: cannot write a temporary file in {folder}: {reason}",
-                name=blob.name,
-                folder=tempfile.gettempdir(),
-                reason=os_error_text(error),
-            ) from error
+            message = "{name}: cannot write a temporary file in {folder}: {reason}"
+            raise RecordError(message, name=blob.name, folder=tempfile.gettempdir(), reason=os_error_text(error)) from error
         members.append(_BufferedMember(blob.name, begin, len(blob.content)))
         return len(members)
 

@@ -1,19 +1,22 @@
-"""Reading of records: files, component sets, archives and bundled samples."""
+"""Reading of records in three stages: names to named bytes (discover), bytes to components (parse), components to records (assemble)."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 
 from seisblock.core import checks
 from seisblock.core.errors import ComponentError, KindError, ParameterError
 from seisblock.readers._memory import trim_heap
 from seisblock.readers.assemble import assemble, belongs_to_recording
-from seisblock.readers.components import load_component_files
-from seisblock.readers.dispatch import ReadOptions, read_parts
+from seisblock.readers.discover import RecordSource, load_component_files, unpack
+from seisblock.readers.limits import ReadBudget
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.parse import parse_file
 from seisblock.readers.source import STDIN, Location, RawFile, open_source, sha256_digest
 from seisblock.records import Record
 from seisblock.records.qc import run_qc
@@ -42,11 +45,11 @@ def read(
     Parameters
     ----------
     source : path, or sequence of paths
-        File of any format listed below, or name of a bundled sample. One component of a set (K-NET, KiK-net, PEER AT2, SMC, ESM, COSMOS)
-        includes the other components in the same folder. Several paths are read as ONE record.
+        File of any registered format, or name of a bundled sample. One component file of a set, as of K-NET, includes the other
+        components in the same folder. Several paths are read as ONE record.
     format : str or None
-        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CWA``, ``CSV``, or
-        ``OBSPY:`` followed by a format of obspy. None detects the format from the content.
+        Name of a format, see :func:`~seisblock.core.format_names.format_names`, as ``JMA-CSV`` or ``AT2``, or ``OBSPY:`` followed by a
+        format of obspy. None detects the format from the content.
     units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Unit of files that do not state it.
     dt : float or None, s
@@ -86,7 +89,13 @@ def read(
     sources = _as_list(source)
     if not sources:
         raise ParameterError("no record given: give at least one file")
-    return _assemble_record([_open_and_parse(s, options) for s in sources], options)
+    group = [_open_and_parse(s, options) for s in sources]
+    stations = {part.station for opened_source in group for part in opened_source.parts}
+    if station == ALL_STATIONS and len(stations) > 1:
+        message = "{name} contains {count} stations, but one record is needed; select one with `station`"
+        raise ComponentError(message, name=_group_name(group), count=len(stations))
+    (record,) = _assemble_records(group, replace(options, station=None if station == ALL_STATIONS else station))
+    return record
 
 
 def read_all(
@@ -122,28 +131,33 @@ def read_all(
     names = [str(s) for s in _as_list(sources)]
     _check_duplicates(names)
     for name in names:
-        opened_source = _open_and_parse(name, options)
-        matching_group = next(
-            (g for g in groups if belongs_to_recording(opened_source.parts, [part for member in g for part in member.parts])), None
-        )
-        if matching_group is None:
-            groups.append([opened_source])
+        source = _open_and_parse(name, options)
+        matching_groups = (g for g in groups if belongs_to_recording(source.parts, [part for member in g for part in member.parts]))
+        group = next(matching_groups, None)
+        if group is None:
+            groups.append([source])
         else:
-            matching_group.append(opened_source)
+            group.append(source)
     named_paths = frozenset(opened_source.blob.path for g in groups for opened_source in g)
     return [record for g in groups for record in _assemble_records(g, options, named_paths)]
 
 
-def record_from_files(name: str, blobs: Sequence[RawFile], options: ReadOptions) -> Record:
-    """Return the record in the given bytes, without a search for companion files.
+def read_source(source: RecordSource, options: ReadOptions) -> Record:
+    """Return the record of a discovered recording, read with a fresh budget.
 
     Raises
     ------
     InputError
-        As for `read`.
+        If the recording cannot be read.
     """
-    parts = [part for blob in blobs for part in read_parts(blob, options)]
-    return run_qc(replace(assemble(name, parts, level=_applicable_level(parts, options.level)), sha256=sha256_digest(blobs)))
+    if source.failure is not None:
+        raise source.failure
+    if not source.blobs:
+        return read(list(source.files), **options.keywords)
+    options = replace(options, budget=ReadBudget())
+    parts = [part for blob in source.blobs for part in parse_file(blob, options)]
+    record = assemble(source.path, parts, level=_applicable_level(parts, options.level))
+    return run_qc(replace(record, sha256=sha256_digest(source.blobs)))
 
 
 def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
@@ -156,81 +170,67 @@ def _as_list(locations: Location | Iterable[Location]) -> list[Location]:
 
 def _check_duplicates(names: Sequence[str]) -> None:
     """Raise if a file is given more than once; results would count it as several records."""
-    counts = Counter(str(Path(name).absolute()) for name in names if name != STDIN)
-    repeated_names = [name for name in dict.fromkeys(names) if counts[str(Path(name).absolute())] > 1]
-    if repeated_names or names.count(STDIN) > 1:
-        raise ParameterError(
-            "{name} is given {count} times; give each record once",
-            name=repeated_names[0] if repeated_names else STDIN,
-            count=counts[str(Path(repeated_names[0]).absolute())] if repeated_names else names.count(STDIN),
-        )
+    counts = Counter(STDIN if name == STDIN else str(Path(name).absolute()) for name in names)
+    for name in names:
+        count = counts[STDIN if name == STDIN else str(Path(name).absolute())]
+        if count > 1:
+            raise ParameterError("{name} is given {count} times; give each record once", name=name, count=count)
 
 
-@dataclass(frozen=True)
-class OpenedSource:
-    """Source as given, with its bytes and the parts read from them."""
+class OpenedSource(NamedTuple):
+    """Bytes of a source as given, and the parts read from them."""
 
-    name: str
     blob: RawFile
     parts: list[Record]
 
 
 def _open_and_parse(source: Location, options: ReadOptions) -> OpenedSource:
     blob = open_source(source, options.budget)
-    return OpenedSource(blob.name, blob, read_parts(blob, options))
+    return OpenedSource(blob, _parse_parts(blob, options))
 
 
-def _assemble_records(group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None]) -> list[Record]:
-    """Return one record from sources, or one per station if all are selected."""
+def _group_name(group: Sequence[OpenedSource]) -> str:
+    return ", ".join(opened_source.blob.name for opened_source in group)
+
+
+def _parse_parts(blob: RawFile, options: ReadOptions) -> list[Record]:
+    """Return the records, or single components, in a file or an archive."""
+    files = unpack(blob, options)
+    bundle = {} if files[0] is blob else {"bundle": blob.name}
+    parts = [part for file in files for part in parse_file(file, options)]
+    return [replace(part, metadata={**part.metadata, **bundle}) for part in parts] if bundle else parts
+
+
+def _assemble_records(
+    group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None] = frozenset()
+) -> list[Record]:
+    """Return one record from sources, or one per station if all are selected; files in `named_paths` are not used as companions."""
+    parts, blobs = _load_components(group, options, named_paths)
+    name = _group_name(group)
     if options.station != ALL_STATIONS:
-        return [_assemble_record(group, options, named_paths)]
-    name, parts, blobs = _load_components(group, options, named_paths)
-    recordings: dict[tuple[object, ...], list[Record]] = {}
-    for part in parts:
-        recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
+        records = [assemble(name, parts, station=options.station, level=options.level)]
+    else:
+        recordings: dict[tuple[object, ...], list[Record]] = {}
+        for part in parts:
+            recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
+        records = [assemble(name, p, level=_applicable_level(p, options.level)) for p in recordings.values()]
     sha256 = sha256_digest(blobs)
-    return [
-        _finish_record(replace(assemble(name, group_parts, level=_applicable_level(group_parts, options.level)), sha256=sha256))
-        for group_parts in recordings.values()
-    ]
-
-
-def _assemble_record(group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None] = frozenset()) -> Record:
-    """Return one record from sources; files in `named_paths` are not used as companions."""
-    name, parts, blobs = _load_components(group, options, named_paths)
-    if options.station == ALL_STATIONS:
-        station_codes = list(dict.fromkeys(part.station for part in parts))
-        if len(station_codes) > 1:
-            raise ComponentError(
-                "{name} contains {count} stations, but one record is needed; select one with `station`", name=name, count=len(station_codes)
-            )
-    record = assemble(name, parts, station=None if options.station == ALL_STATIONS else options.station, level=options.level)
-    return _finish_record(replace(record, sha256=sha256_digest(blobs)))
-
-
-def _finish_record(record: Record) -> Record:
-    """Return a record with the flags of :func:`run_qc`, and release memory after large ones."""
-    checked = run_qc(record)
-    if len(record.components) * record.components[0].acceleration.size > _TRIM_SAMPLES:
+    records = [run_qc(replace(record, sha256=sha256)) for record in records]
+    if max(len(record.components) * record.samples for record in records) > _TRIM_SAMPLES:
         trim_heap()
-    return checked
+    return records
 
 
 def _load_components(
     group: Sequence[OpenedSource], options: ReadOptions, named_paths: frozenset[Path | None]
-) -> tuple[str, list[Record], list[RawFile]]:
-    """Return name, parts and bytes of sources; a single file includes its companion files."""
-    name = ", ".join(opened_source.name for opened_source in group)
+) -> tuple[list[Record], list[RawFile]]:
+    """Return parts and bytes of sources; a single file includes its companion files, but for those that are sources themselves."""
     blobs = [opened_source.blob for opened_source in group]
     parts = [part for opened_source in group for part in opened_source.parts]
-    if len(group) == 1:
-        siblings = load_component_files(blobs[0], options.budget, options.level)
-        # companions that are sources themselves are not read twice
-        family = [b for b in siblings if b is blobs[0] or b.path not in named_paths]
-        if family != blobs:
-            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else read_parts(blob, options))]
-            blobs = family
-    return name, parts, blobs
+    if len(group) > 1:
+        return parts, blobs
+    family = [b for b in load_component_files(blobs[0], options.budget, options.level) if b is blobs[0] or b.path not in named_paths]
+    return [part for b in family for part in (parts if b is blobs[0] else _parse_parts(b, options))], family
 
 
 def _applicable_level(parts: Sequence[Record], level: str | None) -> str | None:

@@ -45,16 +45,7 @@ LARGE_FILE_BYTES = 2**25
 
 @dataclass(frozen=True)
 class FileBytes:
-    """Bytes of a large file, read on access.
-
-    Parameters
-    ----------
-    path : Path
-    name : str
-        Source name, for messages.
-    stamp : tuple of int
-        Identity and modification time of the file when opened.
-    """
+    """Bytes of a large file, read on access; `stamp` is its identity and modification time when opened, `name` its name in messages."""
 
     path: Path
     name: str
@@ -136,14 +127,7 @@ class RawFile:
 
 
 def open_source(source: Location, budget: ReadBudget) -> RawFile:
-    """Return the bytes of a file, a bundled sample or the standard input.
-
-    Parameters
-    ----------
-    source : path
-        ``-`` is the standard input.
-    budget : ReadBudget
-        Read limits.
+    """Return the bytes of a file, a bundled sample or, for ``-``, the standard input.
 
     Raises
     ------
@@ -166,17 +150,7 @@ def open_source(source: Location, budget: ReadBudget) -> RawFile:
 def read_bytes(path: Path, name: str, budget: ReadBudget) -> bytes | FileBytes:
     """Return the bytes of a file or pipe within the limits; large files are read on access.
 
-    Parameters
-    ----------
-    path : Path
-    name : str
-        Source name, for messages.
-    budget : ReadBudget
-
-    Raises
-    ------
-    RecordError
-        If the path is a directory or a device, cannot be read, or exceeds a limit.
+    Raise RecordError if the path is a directory or a device, cannot be read, or exceeds a limit; `name` is the source in messages.
     """
     try:
         info = path.stat()
@@ -234,10 +208,7 @@ def sha256_digest(blobs: Iterable[RawFile]) -> str:
 def decode_text(blob: RawFile) -> str:
     """Return the text of a file in UTF-8, UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, with LF line ends.
 
-    Raises
-    ------
-    RecordFormatError
-        If the bytes are not text.
+    Raise RecordFormatError if the bytes are none of these.
     """
     data = blob.data
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):

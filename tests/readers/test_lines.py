@@ -11,7 +11,7 @@ import pytest
 from seisblock.core.errors import RecordError, RecordFormatError
 from seisblock.readers import lines as pieces
 from seisblock.readers import read, sample_path, source
-from seisblock.readers.limits import new_budget
+from seisblock.readers.limits import ReadBudget
 from seisblock.readers.lines import LazyLines, map_lines, read_lines
 from seisblock.readers.source import FileBytes, RawFile, decode_text, open_source, sha256_digest
 
@@ -135,7 +135,7 @@ def test_large_file_is_read_on_demand(tmp_path, monkeypatch):
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_bytes(bytes(range(32, 59)))
-    spent = new_budget()
+    spent = ReadBudget()
     blob = open_source(path, spent)
     assert isinstance(blob.content, FileBytes) and spent.bytes_read == 27
     assert blob.data == path.read_bytes() and blob.content[3:9] == path.read_bytes()[3:9] and blob.content[-2:] == path.read_bytes()[-2:]
@@ -148,7 +148,7 @@ def test_file_changing_while_read_is_rejected(spoil, tmp_path, monkeypatch):
     monkeypatch.setattr(source, "LARGE_FILE_BYTES", 4)
     path = tmp_path / "x.csv"
     path.write_text("NS (gal)\n1\n2\n")
-    blob = open_source(path, new_budget())
+    blob = open_source(path, ReadBudget())
     spoil(path)
     with pytest.raises(RecordError, match=r"changed while reading|cannot read"):
         read_lines(blob)
@@ -160,4 +160,4 @@ def test_large_blank_file_is_empty(tmp_path, monkeypatch):
     path = tmp_path / "x.csv"
     path.write_text(" \n" * 20)
     with pytest.raises(RecordError, match="empty file"):
-        open_source(path, new_budget())
+        open_source(path, ReadBudget())

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 import io
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ import pytest
 from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
 from seisblock.readers import obspy_plugins, read, sample_path
+from seisblock.readers.registry import list_formats
 from tests.fuzz.formats import FORMATS
 from tests.readers.files import JMA_BODY, JMA_HEADER, KIK_CSV, KNET_CSV, KOBE, knet
 
@@ -84,12 +84,19 @@ def test_plugin_streams_are_in_m_s2_with_header(tmp_path, kind):
 
 
 def test_entry_points_can_be_imported():
-    """The plugins that pyproject declares exist: each name can be imported."""
-    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]["entry-points"]
-    for name in project["obspy.plugin.waveform"]:
-        for target in project[f"obspy.plugin.waveform.{name}"].values():
-            module, function = target.split(":")
-            assert callable(getattr(importlib.import_module(module), function))
+    """The plugins that a build declares are those of the registered formats, and each name can be imported."""
+    root = Path(__file__).parents[2]
+    specification = importlib.util.spec_from_file_location("hatch_build", root / "hatch_build.py")
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    metadata = {}
+    module.Plugins(str(root), {}).update(metadata)
+    groups = metadata["entry-points"]
+    assert set(groups["obspy.plugin.waveform"]) == {each.obspy_name for each in list_formats() if each.plugin}
+    for name in groups["obspy.plugin.waveform"]:
+        for target in groups[f"obspy.plugin.waveform.{name}"].values():
+            module_name, function = target.split(":")
+            assert callable(getattr(importlib.import_module(module_name), function))
 
 
 def test_obspy_read_uses_installed_plugins():

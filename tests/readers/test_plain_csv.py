@@ -258,7 +258,7 @@ def test_too_coarse_times_are_rejected_by_cause(table, dt, printed):
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns for NS"),
         ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "unknown column 'foo': expected a direction"),
         ("time (PST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown time unit 'PST'"),
-        ("abc def\n", {}, RecordFormatError, "unknown file format (begins with 'abc def'); expected JMA CSV"),
+        ("abc def\n", {}, RecordFormatError, "unknown file format (begins with 'abc def'); expected PEER AT2"),
         ("# only\n# comments\n", {}, RecordFormatError, "unknown file format (begins with '# only')"),
         (
             "Station: X\nDate: 2024\n\ntime (s),NS (gal)\n0,1\n0.01,2\n",

@@ -23,7 +23,7 @@ from seisblock.core.errors import InputError, ParameterError
 from seisblock.core.io.checkpoint_lines import read_complete_lines
 from seisblock.models.respond.options import RespondOptions
 from seisblock.readers.discover import iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.studies.fit.outcome_table import read_outcomes
 from seisblock.studies.fragility.io import read_fragility
 from seisblock.studies.gravestone_criterion import PGAS, RATIOS

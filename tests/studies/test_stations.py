@@ -22,7 +22,8 @@ from seisblock.models.stack.options import StackOptions
 from seisblock.models.uplift.options import UpliftOptions
 from seisblock.readers import read, read_all
 from seisblock.readers.discover import iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.map.station_response import StationBody, StationCemetery
@@ -51,7 +52,7 @@ def station_results(event):
 def prepared_record(event, station):
     """Return the record of one station of a bundle, as it is judged."""
     recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(station))
-    return Preparation().apply(recording.read(ReadOptions()))
+    return Preparation().apply(read_source(recording, ReadOptions()))
 
 
 def test_damaged_station_fails_alone(station_results):
@@ -116,7 +117,8 @@ def test_stations_of_every_solver_equal_batch(event, solver):
     subject = FOLLOWED[solver]
     strong = Preparation(scale=3.0)
     answer = survey_stations(event, subject, preparation=strong).answers[0]
-    record = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station)).read(ReadOptions())
+    recording = next(each for each in iter_records([str(event)], ReadOptions()) if each.name.startswith(answer.station))
+    record = read_source(recording, ReadOptions())
     components = "all-azimuths" if subject.is_directional else ()
     options = {**subject.options.keywords(), "runs": subject.runs, "preparation": strong}
     table = run_batch(record, {"it": subject.body}, solver, components=components, **options)

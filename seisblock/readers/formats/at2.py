@@ -13,11 +13,11 @@ from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.readers._header import parse_number
 from seisblock.readers.directions import parse_direction
+from seisblock.readers.lines import line_error
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error
 from seisblock.records import Component, Record
 
-FORMAT = "AT2"
 _HEADER_LINES = 12
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _INTERVAL = re.compile(r"\bDT\s*=\s*([\d.]+(?:[ED][-+]?\d+)?)", re.IGNORECASE)
@@ -54,18 +54,14 @@ def read_at2(blob: RawFile) -> Record:
         raise RecordFormatError("{name}: AT2 unit {found!r} in the header: expected acceleration in g", name=blob.name, found=unit_match[1])
     values = _parse_samples(blob.name, lines[sampling_line + 1 :], sampling_line + 2)
     if values.size != count:
-        raise RecordFormatError(
-            "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged",
-            name=blob.name,
-            count=count,
-            found=values.size,
-        )
+        message = "{name}: header states {count} samples (NPTS), file contains {found}: file truncated or damaged"
+        raise RecordFormatError(message, name=blob.name, count=count, found=values.size)
     event, station, direction = _parse_title(lines[1] if sampling_line > 1 else "", blob.basename)
     code, azimuth, sign = parse_orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
     history = (lazy_gettext("sign of {name!r} (positive down) reversed to UD (positive up)", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
-    return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
+    return Record((component,), dt, station=station, source=blob.name, format=FORMAT.name, history=history, metadata=metadata)
 
 
 def parse_orientation(direction: str) -> tuple[str, float | None, float]:
@@ -100,29 +96,20 @@ def _parse_sampling(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
     """Return line index, NPTS and DT of the sampling line."""
     for index, line in enumerate(lines[:_HEADER_LINES]):
         old_match = _OLD_STYLE.match(line)
-        count, interval = (
-            (old_match[1], old_match[2]) if old_match else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
-        )
+        new_match = [(pattern.findall(line) or [""])[0] for pattern in (_COUNT, _INTERVAL)]
+        count, interval = old_match.groups() if old_match else new_match
         if count and interval:
             stated_values = [set(map(parse_number, pattern.findall("\n".join(lines[: index + 1])))) for pattern in (_COUNT, _INTERVAL)]
             # contradicting values indicate concatenated or edited headers
             if any(len(values) > 1 for values in stated_values):
-                raise_line_error(
-                    name,
-                    index + 1,
-                    lazy_gettext("expected one NPTS and one DT, found several in the header: {text!r}", text=line.strip()[:80]),
-                )
+                message = "expected one NPTS and one DT, found several in the header: {text!r}"
+                raise line_error(message, name, index + 1, text=line.strip()[:80])
             dt = parse_number(interval)
             if not dt or dt < 0:
-                raise_line_error(
-                    name, index + 1, lazy_gettext("expected a sampling interval DT above 0, found {interval!r}", interval=interval)
-                )
+                raise line_error("expected a sampling interval DT above 0, found {interval!r}", name, index + 1, interval=interval)
             return index, int(count), dt
-    raise RecordFormatError(
-        "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines",
-        name=name,
-        count=_HEADER_LINES,
-    )
+    message = "{name}: AT2 header incomplete: no NPTS= and DT= in the first {count} lines"
+    raise RecordFormatError(message, name=name, count=_HEADER_LINES)
 
 
 def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
@@ -138,7 +125,7 @@ def _parse_samples(name: str, lines: Sequence[str], first_line: int) -> FloatArr
         for offset, line in enumerate(lines):
             for cell in line.split():
                 if parse_number(cell) is None:
-                    raise_line_error(name, first_line + offset, lazy_gettext("expected accelerations in g, found {cell!r}", cell=cell))
+                    raise line_error("expected accelerations in g, found {cell!r}", name, first_line + offset, cell=cell)
     return values
 
 
@@ -152,3 +139,37 @@ def _parse_title(line: str, basename: str) -> tuple[str, str, str]:
     if len(fields) == 3 and parse_orientation(fields[-1])[1:] != (None, 1.0):
         return fields[0], fields[1], fields[2]
     return line.strip(), name_parts[0] if name_parts else "", name_parts[1] if name_parts else ""
+
+
+def at2_file_set(basename: str) -> FileSet | None:
+    """Return the file set of an AT2 file whose name ends with the direction.
+
+    Examples
+    --------
+    >>> at2_file_set("RSN1690_NORTH151_SYL360-hor2.AT2"), at2_file_set("elcentro.at2")
+    (FileSet(key='rsn1690_north151_syl', size=3, component='NS', level=''), None)
+    """
+    parts = split_direction(basename) if basename.lower().endswith(".at2") else None
+    return parts and FileSet(parts[0].lower(), 3, parse_orientation(parts[1])[0])
+
+
+def _recording_key(head: bytes) -> object:
+    """Return the title without the direction, and the sampling interval."""
+    lines = head[:2000].splitlines()
+    interval = re.search(rb"DT\s*=\s*0*([\d.]+)", head[:2000])
+    # .0200 and 0.02 are the same interval
+    return lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval and interval[1].rstrip(b"0")
+
+
+FORMAT = register(
+    Format(
+        name="AT2",
+        title="PEER AT2",
+        parse=read_at2,
+        matches=is_at2,
+        specificity=1,  # NPTS and DT may stand in any of the first lines
+        synchronous=True,
+        file_set=at2_file_set,
+        recording_key=_recording_key,
+    )
+)

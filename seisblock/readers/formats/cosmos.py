@@ -14,18 +14,18 @@ from typing import NamedTuple
 from seisblock.core.errors import RecordFormatError, UnitError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_datetime, utc_datetime
-from seisblock.readers.channels import make_component, parse_location, split_by_location
+from seisblock.readers._fixed_width import parse_fixed_width, parse_fortran_format, parse_sample_count
+from seisblock.readers._header import drop_missing, parse_datetime, parse_magnitude, search_group, utc_datetime
+from seisblock.readers._header_check import flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
+from seisblock.readers.channels import make_component, parse_blocks, parse_location, seed_file_set, split_by_location
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
-from seisblock.readers.formats.csmip import parse_magnitude
-from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.lines import line_error, read_trimmed_lines
+from seisblock.readers.registry import Format, register
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "COSMOS"
 _TITLE_LINE = re.compile(rb"[ ]*([A-Za-z][A-Za-z ]*?)\s*\(Format v[\d.]+ with\s+(\d+) text lines\)", re.IGNORECASE)
 _SECTION_HEAD = re.compile(r"\s*(\d+)\s+(Integer|Real)-header values follow on\s+(\d+)\s+lines", re.IGNORECASE)
 _COMMENTS = re.compile(r"\s*(\d+)\s+Comment line\(s\) follow", re.IGNORECASE)
@@ -68,7 +68,7 @@ _UNSUPPORTED = {
 
 
 class _ChannelBlock(NamedTuple):
-    """One channel: text, headers, comments and samples, line of its data, and index of the line after it."""
+    """One channel: text, headers, comments and samples, and line of its data."""
 
     text: Sequence[str]
     integers: list[int]
@@ -76,7 +76,6 @@ class _ChannelBlock(NamedTuple):
     comments: str
     samples: FloatArray
     data_line: int
-    end: int
 
 
 def is_cosmos(head: bytes) -> bool:
@@ -92,26 +91,18 @@ def read_cosmos(blob: RawFile) -> list[Record]:
     Channels in a building, bridge or dam become separate stations by their location. Header peak and record length are checked against
     the samples.
     """
-    lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
-    while lines and not lines[-1].strip():
-        lines.pop()
-    parts, start_line, structure = [], 0, False
-    is_complete = _END_MARK.match((lines or [""])[-1]) is not None
-    while start_line < len(lines):
-        block = _parse_block(blob.name, lines, start_line)
-        parts.append(_to_record(blob.name, block, is_complete=is_complete))
-        structure = structure or block.integers[STRUCTURE] in _STRUCTURES
-        start_line = block.end
-        while start_line < len(lines) and not lines[start_line].strip():
-            start_line += 1
-    return split_by_location(parts, structure=structure)
+    lines = read_trimmed_lines(blob)
+    is_complete = _END_MARK.match(lines[-1]) is not None
+    blocks = parse_blocks(lines, lambda begin: _parse_block(blob.name, lines, begin))
+    parts = [_to_record(blob.name, block, is_complete=is_complete) for block in blocks]
+    return split_by_location(parts, structure=any(block.integers[STRUCTURE] in _STRUCTURES for block in blocks))
 
 
-def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
-    """Return the channel that begins at a line."""
+def _parse_block(name: str, lines: Sequence[str], begin: int) -> tuple[_ChannelBlock, int]:
+    """Return the channel that begins at a line, and the index of the line after it."""
     title = _TITLE_LINE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
+        raise line_error("expected the title of a channel, found {text!r}", name, begin + 1, text=lines[begin].strip()[:60])
     _check_quantity(name, title[1].decode("latin-1"))
     # three digits at most: a damaged number must not become a huge one
     line_index = begin + int(title[2][:3])
@@ -119,37 +110,30 @@ def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ChannelBlock:
     reals, line_index = _parse_values(name, lines, line_index, "Real")
     comment_head = _COMMENTS.match(lines[line_index]) if line_index < len(lines) else None
     if comment_head is None:
-        raise_line_error(
-            name, line_index + 1, lazy_gettext("expected the number of comments, found {text!r}", text=_line_text(lines, line_index))
-        )
+        raise line_error("expected the number of comments, found {text!r}", name, line_index + 1, text=_line_text(lines, line_index))
     count = int(comment_head[1][:4])
     comments = lines[line_index + 1 : line_index + 1 + count]
     if len(comments) < count or not all(line.lstrip().startswith("|") for line in comments):
-        raise_line_error(name, line_index + 1, lazy_gettext("expected {count} comment lines beginning with |", count=count))
+        raise line_error("expected {count} comment lines beginning with |", name, line_index + 1, count=count)
     line_index += 1 + count
     data, layout = _DATA.match(lines[line_index] if line_index < len(lines) else ""), parse_fortran_format(_line_text(lines, line_index))
     if data is None or layout is None:
-        message = lazy_gettext(
-            "expected a line with count, unit and format of the samples, found {text!r}", text=_line_text(lines, line_index)
-        )
-        raise_line_error(name, line_index + 1, message)
+        message = "expected a line with count, unit and format of the samples, found {text!r}"
+        raise line_error(message, name, line_index + 1, text=_line_text(lines, line_index))
     _check_quantity(name, data[2])
     size = parse_sample_count(name, line_index + 1, data[1])
     integer_values = [int(value) for value in integers]
     # unit code 3 marks pairs of time and acceleration
     if int(data[4]) == 3 or integer_values[UNIT] == 3:
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED["uneven"]))
-    samples = parse_fixed_width(name, lines, line_index + 1, size, layout)
-    end = line_index + 1 + count_lines(size, layout)
+    samples, end = parse_fixed_width(name, lines, line_index + 1, size, layout)
     if end < len(lines) and not re.match(r"/&|End-of-data", lines[end], re.IGNORECASE):
-        raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=_line_text(lines, end)))
+        raise line_error("expected the end of the channel, found {text!r}", name, end + 1, text=_line_text(lines, end))
     if int(data[4]) != integer_values[UNIT]:
-        message = lazy_gettext(
-            "sample unit {one} contradicts unit code {other} in the integer header", one=data[3].strip(), other=integer_values[UNIT]
-        )
-        raise_line_error(name, line_index + 1, message)
+        message = "sample unit {one} contradicts unit code {other} in the integer header"
+        raise line_error(message, name, line_index + 1, one=data[3].strip(), other=integer_values[UNIT])
     text = [*lines[begin : begin + int(title[2][:3])], *[""] * (PEAK + 1)]
-    return _ChannelBlock(text, integer_values, reals, "\n".join(comments), samples, line_index, end + 1)
+    return _ChannelBlock(text, integer_values, reals, "\n".join(comments), samples, line_index), end + 1
 
 
 def _check_quantity(name: str, quantity: str) -> None:
@@ -169,12 +153,9 @@ def _parse_values(name: str, lines: Sequence[str], line_index: int, kind: str) -
     """Return the values of a header section, and the index of the line after them."""
     head, layout = _SECTION_HEAD.match(_line_text(lines, line_index)), parse_fortran_format(_line_text(lines, line_index))
     if head is None or layout is None or head[2].lower() != kind.lower() or int(head[1][:6]) < 100:
-        message = lazy_gettext(
-            "expected number, lines and format of {kind}-header values, found {text!r}", kind=kind, text=_line_text(lines, line_index)
-        )
-        raise_line_error(name, line_index + 1, message)
-    count = int(head[1][:6])
-    return parse_fixed_width(name, lines, line_index + 1, count, layout), line_index + 1 + count_lines(count, layout)
+        message = "expected number, lines and format of {kind}-header values, found {text!r}"
+        raise line_error(message, name, line_index + 1, kind=kind, text=_line_text(lines, line_index))
+    return parse_fixed_width(name, lines, line_index + 1, int(head[1][:6]), layout)
 
 
 def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
@@ -185,29 +166,17 @@ def _to_record(name: str, block: _ChannelBlock, *, is_complete: bool) -> Record:
     # the real header states the interval in ms
     dt = float(block.reals[INTERVAL_MS]) / 1000.0
     if not dt > 0.0:
-        raise_line_error(
-            name,
-            block.data_line + 1,
-            lazy_gettext("expected a sampling interval above 0 ms in the real header, found {dt:g} ms", dt=1000.0 * dt),
-        )
+        message = "expected a sampling interval above 0 ms in the real header, found {dt:g} ms"
+        raise line_error(message, name, block.data_line + 1, dt=1000.0 * dt)
     direction, direction_name = _parse_direction(block)
     scaled_samples = block.samples if factor == 1.0 else factor * block.samples
     component, history = make_component(direction, to_si(scaled_samples, unit), direction_name)
     flags = _qc_flags(direction.code, block, dt)
     if not is_complete:
-        flags += (QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated")),)
-    start = _start_time(block)
-    return Record(
-        (component,),
-        dt,
-        station=_parse_station(block)[0],
-        start=start,
-        source=name,
-        format=FORMAT,
-        history=history,
-        metadata={"unit": unit, "volume": f"V{block.integers[LEVEL]}", **_metadata(block)},
-        doubts=flags,
-    )
+        flags += (qc_flag("end mark of the last channel missing: file probably truncated", "cut"),)
+    code, start = _parse_station(block)[0], _start_time(block)
+    metadata = {"unit": unit, "volume": f"V{block.integers[LEVEL]}", **_metadata(block)}
+    return Record((component,), dt, code, start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags)
 
 
 def _parse_direction(block: _ChannelBlock) -> tuple[Direction, str]:
@@ -216,22 +185,20 @@ def _parse_direction(block: _ChannelBlock) -> tuple[Direction, str]:
     # codes above 360 denote vertical, radial, transverse and other directions
     if 1 <= azimuth <= 360:
         return direction_from_azimuth(float(azimuth)), str(azimuth)
-    channel_match = re.search(r"Chan?\s*\S*?:\s*(\d{1,3}\s*deg\b|[^\s(]+)", block.text[CHANNEL], re.IGNORECASE)
-    seed_match = re.search(r"<SCNL>\s*[^.\s]*\.([^.\s]+)", block.comments)
-    for word in (_DIRECTIONS.get(azimuth, ""), channel_match[1] if channel_match else "", seed_match[1] if seed_match else ""):
+    channel_name = search_group(r"Chan?\s*\S*?:\s*(\d{1,3}\s*deg\b|[^\s(]+)", block.text[CHANNEL])
+    seed_code = search_group(r"<SCNL>\s*[^.\s]*\.([^.\s]+)", block.comments)
+    for word in (_DIRECTIONS.get(azimuth, ""), channel_name, seed_code):
         direction = parse_direction(word) if word else None
         if direction is not None:
             return direction, word
-    return Direction("H1"), channel_match[1] if channel_match else ""
+    return Direction("H1"), channel_name
 
 
 def _parse_station(block: _ChannelBlock) -> tuple[str, str, str]:
     """Return code, network and name of the station."""
     text = block.text[STATION]
     code = re.search(r"Code:\s*([A-Z0-9_]{0,2})-(\S+)", text, re.IGNORECASE)
-    number_match = re.search(r"Statn No:\s*(\S+)", text, re.IGNORECASE)
-    name = text[40:].strip() if code else ""
-    return (code[2], code[1], name) if code else (number_match[1] if number_match else "", "", name)
+    return (code[2], code[1], text[40:].strip()) if code else (search_group(r"Statn No:\s*(\S+)", text), "", "")
 
 
 def _start_time(block: _ChannelBlock) -> datetime | None:
@@ -241,35 +208,38 @@ def _start_time(block: _ChannelBlock) -> datetime | None:
 
 def _metadata(block: _ChannelBlock) -> dict[str, object]:
     _, network, name = _parse_station(block)
-    metadata: dict[str, object] = {key: value for key, value in (("network", network), ("station_name", name)) if value}
-    metadata |= {key: float(block.reals[place]) for key, place in REAL_INDICES.items() if block.reals[place] > MISSING_BELOW}
-    magnitude = next((float(block.reals[place]) for place in MAGNITUDES if block.reals[place] > 0.0), None)
-    metadata |= parse_magnitude(block.text[HYPOCENTRE]) if magnitude is None else {"magnitude": magnitude}
-    event = re.match(r"\s*Record of (.*?)\s+Earthquake of\b", block.text[RECORD], re.IGNORECASE)
-    metadata |= {"event_name": event[1]} if event else {}
-    origin, _ = parse_datetime(block.text[ORIGIN])
-    metadata |= {"origin_time": origin} if origin else {}
-    channel = re.search(r"Cha\w*:?\s*(\S+?):", block.text[CHANNEL])
-    place = parse_location(block.text[CHANNEL].partition("Location:")[2])
-    metadata |= {"channels": {_parse_direction(block)[0].code: channel[1]}} if channel else {}
-    metadata |= {"place": place} if place else {}
-    clock = next((word for word in re.findall(r"\b[A-Z]{3,4}\b", block.text[RECORD]) if word in UTC_OFFSETS), "UTC")
-    return metadata | {"clock": clock}
+    magnitudes = [float(block.reals[place]) for place in MAGNITUDES if block.reals[place] > 0.0]
+    channel = search_group(r"Cha\w*:?\s*(\S+?):", block.text[CHANNEL])
+    return drop_missing(
+        {
+            "network": network,
+            "station_name": name,
+            **{key: float(block.reals[place]) for key, place in REAL_INDICES.items() if block.reals[place] > MISSING_BELOW},
+            **({"magnitude": magnitudes[0]} if magnitudes else parse_magnitude(block.text[HYPOCENTRE])),
+            "event_name": search_group(r"\A\s*Record of (.*?)\s+Earthquake of\b", block.text[RECORD]),
+            "origin_time": parse_datetime(block.text[ORIGIN])[0],
+            "channels": {_parse_direction(block)[0].code: channel} if channel else None,
+            "place": parse_location(block.text[CHANNEL].partition("Location:")[2]),
+            "clock": next((word for word in re.findall(r"\b[A-Z]{3,4}\b", block.text[RECORD]) if word in UTC_OFFSETS), "UTC"),
+        }
+    )
 
 
 def _qc_flags(code: str, block: _ChannelBlock, dt: float) -> tuple[QCFlag, ...]:
     """Return flags for peak and record length that differ from the header."""
-    peak = re.search(r"Max\s*=\s*(-?[\d.]+)", block.text[PEAK], re.IGNORECASE)
-    peak_text = peak[1] if peak else ""
+    peak_text = search_group(r"Max\s*=\s*(-?[\d.]+)", block.text[PEAK])
     flags = flag_peak_mismatch(code, peak_text, block.samples, _UNITS[block.integers[UNIT]][0], 2.0 * half_last_digit(peak_text))
-    size, length = block.samples.size, float(block.reals[LENGTH])
-    # 1.5 intervals and the printed decimals: the length may count samples or intervals
-    if length > 0.0 and abs(length - size * dt) > 1.5 * dt + 0.05:
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=f"{length:g}",
-            count=size,
-            seconds=size * dt,
-        )
-        flags += (QCFlag("count", message),)
-    return flags
+    length = float(block.reals[LENGTH])
+    # 1.5 intervals and the printed decimals
+    return flags + flag_duration(f"{length:g}", block.samples.size, dt, 1.5 * dt + 0.05) if length > 0.0 else flags
+
+
+def _recording_key(head: bytes) -> object:
+    lines = [*head.decode("latin-1").splitlines(), *[""] * (CHANNEL + 1)]
+    start_text = re.sub(r"\s*RcrdId.*", "", lines[START_TIME])
+    return is_cosmos(head) and (lines[TITLE][:40], lines[STATION], start_text, lines[CHANNEL].partition("Location:")[2].strip())
+
+
+FORMAT = register(
+    Format(name="COSMOS", parse=read_cosmos, matches=is_cosmos, synchronous=True, file_set=seed_file_set, recording_key=_recording_key)
+)

@@ -13,22 +13,22 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from seisblock.core.errors import RecordFormatError, UnitError
+from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._fixed_width import DOS_EOF, count_lines, parse_fixed_width, parse_fortran_format, parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_coordinates, parse_datetime
-from seisblock.readers.channels import make_component, parse_location, split_by_location
+from seisblock.readers._fixed_width import parse_fixed_width, parse_fortran_format, parse_sample_count
+from seisblock.readers._header import drop_missing, parse_coordinates, parse_datetime, parse_magnitude, parse_number, search_group
+from seisblock.readers._header_check import flag_count, flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
+from seisblock.readers.channels import make_component, parse_blocks, parse_location, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
-from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.lines import line_error, read_trimmed_lines
+from seisblock.readers.registry import Format, register
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.headers import require_unit
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "CSMIP"
 _HEADERS = {1: 13 + 7 + 7, 2: 25 + 7 + 13}
 """Header lines above the samples of a channel, by volume."""
 
@@ -83,31 +83,19 @@ def read_csmip(blob: RawFile) -> list[Record]:
     Azimuths are kept. A file with more than three channels, or two in one direction, is that of a structure: each location becomes a
     station. Header peak, count and length are checked against the samples.
     """
-    lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
-    while lines and not lines[-1].strip():
-        lines.pop()
-    parts, begin = [], 0
-    while begin < len(lines):
-        part, begin = _parse_channel(blob.name, lines, begin)
-        parts.append(part)
-        while begin < len(lines) and not lines[begin].strip():
-            begin += 1
+    lines = read_trimmed_lines(blob)
+    parts = parse_blocks(lines, lambda begin: _parse_channel(blob.name, lines, begin))
     if not _END_MARK.match(lines[-1].strip()):
-        parts = [_flag_truncated(part) for part in parts]
+        flag = qc_flag("end mark of the last channel missing: file probably truncated", "cut")
+        parts = [replace(part, doubts=(*part.doubts, flag)) for part in parts]
     return split_by_location(parts)
-
-
-def _flag_truncated(part: Record) -> Record:
-    """Return a record with the flag of a missing end mark."""
-    flag = QCFlag("cut", lazy_gettext("end mark of the last channel missing: file probably truncated"))
-    return replace(part, doubts=(*part.doubts, flag))
 
 
 def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record, int]:
     """Return the channel that begins at a line, and the index of the next."""
     title = _TITLE.match(lines[begin].encode("latin-1", "replace"))
     if title is None:
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a channel, found {text!r}", text=lines[begin].strip()[:60]))
+        raise line_error("expected the title of a channel, found {text!r}", name, begin + 1, text=lines[begin].strip()[:60])
     kind = title[1][:3].decode().upper()
     if kind in _UNSUPPORTED:
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNSUPPORTED[kind]))
@@ -118,7 +106,7 @@ def _parse_channel(name: str, lines: Sequence[str], begin: int) -> tuple[Record,
         sections.append(_parse_section(name, lines, sections[-1].end, volume))
     end = sections[-1].end
     if end < len(lines) and not lines[end].startswith("/&"):
-        raise_line_error(name, end + 1, lazy_gettext("expected the end of the channel, found {text!r}", text=lines[end].strip()[:60]))
+        raise line_error("expected the end of the channel, found {text!r}", name, end + 1, text=lines[end].strip()[:60])
     acceleration = next((section for section in sections if section.quantity == "accel"), None)
     if acceleration is None:
         raise RecordFormatError("{name}, line {line}: no acceleration in this channel", name=name, line=begin + 1)
@@ -134,51 +122,33 @@ def _parse_section(name: str, lines: Sequence[str], line_index: int, volume: int
         raise RecordFormatError("{name} contains {what}", name=name, what=lazy_gettext(_UNEVEN))
     step = parse_number(interval[1]) if interval else None
     if match is None or interval is None or not step or unit is None:
-        message = lazy_gettext("expected a line with count, interval and unit of the samples, found {text!r}", text=text.strip()[:80])
-        raise_line_error(name, line_index + 1, message)
+        message = "expected a line with count, interval and unit of the samples, found {text!r}"
+        raise line_error(message, name, line_index + 1, text=text.strip()[:80])
     # stated as an interval in seconds or as a rate
     dt = step if interval[2].lower() == "sec" else 1.0 / step
     count, layout = parse_sample_count(name, line_index + 1, match[1]), parse_fortran_format(text) or _FORMS[volume]
-    return _Section(
-        match[2].lower(),
-        dt,
-        unit[1],
-        parse_fixed_width(name, lines, line_index + 1, count, layout),
-        line_index + 1 + count_lines(count, layout),
-    )
+    return _Section(match[2].lower(), dt, unit[1], *parse_fixed_width(name, lines, line_index + 1, count, layout))
 
 
 def _to_record(name: str, text: Sequence[str], begin: int, volume: int, section: _Section) -> Record:
-    unit = normalize_unit(section.unit)
-    if unit is None:
-        line = begin + len(text) + 1
-        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=line, text=section.unit)
+    unit = require_unit(name, begin + len(text) + 1, section.unit)
     line_shift = volume - 1
     channel = re.match(r"\s*CHAN\s+(\S+?)\s*:\s*(\d{1,3}\s*deg\b|\S+)(.*)", text[CHANNEL + line_shift], re.IGNORECASE)
     station = re.match(r"\s*STATION\s+(?:NO|ID)\.?\s*(\S+)", text[STATION + line_shift], re.IGNORECASE)
     if channel is None or station is None:
         line = begin + 1 + line_shift + (STATION if station is None else CHANNEL)
-        raise_line_error(
-            name, line, lazy_gettext("expected a station or a channel, found {text!r}", text=text[line - begin - 1].strip()[:60])
-        )
+        raise line_error("expected a station or a channel, found {text!r}", name, line, text=text[line - begin - 1].strip()[:60])
     direction = parse_direction(channel[2]) or Direction(channel[2].upper())
     component, history = make_component(direction, to_si(section.values, unit), channel[2])
     start, _ = parse_datetime(text[TRIGGER + line_shift])
     metadata = {"unit": unit, "volume": f"V{volume}", **_metadata(text, line_shift)}
-    metadata |= {"channels": {direction.code: channel[1]}} | ({"place": parse_location(channel[3])} if parse_location(channel[3]) else {})
+    metadata |= {"channels": {direction.code: channel[1]}} | drop_missing({"place": parse_location(channel[3])})
     # without a trigger time, event and origin text identify the recording
     if start is None:
         metadata["event"] = " ".join(f"{text[EVENT + line_shift]} {text[ORIGIN + line_shift]}".split())
+    flags = _qc_flags(direction.code, " ".join(text), section, volume)
     return Record(
-        (component,),
-        section.dt,
-        station=station[1],
-        start=start,
-        source=name,
-        format=FORMAT,
-        history=history,
-        metadata=metadata,
-        doubts=_qc_flags(direction.code, " ".join(text), section, volume),
+        (component,), section.dt, station[1], start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags
     )
 
 
@@ -186,60 +156,34 @@ def _metadata(text: Sequence[str], line_shift: int) -> dict[str, object]:
     event, origin, trigger, station, name, hypocentre = (
         text[line + line_shift] for line in (EVENT, ORIGIN, TRIGGER, STATION, NAME, HYPOCENTRE)
     )
-    # entries of one header line are separated by three blanks or more
-    words = re.split(r"\s{3,}", name.strip())[0]
-    metadata: dict[str, object] = {"station_name": words} if words else {}
-    if event.strip() and not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE):
-        metadata["event_name"] = re.split(r"\s{3,}", event.strip())[0]
     places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(station), strict=True))
     places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(hypocentre), strict=True))
-    metadata |= {key: value for key, value in places.items() if value is not None}
-    depth = re.search(r"\bH\s*=\s*([\d.]+)\s*KM", hypocentre, re.IGNORECASE)
-    metadata |= {"event_depth_km": float(depth[1].rstrip("."))} if depth and parse_number(depth[1]) is not None else {}
-    metadata |= parse_magnitude(hypocentre)
-    origin_time, _ = parse_datetime(origin)
-    metadata |= {"origin_time": origin_time} if origin_time else {}
-    clock = next(
-        (word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in UTC_OFFSETS and word != "UTC"), "UTC"
+    # entries of one header line are separated by three blanks or more
+    has_name = not re.match(r"\s*(?:record|rcrd) of", event, re.IGNORECASE)
+    clocks = [word for word in re.findall(r"\b[A-Z]{3,4}\b", f"{event} {origin} {trigger}") if word in UTC_OFFSETS and word != "UTC"]
+    return drop_missing(
+        {
+            "station_name": re.split(r"\s{3,}", name.strip())[0],
+            "event_name": re.split(r"\s{3,}", event.strip())[0] if has_name else "",
+            **places,
+            "event_depth_km": parse_number(search_group(r"\bH\s*=\s*([\d.]+)\s*KM", hypocentre).rstrip(".")),
+            **parse_magnitude(hypocentre),
+            "origin_time": parse_datetime(origin)[0],
+            "clock": clocks[0] if clocks else "UTC",
+        }
     )
-    return metadata | {"clock": clock}
-
-
-def parse_magnitude(text: str) -> dict[str, object]:
-    """Return metadata with the magnitude in a text, Mw before ML before Ms.
-
-    Examples
-    --------
-    >>> parse_magnitude("MS=6.6(NEIC), MW=6.4(CIT)"), parse_magnitude("ML:  To be determined.")
-    ({'magnitude': 6.4}, {})
-    """
-    magnitudes = {
-        kind.upper(): parse_number(value.rstrip(".")) for kind, value in re.findall(r"\b(M[WLS]?)\s*=\s*(\d[\d.]*)", text, re.IGNORECASE)
-    }
-    magnitude = next((magnitudes[kind] for kind in ("MW", "ML", "MS", "M") if magnitudes.get(kind)), None)
-    return {} if magnitude is None else {"magnitude": magnitude}
 
 
 def _qc_flags(code: str, text: str, section: _Section, volume: int) -> tuple[QCFlag, ...]:
     """Return flags for peak, count and record length that differ from the header."""
-    size, dt = section.values.size, section.dt
-    peak = re.search(_PEAKS[volume], text, re.IGNORECASE)
-    peak_text = peak[1] if peak else ""
-    flags = flag_peak_mismatch(code, peak_text, section.values, section.unit, half_last_digit(peak_text))
-    count_match = re.search(r"(?:no\. of points\s*=\s*(\d+)|(\d+)\s+points of instrument)", text, re.IGNORECASE)
-    promised_count = int((count_match[1] or count_match[2])[:12]) if count_match else 0
-    if promised_count != size:
-        flags += (
-            QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=size)),
-        )
-    length = re.search(r"record length\s*=\s*([\d.]+)", text, re.IGNORECASE)
-    seconds = parse_number(length[1]) if length else None
-    if length is None or seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(length[1]):
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=length[1] if length else "-",
-            count=size,
-            seconds=size * dt,
-        )
-        flags += (QCFlag("count", message),)
-    return flags
+    size = section.values.size
+    peak_text = search_group(_PEAKS[volume], text)
+    count = search_group(r"(?:no\. of points\s*=\s*|(?=\d+\s+points of instrument))(\d+)", text)
+    return (
+        *flag_peak_mismatch(code, peak_text, section.values, section.unit, half_last_digit(peak_text)),
+        *flag_count(int(count[:12] or 0), size),
+        *flag_duration(search_group(r"record length\s*=\s*([\d.]+)", text), size, section.dt),
+    )
+
+
+FORMAT = register(Format(name="CSMIP", parse=read_csmip, matches=is_csmip, synchronous=True))

@@ -13,21 +13,20 @@ from datetime import datetime, timedelta
 from typing import NamedTuple
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import half_last_digit
-from seisblock.readers._header_text import parse_datetime
+from seisblock.readers._header import drop_missing, parse_datetime, parse_number
+from seisblock.readers._header_check import flag_duration, half_last_digit, qc_flag
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.checks import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
-from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
 from seisblock.records.site import UTC_OFFSETS
 
-FORMAT = "CWA"
 TAIWAN_CLOCK = "GMT+08"
 """Name of the Taiwan time zone in headers."""
 
@@ -56,6 +55,9 @@ class _Entry(NamedTuple):
     line: int
 
 
+_NO_ENTRY = _Entry("", "", 0)
+
+
 def is_cwa(head: bytes) -> bool:
     """Return whether bytes begin the header of a CWA strong-motion text file."""
     begins = re.match(rb"(?:\xef\xbb\xbf)?\s*#\s*(?:StationCode|Earthquake Information)", head, re.IGNORECASE)
@@ -77,26 +79,18 @@ def read_cwa(blob: RawFile) -> Record:
     unit = normalize_unit(_require_entry(blob.name, header, "amplitudeunit").value.partition(" ")[0])
     if unit is None:
         entry = header["amplitudeunit"]
-        raise_line_error(
-            blob.name, entry.line, lazy_gettext("expected an acceleration unit such as gal, found {text!r}", text=entry.value[:40])
-        )
+        raise line_error("expected an acceleration unit such as gal, found {text!r}", blob.name, entry.line, text=entry.value[:40])
     labels = {"Time": 0, **{code: i + 1 for i, code in enumerate(directions)}}
     rows = parse_columns(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
     dt = _sampling_interval(blob.name, header, rows[0], lines[body:])
     samples = dict(zip(directions, rows[1:], strict=True))
     start = _start_time(blob.name, header, float(rows[0][0]))
+    components = tuple(Component(code, to_si(row, unit), directions[code].azimuth_deg) for code, row in samples.items())
+    metadata = {"unit": unit, **_metadata(header)}
     flags = (*_flag_length(header, rows[0].size, dt), *_flag_extremes(header, samples, unit))
     flags += flag_missing_points(lines[body:], body + 1, None) + flag_truncated_end(lines[body:], None)
-    return Record(
-        tuple(Component(code, to_si(row, unit), directions[code].azimuth_deg) for code, row in samples.items()),
-        dt,
-        station=header["stationcode"].value if "stationcode" in header else "",
-        start=start,
-        source=blob.name,
-        format=FORMAT,
-        metadata={"unit": unit, **_metadata(header)},
-        doubts=flags,
-    )
+    station = header.get("stationcode", _NO_ENTRY).value
+    return Record(components, dt, station, start, source=blob.name, format=FORMAT.name, metadata=metadata, doubts=flags)
 
 
 def _parse_header(lines: Sequence[str]) -> dict[str, _Entry]:
@@ -112,9 +106,8 @@ def _parse_header(lines: Sequence[str]) -> dict[str, _Entry]:
 def _require_entry(name: str, header: Mapping[str, _Entry], key: str) -> _Entry:
     if key not in header:
         line_names = {"amplitudeunit": "#AmplitudeUnit", "samplerate": "#SampleRate(Hz)", "datasequence": "#DataSequence"}
-        raise RecordFormatError(
-            "{name}: CWA header line {line} missing: file truncated or damaged; download it again", name=name, line=line_names[key]
-        )
+        message = "{name}: CWA header line {line} missing: file truncated or damaged; download it again"
+        raise RecordFormatError(message, name=name, line=line_names[key])
     return header[key]
 
 
@@ -125,8 +118,8 @@ def _parse_directions(name: str, header: Mapping[str, _Entry]) -> dict[str, Dire
     parsed_directions = [parse_direction(letter) for letter in letters]
     directions = {direction.code: direction for direction in parsed_directions if direction is not None and direction.sign > 0.0}
     if not _SEQUENCE.match(entry.value) or len(directions) != len(letters):
-        message = lazy_gettext("expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}", text=entry.value[:60])
-        raise_line_error(name, entry.line, message)
+        message = "expected the column sequence, as in 'Time U(+); N(+); E(+)', found {text!r}"
+        raise line_error(message, name, entry.line, text=entry.value[:60])
     return directions
 
 
@@ -135,13 +128,12 @@ def _sampling_interval(name: str, header: Mapping[str, _Entry], times: FloatArra
     entry = _require_entry(name, header, "samplerate")
     rate = parse_number(entry.value)
     if rate is None or not rate > 0.0:
-        raise_line_error(name, entry.line, lazy_gettext("expected the number of samples per second, found {text!r}", text=entry.value[:40]))
+        raise line_error("expected the number of samples per second, found {text!r}", name, entry.line, text=entry.value[:40])
     dt = sampling_interval(name, times, lambda: [line.split()[0] for line in body if line.strip()])
     # the times have three decimals; the rate of the header is exact
     if abs(1.0 / rate - dt) > 1e-6:
-        raise RecordFormatError(
-            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged", name=name, rate=rate, dt=dt
-        )
+        message = "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged"
+        raise RecordFormatError(message, name=name, rate=rate, dt=dt)
     return 1.0 / rate
 
 
@@ -152,9 +144,7 @@ def _start_time(name: str, header: Mapping[str, _Entry], first_s: float) -> date
         return None
     start = _parse_time(entry)
     if start is None:
-        raise_line_error(
-            name, entry.line, lazy_gettext("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", text=entry.value[:40])
-        )
+        raise line_error("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", name, entry.line, text=entry.value[:40])
     return start + timedelta(seconds=first_s) if abs(first_s) < MAX_FIRST_TIME_S else start
 
 
@@ -170,22 +160,11 @@ def _is_local(entry: _Entry) -> bool:
     return re.fullmatch(r"(?:GMT|UTC)\s*\+\s*0?8(?::?00)?", entry.qualifier.strip(), re.IGNORECASE) is not None
 
 
-def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> Iterator[QCFlag]:
-    """Yield a flag if the header record length differs from the samples (n or n - 1 intervals)."""
-    entry = header.get("recordlength")
-    if entry is None:
-        return
-    seconds = parse_number(entry.value)
-    # headers state the length as n or n - 1 intervals
-    slack = min(half_last_digit(entry.value), 0.1 * dt)
-    if seconds is None or not (abs(seconds - count * dt) <= slack or abs(seconds - (count - 1) * dt) <= slack):
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=entry.value[:20] or "-",
-            count=count,
-            seconds=count * dt,
-        )
-        yield QCFlag("count", message)
+def _flag_length(header: Mapping[str, _Entry], count: int, dt: float) -> tuple[QCFlag, ...]:
+    """Return a flag if the header record length differs from the samples (n or n - 1 intervals)."""
+    text = header.get("recordlength", _NO_ENTRY).value
+    slack = min(half_last_digit(text), 0.1 * dt)
+    return flag_duration(text, count, dt, slack, counts=(count, count - 1)) if "recordlength" in header else ()
 
 
 def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArray], unit: str) -> Iterator[QCFlag]:
@@ -202,23 +181,21 @@ def _flag_extremes(header: Mapping[str, _Entry], samples: Mapping[str, FloatArra
         slack = 2.0 * max(half_last_digit(part) for part in parts) * (1.0 + 1e-6)
         if len(stated_extremes) == 2 and all(abs(a - b) <= slack for a, b in zip(stated_extremes, sample_extremes, strict=True)):
             continue
-        text = lazy_gettext(
-            "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}",
-            component=direction.code,
-            told=entry.value[:40],
-            low=sample_extremes[0],
-            high=sample_extremes[1],
-            unit=unit,
-        )
-        yield QCFlag("header", text, direction.code)
+        low, high = sample_extremes
+        message = "{component}: header range {told!r} differs from the range of the samples, {low:g} to {high:g} {unit}"
+        yield qc_flag(message, "header", direction.code, told=entry.value[:40], low=low, high=high, unit=unit)
 
 
 def _metadata(header: Mapping[str, _Entry]) -> dict[str, object]:
-    metadata: dict[str, object] = {"network": "TW"}
-    metadata |= {"clock": TAIWAN_CLOCK} if "starttime" in header and _is_local(header["starttime"]) else {}
-    metadata |= {"station_name": header["stationname"].value} if header.get("stationname", _Entry("", "", 0)).value else {}
-    metadata |= {
-        label: value for key, label in _NUMBERS.items() if key in header and (value := parse_number(header[key].value)) is not None
-    }
-    origin = _parse_time(header["origintime"]) if "origintime" in header else None
-    return metadata | ({} if origin is None else {"origin_time": origin})
+    return drop_missing(
+        {
+            "network": "TW",
+            "clock": TAIWAN_CLOCK if _is_local(header.get("starttime", _NO_ENTRY)) else None,
+            "station_name": header.get("stationname", _NO_ENTRY).value,
+            **{label: parse_number(header.get(key, _NO_ENTRY).value) for key, label in _NUMBERS.items()},
+            "origin_time": _parse_time(header.get("origintime", _NO_ENTRY)),
+        }
+    )
+
+
+FORMAT = register(Format(name="CWA", parse=read_cwa, matches=is_cwa, aliases=("CWB",)))

@@ -6,28 +6,34 @@ import re
 from collections.abc import Sequence
 from datetime import datetime
 
-from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
+from seisblock.core.errors import RecordFormatError
 from seisblock.core.typing import FloatArray
 from seisblock.readers._fixed_width import parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import utc_datetime
-from seisblock.readers.channels import make_component
+from seisblock.readers._header import drop_missing, parse_number, utc_datetime
+from seisblock.readers._header_check import flag_duration, flag_peak_mismatch, half_last_digit, qc_flag
+from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, parse_direction
+from seisblock.readers.lines import line_error
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.headers import normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
+from seisblock.readers.table.headers import require_unit
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "ESM"
 _KEY = re.compile(r"([A-Z][A-Z0-9_/^]*):(?:\s(.*))?\Z")
 _MAX_HEADER_LINES = 100
 """Number of lines searched for the end of the header (64 lines)."""
 
-_DURATION_TOLERANCE = 1.5
-"""Tolerance of the header duration, in sampling intervals."""
-
+_TEXTS = {"station_name": "STATION_NAME", "event_name": "EVENT_NAME", "network": "NETWORK"}
+_NUMBERS = {
+    "event_latitude_deg": "EVENT_LATITUDE_DEGREE",
+    "event_longitude_deg": "EVENT_LONGITUDE_DEGREE",
+    "event_depth_km": "EVENT_DEPTH_KM",
+    "station_latitude_deg": "STATION_LATITUDE_DEGREE",
+    "station_longitude_deg": "STATION_LONGITUDE_DEGREE",
+    "station_height_m": "STATION_ELEVATION_M",
+    "epicentral_distance_km": "EPICENTRAL_DISTANCE_KM",
+}
 Header = dict[str, tuple[int, str]]
 """Line number and value by key."""
 
@@ -51,35 +57,27 @@ def read_esm(blob: RawFile) -> Record:
     if kind.upper() != "ACCELERATION":
         raise RecordFormatError("{name}: header states {what}: use the acceleration file (ACC)", name=blob.name, what=kind)
     line, unit_text = _get_value(blob.name, header, "UNITS")
-    unit = normalize_unit(unit_text)
-    if unit is None:
-        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=blob.name, line=line, text=unit_text)
+    unit = require_unit(blob.name, line, unit_text)
     line, text = _get_value(blob.name, header, "SAMPLING_INTERVAL_S")
     dt = parse_number(text)
     if not dt or dt < 0:
-        raise_line_error(blob.name, line, lazy_gettext("expected a sampling interval above 0 s, found {text!r}", text=text))
+        raise line_error("expected a sampling interval above 0 s, found {text!r}", blob.name, line, text=text)
     count = parse_sample_count(blob.name, *_get_value(blob.name, header, "NDATA"))
     (values,) = parse_columns(blob.name, lines[body:], body + 1, {unit_text: 0}, 1, None)
     if values.size != count:
-        raise RecordFormatError(
-            "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged",
-            name=blob.name,
-            count=count,
-            found=values.size,
-        )
+        message = "{name}: header states {count} samples (NDATA), file contains {found}: file truncated or damaged"
+        raise RecordFormatError(message, name=blob.name, count=count, found=values.size)
     stream = _get_value(blob.name, header, "STREAM")[1]
     direction = parse_direction(stream) or Direction(stream.upper() or "H1")
     component, history = make_component(direction, to_si(values, unit), stream)
+    code, start = (_get_value(blob.name, header, key)[1] for key in ("STATION_CODE", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS"))
+    metadata, flags = {"unit": unit, **_metadata(header)}, _qc_flags(direction.code, header, values, unit_text, dt)
+    # the last sample has fewer decimals than the previous one and no line end
+    last, previous = lines[-1].strip(), lines[-2].strip()
+    if last and len(last.partition(".")[2]) < len(previous.partition(".")[2]):
+        flags += (qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"),)
     return Record(
-        (component,),
-        dt,
-        station=_get_value(blob.name, header, "STATION_CODE")[1],
-        start=_parse_time(_get_value(blob.name, header, "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS")[1]),
-        source=blob.name,
-        format=FORMAT,
-        history=history,
-        metadata={"unit": unit, **_metadata(header)},
-        doubts=_qc_flags(direction.code, header, values, unit_text, dt) + _flag_truncated_end(lines),
+        (component,), dt, code, _parse_time(start), source=blob.name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags
     )
 
 
@@ -90,12 +88,10 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[Header, int]:
         match = _KEY.match(line.strip("\ufeff\r "))
         if match is None:
             if parse_number(line) is None:
-                raise_line_error(
-                    name, index + 1, lazy_gettext("expected 'KEY: value' or the first sample, found {text!r}", text=line.strip()[:80])
-                )
+                raise line_error("expected 'KEY: value' or the first sample, found {text!r}", name, index + 1, text=line.strip()[:80])
             return header, index
         if match[1] in header:
-            raise_line_error(name, index + 1, lazy_gettext("duplicate header entry {key}", key=match[1]))
+            raise line_error("duplicate header entry {key}", name, index + 1, key=match[1])
         header[match[1]] = (index + 1, (match[2] or "").strip())
     raise RecordFormatError("{name}: no sample in the first {count} lines: file truncated or damaged", name=name, count=_MAX_HEADER_LINES)
 
@@ -117,54 +113,34 @@ def _parse_time(text: str) -> datetime | None:
 
 
 def _metadata(header: Header) -> dict[str, object]:
-    def header_value(key: str) -> str:
-        return header.get(key, (0, ""))[1]
-
-    metadata: dict[str, object] = {}
-    names = {"station_name": "STATION_NAME", "event_name": "EVENT_NAME", "network": "NETWORK"}
-    metadata |= {key: header_value(label) for key, label in names.items() if header_value(label)}
-    numbers = {
-        "event_latitude_deg": "EVENT_LATITUDE_DEGREE",
-        "event_longitude_deg": "EVENT_LONGITUDE_DEGREE",
-        "event_depth_km": "EVENT_DEPTH_KM",
-        "station_latitude_deg": "STATION_LATITUDE_DEGREE",
-        "station_longitude_deg": "STATION_LONGITUDE_DEGREE",
-        "station_height_m": "STATION_ELEVATION_M",
-        "epicentral_distance_km": "EPICENTRAL_DISTANCE_KM",
-    }
-    metadata |= {key: value for key, label in numbers.items() if (value := parse_number(header_value(label))) is not None}
+    entries = {key: value for key, (_, value) in header.items()}
+    origin_text = entries.get("EVENT_DATE_YYYYMMDD", "") + "_" + entries.get("EVENT_TIME_HHMMSS", "")
     # moment magnitude before local magnitude
-    magnitude = next((value for key in ("MAGNITUDE_W", "MAGNITUDE_L") if (value := parse_number(header_value(key))) is not None), None)
-    origin = _parse_time(header_value("EVENT_DATE_YYYYMMDD") + "_" + header_value("EVENT_TIME_HHMMSS"))
-    metadata |= {"origin_time": origin} if origin else {}
-    return metadata if magnitude is None else metadata | {"magnitude": magnitude}
+    magnitudes = [parse_number(entries.get(key, "")) for key in ("MAGNITUDE_W", "MAGNITUDE_L")]
+    return drop_missing(
+        {
+            **{key: entries.get(label) for key, label in _TEXTS.items()},
+            **{key: parse_number(entries.get(label, "")) for key, label in _NUMBERS.items()},
+            "origin_time": _parse_time(origin_text),
+            "magnitude": magnitudes[1] if magnitudes[0] is None else magnitudes[0],
+        }
+    )
 
 
 def _qc_flags(code: str, header: Header, values: FloatArray, unit: str, dt: float) -> tuple[QCFlag, ...]:
     """Return flags for peak and duration that differ from the header."""
     key = next((key for key in header if key.startswith("PGA_")), "PGA_CM/S^2")
-    peak_text = header.get(key, (0, ""))[1]
+    peak_text, duration = header.get(key, (0, ""))[1], header.get("DURATION_S", (0, ""))[1]
     flags = flag_peak_mismatch(code, peak_text, values, unit, 2.0 * half_last_digit(peak_text))
-    text = header.get("DURATION_S", (0, ""))[1]
-    duration = parse_number(text)
-    if duration is None or abs(duration - values.size * dt) > _DURATION_TOLERANCE * dt + half_last_digit(text):
-        flags += (
-            QCFlag(
-                "count",
-                lazy_gettext(
-                    "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-                    text=text[:20] or "-",
-                    count=values.size,
-                    seconds=values.size * dt,
-                ),
-            ),
-        )
-    return flags
+    return flags + flag_duration(duration, values.size, dt)
 
 
-def _flag_truncated_end(lines: Sequence[str]) -> tuple[QCFlag, ...]:
-    """Return a flag if the last sample has fewer decimals than the previous one and no line end."""
-    last = lines[-1].strip()
-    if not last or len(last.partition(".")[2]) >= len(lines[-2].strip().partition(".")[2]):
-        return ()
-    return (QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")),)
+def _recording_key(head: bytes) -> object:
+    text = head.decode("latin-1")
+    keys = ("STATION_CODE", "LOCATION", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "UNITS", "DATA_TYPE")
+    return is_esm(head) and [re.findall(rf"^{key}:(.*)$", text, re.MULTILINE) for key in keys]
+
+
+FORMAT = register(
+    Format(name="ESM", parse=read_esm, matches=is_esm, synchronous=True, file_set=seed_file_set, recording_key=_recording_key)
+)

@@ -11,19 +11,18 @@ from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import NamedTuple
 
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._fixed_width import count_lines, parse_fixed_width, parse_sample_count
-from seisblock.readers._header import parse_number
-from seisblock.readers._header_check import flag_peak_mismatch, half_last_digit
-from seisblock.readers._header_text import parse_coordinates, utc_datetime
+from seisblock.readers._fixed_width import parse_fixed_width, parse_sample_count
+from seisblock.readers._header import drop_missing, parse_coordinates, parse_number, search_group, utc_datetime
+from seisblock.readers._header_check import flag_count, flag_duration, flag_peak_mismatch, half_last_digit
 from seisblock.readers.channels import make_component, split_by_location
 from seisblock.readers.directions import Direction, parse_direction
-from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.lines import line_error, read_trimmed_lines
+from seisblock.readers.registry import Format, register
+from seisblock.readers.source import RawFile
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "GEONET"
 TEXT, INTEGERS, REALS = 16, 4, 6
 """Lines of text, integers and reals above the samples of a component."""
 
@@ -43,14 +42,13 @@ _MONTHS = ("january", "february", "march", "april", "may", "june", "july", "augu
 
 
 class _ComponentBlock(NamedTuple):
-    """One component: text lines, header numbers, samples, first line number, and index of the next block."""
+    """One component: text lines, header numbers, samples, first line number."""
 
     text: Sequence[str]
     integers: list[int]
     reals: FloatArray
     samples: FloatArray
     first_line: int
-    end: int
 
 
 def is_geonet(head: bytes) -> bool:
@@ -65,70 +63,50 @@ def read_geonet(blob: RawFile) -> list[Record]:
     -----
     Azimuths are kept: the code of N10E is ``10``. Header peak and duration of each component are checked against the samples.
     """
-    lines = decode_text(blob).split("\n")
-    while lines and not lines[-1].strip():
-        lines.pop()
+    lines = read_trimmed_lines(blob)
     parts, begin = [], 0
     while begin < len(lines):
-        block = _parse_block(blob.name, lines, begin)
+        block, begin = _parse_block(blob.name, lines, begin)
         parts.append(_to_record(blob.name, block))
-        begin = block.end
     return split_by_location(parts)
 
 
-def _parse_block(name: str, lines: Sequence[str], begin: int) -> _ComponentBlock:
-    """Return the component that begins at a line."""
+def _parse_block(name: str, lines: Sequence[str], begin: int) -> tuple[_ComponentBlock, int]:
+    """Return the component that begins at a line, and the index of the next."""
     text = lines[begin : begin + TEXT]
     if len(text) < TEXT or not is_geonet(text[0].encode("latin-1", "replace") + b"\n"):
         title = text[0].strip()[:60] if text else ""
-        raise_line_error(name, begin + 1, lazy_gettext("expected the title of a component, found {text!r}", text=title))
-    integers = parse_fixed_width(name, lines, begin + TEXT, 10 * INTEGERS, _FORM)
-    integer_values = [int(value) for value in integers]
-    reals = parse_fixed_width(name, lines, begin + TEXT + INTEGERS, 10 * REALS, _FORM)
-    counts = [parse_sample_count(name, begin + TEXT + INTEGERS, str(integer_values[SAMPLES]))]
-    counts += [max(integer_values[place], 0) for place in (VELOCITIES, DISPLACEMENTS)]
-    first = begin + TEXT + INTEGERS + REALS
-    samples = parse_fixed_width(name, lines, first, counts[0], _FORM)
-    end = first + count_lines(counts[0], _FORM)
+        raise line_error("expected the title of a component, found {text!r}", name, begin + 1, text=title)
+    integer_values, _ = parse_fixed_width(name, lines, begin + TEXT, 10 * INTEGERS, _FORM)
+    integers = [int(value) for value in integer_values]
+    reals, first = parse_fixed_width(name, lines, begin + TEXT + INTEGERS, 10 * REALS, _FORM)
+    count = parse_sample_count(name, begin + TEXT + INTEGERS, str(integers[SAMPLES]))
+    samples, end = parse_fixed_width(name, lines, first, count, _FORM)
     # velocities and displacements are parsed for validity and skipped
-    for count in filter(None, counts[1:]):
-        parse_fixed_width(name, lines, end, count, _FORM)
-        end += count_lines(count, _FORM)
-    return _ComponentBlock(text, integer_values, reals, samples, begin + 1, end)
+    for place in (VELOCITIES, DISPLACEMENTS):
+        if integers[place] > 0:
+            _, end = parse_fixed_width(name, lines, end, integers[place], _FORM)
+    return _ComponentBlock(text, integers, reals, samples, begin + 1), end
 
 
 def _to_record(name: str, block: _ComponentBlock) -> Record:
     dt = float(block.reals[INTERVAL_INDEX])
     if not dt > 0.0:
-        raise_line_error(
-            name, block.first_line + TEXT + INTEGERS + 2, lazy_gettext("expected a sampling interval above 0 s, found {dt:g}", dt=dt)
-        )
-    factor = re.search(r"units of\s+([\d.]+)\s*mm/s/s", " ".join(block.text), re.IGNORECASE)
-    scale = parse_number(factor[1]) if factor else 1.0
+        raise line_error("expected a sampling interval above 0 s, found {dt:g}", name, block.first_line + TEXT + INTEGERS + 2, dt=dt)
+    scale = parse_number(search_group(r"units of\s+([\d.]+)\s*mm/s/s", " ".join(block.text)) or "1")
     if not scale:
-        raise_line_error(
-            name,
-            block.first_line + 10,
-            lazy_gettext("expected samples in units of mm/s/s, found {text!r}", text=block.text[10].strip()[:60]),
-        )
+        message = "expected samples in units of mm/s/s, found {text!r}"
+        raise line_error(message, name, block.first_line + 10, text=block.text[10].strip()[:60])
     words = block.text[COMPONENT].split()
     direction_name = words[1] if len(words) > 1 and words[0].lower() == "component" else ""
     direction = parse_direction(direction_name)
     if direction is None:
-        message = lazy_gettext("expected a component such as N10E or Up, found {text!r}", text=block.text[COMPONENT].strip()[:40])
-        raise_line_error(name, block.first_line + COMPONENT, message)
+        message = "expected a component such as N10E or Up, found {text!r}"
+        raise line_error(message, name, block.first_line + COMPONENT, text=block.text[COMPONENT].strip()[:40])
     component, history = make_component(direction, to_si(scale * block.samples, _UNIT), direction_name)
-    return Record(
-        (component,),
-        dt,
-        station=block.text[SITE].split()[1] if len(block.text[SITE].split()) > 1 else "",
-        start=_start_time(block.integers),
-        source=name,
-        format=FORMAT,
-        history=history,
-        metadata=_metadata(block),
-        doubts=_qc_flags(direction, block, scale, dt),
-    )
+    code, start = [*block.text[SITE].split(), "", ""][1], _start_time(block.integers)
+    metadata, flags = _metadata(block), _qc_flags(direction, block, scale, dt)
+    return Record((component,), dt, code, start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags)
 
 
 def _start_time(integers: Sequence[int]) -> datetime | None:
@@ -139,44 +117,37 @@ def _start_time(integers: Sequence[int]) -> datetime | None:
 
 def _metadata(block: _ComponentBlock) -> dict[str, object]:
     site, name, event, day, epicentre = (block.text[place] for place in (SITE, NAME, EVENT, DAY, EPICENTRE))
-    metadata: dict[str, object] = {"unit": _UNIT, "network": "NZ"}
-    metadata |= {"station_name": name.strip()} if name.strip() else {}
-    metadata |= {"event_name": event.strip()} if event.strip() else {}
     places = dict(zip(("station_latitude_deg", "station_longitude_deg"), parse_coordinates(site), strict=True))
     places |= dict(zip(("event_latitude_deg", "event_longitude_deg"), parse_coordinates(epicentre), strict=True))
-    metadata |= {key: value for key, value in places.items() if value is not None}
-    for key, pattern in {
-        "epicentral_distance_km": r"Dist\s+([\d.]+)\s*km",
-        "event_depth_km": r"Depth\s+([\d.]+)\s*km",
-        "magnitude": r"\bM[a-z]\w*\s+([\d.]+)",
-    }.items():
-        match = re.search(pattern, epicentre)
-        value = parse_number(match[1]) if match else None
-        metadata |= {} if value is None else {key: value}
-    date_match = re.match(r"\s*(\d{4})\s+([A-Za-z]+)\s+(\d{1,2})\s+(\d{1,2}):(\d\d):(\d\d)", day)
+    origin, date_match = None, re.match(r"\s*(\d{4})\s+([A-Za-z]+)\s+(\d{1,2})\s+(\d{1,2}):(\d\d):(\d\d)", day)
     if date_match and date_match[2].lower() in _MONTHS:
-        month = _MONTHS.index(date_match[2].lower()) + 1
-        origin = utc_datetime(int(date_match[1]), month, int(date_match[3]), int(date_match[4]), int(date_match[5]), float(date_match[6]))
-        metadata |= {"origin_time": origin} if origin else {}
-    return metadata
+        year, date, hour, minute, second = (int(number) for number in date_match.group(1, 3, 4, 5, 6))
+        origin = utc_datetime(year, _MONTHS.index(date_match[2].lower()) + 1, date, hour, minute, float(second))
+    return drop_missing(
+        {
+            "unit": _UNIT,
+            "network": "NZ",
+            "station_name": name.strip(),
+            "event_name": event.strip(),
+            **places,
+            "epicentral_distance_km": parse_number(search_group(r"Dist\s+([\d.]+)\s*km", epicentre)),
+            "event_depth_km": parse_number(search_group(r"Depth\s+([\d.]+)\s*km", epicentre)),
+            "magnitude": parse_number(search_group(r"(?-i:\bM[a-z])\w*\s+([\d.]+)", epicentre)),
+            "origin_time": origin,
+        }
+    )
 
 
 def _qc_flags(direction: Direction, block: _ComponentBlock, scale: float, dt: float) -> tuple[QCFlag, ...]:
     """Return flags for peak, count and duration that differ from the header."""
-    peak = re.search(r"peak\s+(-?[\d.]+)\s*mm/s/s", block.text[PEAK], re.IGNORECASE)
-    peak_text = peak[1] if peak else block.text[PEAK].partition(":")[2].strip()
-    flags = flag_peak_mismatch(direction.code, peak_text, scale * block.samples, "mm/s/s", 2.0 * half_last_digit(peak_text))
+    peak_text = search_group(r"peak\s+(-?[\d.]+)\s*mm/s/s", block.text[PEAK]) or block.text[PEAK].partition(":")[2].strip()
     count_match = re.search(r"points\s+(\d+)\s+Duration\s+([\d.]+)\s*s", block.text[9], re.IGNORECASE)
-    count, text = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
-    size, seconds = block.samples.size, parse_number(text)
-    if count != size:
-        flags += (QCFlag("count", lazy_gettext("header states {promised} samples, file contains {count}", promised=count, count=size)),)
-    if seconds is None or abs(seconds - size * dt) > 1.5 * dt + half_last_digit(text):
-        message = lazy_gettext(
-            "header duration {text} s differs from the duration of {count} samples, {seconds:g} s",
-            text=text[:20] or "-",
-            count=size,
-            seconds=size * dt,
-        )
-        flags += (QCFlag("count", message),)
-    return flags
+    count, duration = (int(count_match[1][:12]), count_match[2]) if count_match else (0, "")
+    return (
+        *flag_peak_mismatch(direction.code, peak_text, scale * block.samples, "mm/s/s", 2.0 * half_last_digit(peak_text)),
+        *flag_count(count, block.samples.size),
+        *flag_duration(duration, block.samples.size, dt),
+    )
+
+
+FORMAT = register(Format(name="GEONET", title="GeoNet", parse=read_geonet, matches=is_geonet, synchronous=True))

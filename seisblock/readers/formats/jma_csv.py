@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
-from seisblock.readers._header import JST, parse_number
-from seisblock.readers.lines import read_lines
+from seisblock.core.i18n import N_
+from seisblock.readers._header import JST, drop_missing, parse_number, search_group
+from seisblock.readers._header_check import qc_flag
+from seisblock.readers.lines import line_error, read_lines
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
+from seisblock.readers.table.checks import flag_missing_points
 from seisblock.readers.table.headers import component_code, normalize_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si_in_place
-from seisblock.readers.table.precision import flag_missing_points
+from seisblock.readers.table.parse import parse_columns, to_si_in_place
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "JMA-CSV"
 _HEADER_LINES = 40  # 7 in all files examined
 _CODES = ("NS", "EW", "UD", "X", "Y")
 _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
@@ -24,8 +25,7 @@ _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
 
 def is_jma_csv(head: bytes) -> bool:
     """Return whether bytes begin a JMA CSV."""
-    first = head.removeprefix(b"\xef\xbb\xbf").lstrip()[:9].upper()
-    return first == b"SITE CODE"
+    return re.match(rb"(?:\xef\xbb\xbf)?\s*SITE CODE\s*=", head, re.IGNORECASE) is not None
 
 
 def read_jma_csv(blob: RawFile) -> Record:
@@ -48,35 +48,21 @@ def read_jma_csv(blob: RawFile) -> Record:
     components = tuple(Component(code, to_si_in_place(row, unit)) for code, row in zip(columns, rows, strict=True))
     station, metadata = _parse_site(_get_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
-        value = parse_number(header[key][1].split(",")[0]) if key in header else None
-        if value:  # 0.0000: unknown
-            metadata[label] = value
-    metadata |= {"unit": unit, "clock": "JST"}
-    return Record(
-        components,
-        dt,
-        station=station,
-        start=start,
-        source=blob.name,
-        format=FORMAT,
-        metadata=metadata,
-        doubts=_qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ","),
-    )
+        metadata[label] = parse_number(header.get(key, (0, ""))[1].split(",")[0]) or None  # 0.0000: unknown
+    metadata = drop_missing(metadata | {"unit": unit, "clock": "JST"})
+    flags = _qc_flags(lines, rows[0].size, dt) + flag_missing_points(lines[last + 1 :], last + 2, ",")
+    return Record(components, dt, station, start, source=blob.name, format=FORMAT.name, metadata=metadata, doubts=flags)
 
 
 def _qc_flags(lines: Sequence[str], samples: int, dt: float) -> tuple[QCFlag, ...]:
     """Return flags for a truncated file: JMA files end with a line end and have whole seconds."""
     flags = []
     if lines[-1].strip():
-        flags.append(QCFlag("cut", lazy_gettext("no line end after the last line: file probably truncated, last number incomplete")))
+        flags.append(qc_flag("no line end after the last line: file probably truncated, last number incomplete", "cut"))
     seconds = samples * dt
     if abs(seconds - round(seconds)) > 0.25 * dt:
-        text = lazy_gettext(
-            "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated",
-            samples=samples,
-            seconds=seconds,
-        )
-        flags.append(QCFlag("count", text))
+        message = "{samples} samples are not a whole number of seconds ({seconds:.6g} s): lines missing or file truncated"
+        flags.append(qc_flag(message, "count", samples=samples, seconds=seconds))
     return tuple(flags)
 
 
@@ -91,9 +77,8 @@ def _parse_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int,
         elif len({component_code(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
-    raise RecordFormatError(
-        "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)", name=name, count=count
-    )
+    message = "{name}: JMA header incomplete: {count} lines, none with the component names (NS,EW,UD)"
+    raise RecordFormatError(message, name=name, count=count)
 
 
 def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]:
@@ -102,9 +87,7 @@ def _component_columns(name: str, line: int, names: list[str]) -> dict[str, int]
     for index, heading in enumerate(names):
         code = component_code(heading)
         if code not in _CODES or code in columns:
-            raise_line_error(
-                name, line, lazy_gettext("expected the components NS, EW and UD once each, found {names}", names=[repr(n) for n in names])
-            )
+            raise line_error("expected the components NS, EW and UD once each, found {names}", name, line, names=[repr(n) for n in names])
         columns[code] = index
     return columns
 
@@ -120,10 +103,9 @@ def _get_value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tup
 def _sampling_rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     """Return the sampling rate, Hz."""
     line, text = _get_value(name, header, "SAMPLING RATE", "SAMPLING FREQ", "SAMPLING FREQ.")
-    match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
-    rate = parse_number(match[1]) if match else None
+    rate = parse_number(search_group(r"\A([\d.]+)\s*(?:Hz)?\s*\Z", text))
     if not rate:
-        raise_line_error(name, line, lazy_gettext("expected a sampling rate such as 100Hz, found {text!r}", text=text))
+        raise line_error("expected a sampling rate such as 100Hz, found {text!r}", name, line, text=text)
     return rate
 
 
@@ -148,7 +130,7 @@ def _start_time(name: str, header: dict[str, tuple[int, str]]) -> datetime:
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):
-        raise_line_error(name, line, lazy_gettext("expected a time such as 2016 04 16 01 25 00, found {text!r}", text=text))
+        raise line_error("expected a time such as 2016 04 16 01 25 00, found {text!r}", name, line, text=text) from None
 
 
 def _parse_site(text: str) -> tuple[str, dict[str, object]]:
@@ -167,3 +149,6 @@ def _parse_site(text: str) -> tuple[str, dict[str, object]]:
     if len(numbers) >= 7 and numbers[5] and numbers[6]:
         metadata["travel_time_p_s"], metadata["travel_time_s_s"] = numbers[5], numbers[6]
     return code or station_name, metadata
+
+
+FORMAT = register(Format(name="JMA-CSV", title=N_("JMA CSV"), parse=read_jma_csv, matches=is_jma_csv, aliases=("JMA", "JMACSV")))

@@ -10,17 +10,18 @@ from itertools import pairwise
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._header import MAX_COUNT, parse_jst, parse_number
+from seisblock.readers._header import MAX_COUNT, drop_missing, parse_jst, parse_number
+from seisblock.readers._header_check import flag_count, qc_flag
+from seisblock.readers.lines import line_error
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile, decode_text
+from seisblock.readers.table.checks import flag_missing_points, flag_truncated_end
 from seisblock.readers.table.headers import TIME, component_code, normalize_unit, split_unit
-from seisblock.readers.table.parse import parse_columns, raise_line_error, to_si
-from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
+from seisblock.readers.table.parse import parse_columns, to_si
 from seisblock.readers.table.sampling import sampling_interval
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "KNET-CSV"
 _TIME_OF_DAY = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d{1,6})?")
 _CHANNELS = {"1": ("NS", "borehole"), "2": ("EW", "borehole"), "3": ("UD", "borehole")}
 _CHANNELS |= {"4": ("NS", "surface"), "5": ("EW", "surface"), "6": ("UD", "surface")}
@@ -43,9 +44,8 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     header = [line.lstrip("#").strip() for line in lines[:body]]
     names_line = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
     if names_line is None:
-        raise RecordFormatError(
-            "{name}: K-NET CSV header incomplete: no line with the column names (#Time,RelativeTime(s),...)", name=blob.name
-        )
+        message = "{name}: K-NET CSV header incomplete: no line with the column names (#Time,RelativeTime(s),...)"
+        raise RecordFormatError(message, name=blob.name)
     names = [cell.strip() for cell in header[names_line].split(",")]
     sensors = _sensor_columns(blob.name, names)
     time_index = next(i for i, name in enumerate(names) if name.startswith("RelativeTime"))
@@ -54,30 +54,17 @@ def read_knet_csv(blob: RawFile) -> list[Record]:
     dt = sampling_interval(blob.name, columns[time_index])
     rate = parse_number(_line_after(header, "SamplingFrequency(Hz)"))
     if rate and abs(1.0 / rate - dt) > 1e-6:
-        raise RecordFormatError(
-            "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged",
-            name=blob.name,
-            rate=rate,
-            dt=dt,
-        )
+        message = "{name}: header rate {rate:g} Hz contradicts the time column (interval {dt:g} s): file damaged"
+        raise RecordFormatError(message, name=blob.name, rate=rate, dt=dt)
     start = _start_time(blob.name, lines[body], body + 1, float(columns[time_index][0]))
     flags = _qc_flags(header, columns[time_index].size, rate or 1.0 / dt) + _flag_clock(lines[body:], columns[time_index], dt)
     flags += flag_missing_points(lines[body:], body + 1, ",") + flag_truncated_end(lines[body:], ",")
-    records = []
+    dt, station, records = 1.0 / rate if rate else dt, _line_after(header, "Code,").split(",")[0], []
     for level, codes in sensors.items():
-        rows = {code: columns[i] for code, i in codes.items()}
-        records.append(
-            Record(
-                tuple(Component(code, to_si(row, "gal")) for code, row in rows.items()),
-                1.0 / rate if rate else dt,
-                station=_line_after(header, "Code,").split(",")[0],
-                start=start,
-                source=blob.name,
-                format=FORMAT,
-                metadata=_metadata(header, level) | {"offset_gal": {code: float(row.mean()) for code, row in rows.items()}},
-                doubts=flags,
-            )
-        )
+        components = tuple(Component(code, to_si(columns[i], "gal")) for code, i in codes.items())
+        metadata = _metadata(header, level) | {"offset_gal": {code: float(columns[i].mean()) for code, i in codes.items()}}
+        part = Record(components, dt, station, start, source=blob.name, format=FORMAT.name, metadata=metadata, doubts=flags)
+        records.append(part)
     return records
 
 
@@ -86,17 +73,8 @@ def _qc_flags(header: Sequence[str], samples: int, rate: float) -> tuple[QCFlag,
     text = _line_after(header, "DurationTime(s)")
     duration = parse_number(text)
     if duration is None or not 0 < duration * rate < MAX_COUNT:
-        message = lazy_gettext("header DurationTime {text!r} is not a number; number of samples not checked", text=text[:20])
-        return (QCFlag("header", message),)
-    promised_count = round(duration * rate)
-    if samples != promised_count:
-        return (
-            QCFlag(
-                "count",
-                lazy_gettext("header states {promised} samples, file contains {count}", promised=promised_count, count=samples),
-            ),
-        )
-    return ()
+        return (qc_flag("header DurationTime {text!r} is not a number; number of samples not checked", "header", text=text[:20]),)
+    return flag_count(round(duration * rate), samples)
 
 
 def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> tuple[QCFlag, ...]:
@@ -107,17 +85,13 @@ def _flag_clock(lines: Sequence[str], relative_times: FloatArray, dt: float) -> 
             raise ValueError
         elapsed_s = (np.array(time_texts, dtype="datetime64[us]") - np.datetime64(time_texts[0], "us")) / np.timedelta64(1, "s")
     except ValueError:
-        return (QCFlag("clock", lazy_gettext("unreadable time of day in the first column")),)
+        return (qc_flag("unreadable time of day in the first column", "clock"),)
     # half an interval: larger differences are a shifted or missing line
     mismatches = np.flatnonzero(np.abs(elapsed_s - (relative_times - relative_times[0])) > 0.5 * dt)
     if not mismatches.size:
         return ()
-    text = lazy_gettext(
-        "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s",
-        count=mismatches.size,
-        seconds=float(relative_times[mismatches[0]]),
-    )
-    return (QCFlag("clock", text),)
+    message = "time of day and relative time disagree in {count} line(s), first at {seconds:.2f} s"
+    return (qc_flag(message, "clock", count=mismatches.size, seconds=float(relative_times[mismatches[0]])),)
 
 
 def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
@@ -129,18 +103,11 @@ def _sensor_columns(name: str, names: Sequence[str]) -> dict[str, dict[str, int]
             continue
         unit = split_unit(column)[1]
         if unit and normalize_unit(unit) != "gal":
-            raise UnitError(
-                "{name}: unit {unit} in column {column!r}: expected gal in a K-NET CSV; file damaged",
-                name=name,
-                column=column,
-                unit=unit,
-            )
+            message = "{name}: unit {unit} in column {column!r}: expected gal in a K-NET CSV; file damaged"
+            raise UnitError(message, name=name, column=column, unit=unit)
         if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
-            raise RecordFormatError(
-                "{name}: column {column!r} unknown or duplicate: expected N-S, E-W, U-D (or 1 to 6) once each; file damaged",
-                name=name,
-                column=column,
-            )
+            message = "{name}: column {column!r} unknown or duplicate: expected N-S, E-W, U-D (or 1 to 6) once each; file damaged"
+            raise RecordFormatError(message, name=name, column=column)
         sensors.setdefault(level, {})[code] = index
     if not sensors:
         raise RecordFormatError("{name}: no acceleration column among {names}", name=name, names=names)
@@ -159,19 +126,17 @@ def _start_time(name: str, line: str, line_number: int, relative_time: float) ->
     text = line.split(",")[0]
     time = parse_jst(text)
     if time is None:
-        raise_line_error(name, line_number, lazy_gettext("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
+        raise line_error("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", name, line_number, text=text)
     # the first row need not be at relative time zero
     return time - timedelta(seconds=relative_time)
 
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
-    metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
-    if level:
-        metadata["level"] = level
     event, station = _line_after(header, "OriginTime").split(","), _line_after(header, "Code,").split(",")
-    origin = parse_jst(event[0])
-    if origin is not None:
-        metadata["origin_time"] = origin
     numbers = dict(zip(("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude"), event[1:], strict=False))
     numbers |= dict(zip(("station_latitude_deg", "station_longitude_deg"), station[1:], strict=False))
-    return metadata | {label: value for label, text in numbers.items() if (value := parse_number(text)) is not None}
+    constants = {"unit": "gal", "clock": "JST", "carries_offset": True, "level": level, "origin_time": parse_jst(event[0])}
+    return drop_missing(constants | {label: parse_number(text) for label, text in numbers.items()})
+
+
+FORMAT = register(Format(name="KNET-CSV", title="K-NET CSV", parse=read_knet_csv, matches=is_knet_csv, aliases=("KNETCSV",)))

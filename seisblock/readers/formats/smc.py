@@ -13,40 +13,39 @@ from datetime import datetime, timedelta
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
-from seisblock.readers._fixed_width import DOS_EOF, parse_fixed_width, parse_sample_count
+from seisblock.readers._fixed_width import parse_fixed_width, parse_sample_count
+from seisblock.readers._header import drop_missing, search_group, utc_datetime
 from seisblock.readers._header_check import flag_peak_mismatch
-from seisblock.readers._header_text import utc_datetime
-from seisblock.readers.channels import make_component
+from seisblock.readers.channels import make_component, seed_file_set
 from seisblock.readers.directions import Direction, direction_from_azimuth, parse_direction
+from seisblock.readers.lines import DOS_EOF, line_error
+from seisblock.readers.registry import FileSet, Format, register
 from seisblock.readers.source import RawFile, decode_text
-from seisblock.readers.table.parse import raise_line_error, to_si
+from seisblock.readers.table.parse import to_si
 from seisblock.records import QCFlag, Record
 
-FORMAT = "SMC"
 _TITLE_LINE = re.compile(
     rb"[ ]*(?:[0-9][ ]+)?((?:UN)?CORRECTED ACCELEROGRAM|VELOCITY|DISPLACEMENT|RESPONSE SPECTR\w*|\*)[ ]*\r?\n", re.IGNORECASE
 )
 TEXT, INTEGERS, REALS = 11, 6, 10
 """Lines of text, integers and reals."""
 
+_FILE_NAME = re.compile(r"(?P<before>.*\d)(?P<code>[A-Z])(?P<after>(?:_[ACPU])?\.SMC)\Z", re.IGNORECASE)
 _INTEGER, _REAL, _SAMPLE = (8, 10), (5, 15), (8, 10)
 YEAR, DAY, HOUR, MINUTE, SECOND, MILLISECOND, VERTICAL, AZIMUTH, COMMENTS, SAMPLES = 1, 2, 3, 4, 5, 6, 12, 13, 15, 16
 FLOOR, NUMBER = 24, 29
 """Indices of the integers, from 0."""
 
-RATE, EVENT_LATITUDE, EVENT_LONGITUDE, DEPTH, MAGNITUDES, LATITUDE, LONGITUDE, HEIGHT, DISTANCE, LARGEST, SMALLEST = (
-    1,
-    2,
-    3,
-    4,
-    (5, 6, 7),
-    10,
-    11,
-    12,
-    16,
-    29,
-    31,
-)
+RATE, MAGNITUDES, LARGEST, SMALLEST = 1, (5, 6, 7), 29, 31
+REAL_INDICES = {
+    "event_latitude_deg": 2,
+    "event_longitude_deg": 3,
+    "event_depth_km": 4,
+    "station_latitude_deg": 10,
+    "station_longitude_deg": 11,
+    "station_height_m": 12,
+    "epicentral_distance_km": 16,
+}
 """Indices of the reals, from 0."""
 
 MISSING = 1e38
@@ -83,49 +82,29 @@ def read_smc(blob: RawFile) -> Record:
     lines = decode_text(blob).replace(DOS_EOF, "").split("\n")
     name = blob.name
     _check_title(name, lines[0])
-    integer_values = parse_fixed_width(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
+    integer_values, _ = parse_fixed_width(name, lines, TEXT, 8 * INTEGERS, _INTEGER)
     integers = [int(value) for value in integer_values]
     # the first integer is the one that marks missing integers
     missing_value = integers[0]
-    reals = parse_fixed_width(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
+    reals, _ = parse_fixed_width(name, lines, TEXT + INTEGERS, 5 * REALS, _REAL)
     first = TEXT + INTEGERS + REALS + max(integers[COMMENTS], 0)
     for index in range(TEXT + INTEGERS + REALS, first):
         if not lines[index : index + 1] or not lines[index].startswith("|"):
-            raise_line_error(
-                name, index + 1, lazy_gettext("expected one of {count} comment lines beginning with |", count=integers[COMMENTS])
-            )
+            raise line_error("expected one of {count} comment lines beginning with |", name, index + 1, count=integers[COMMENTS])
     rate = float(reals[RATE])
     if not 0.0 < rate < MISSING:
-        raise_line_error(
-            name,
-            TEXT + INTEGERS + 1,
-            lazy_gettext("expected the number of samples per second, found {rate:g}: samples may be uneven", rate=rate),
-        )
+        message = "expected the number of samples per second, found {rate:g}: samples may be uneven"
+        raise line_error(message, name, TEXT + INTEGERS + 1, rate=rate)
     count = parse_sample_count(name, TEXT + 3, str(integers[SAMPLES]))
-    gal = parse_fixed_width(name, lines, first, count, _SAMPLE)
-    # eight samples per line, the last one incomplete
-    end_line = first + -(-count // 8)
+    gal, end_line = parse_fixed_width(name, lines, first, count, _SAMPLE)
     if any(line.strip() for line in lines[end_line:]):
-        raise_line_error(
-            name,
-            end_line + 1,
-            lazy_gettext(
-                "expected the end of the file after {count} samples, found {text!r}", count=count, text=lines[end_line].strip()[:40]
-            ),
-        )
+        message = "expected the end of the file after {count} samples, found {text!r}"
+        raise line_error(message, name, end_line + 1, count=count, text=lines[end_line].strip()[:40])
     direction, direction_name = _parse_direction(lines, integers, missing_value)
     component, history = make_component(direction, to_si(gal, "gal"), direction_name)
-    return Record(
-        (component,),
-        1.0 / rate,
-        station=_station_code(lines, integers, missing_value),
-        start=_start_time(integers, missing_value),
-        source=name,
-        format=FORMAT,
-        history=history,
-        metadata=_metadata(lines, integers, reals),
-        doubts=_qc_flags(direction.code, reals, gal),
-    )
+    code, start = _station_code(lines, integers, missing_value), _start_time(integers, missing_value)
+    metadata, flags = _metadata(lines, reals), _qc_flags(direction.code, reals, gal)
+    return Record((component,), 1.0 / rate, code, start, source=name, format=FORMAT.name, history=history, metadata=metadata, doubts=flags)
 
 
 def _check_title(name: str, title: str) -> None:
@@ -162,29 +141,21 @@ def _start_time(integers: list[int], missing_value: int) -> datetime | None:
     return start + timedelta(days=day - 1) if start is not None and 1 <= day <= 366 else None
 
 
-def _metadata(lines: list[str], integers: list[int], reals: FloatArray) -> dict[str, object]:
-    metadata: dict[str, object] = {"unit": "gal"}
-    station = re.search(r"station\s*=\s*(.*?)\s*(?:component\b|\Z)", lines[5], re.IGNORECASE)
-    if station and station[1]:
-        metadata["station_name"] = station[1].rstrip(", ")
-    event = re.match(r"\s*(\d{4})\s+(\d{1,2})\s+(\d{1,2})\s+(\d{2})(\d{2})\s*(.*)", lines[3])
+def _metadata(lines: list[str], reals: FloatArray) -> dict[str, object]:
+    origin, event = None, re.match(r"\s*(\d{4})\s+(\d{1,2})\s+(\d{1,2})\s+(\d{2})(\d{2})\s*(.*)", lines[3])
     if event:
         year, month, day, hour, minute = (int(part) for part in event.groups()[:5])
         origin = utc_datetime(year, month, day, hour, minute, 0.0)
-        metadata |= {"origin_time": origin} if origin else {}
-        metadata |= {"event_name": event[6].strip()} if event[6].strip() else {}
-    real_indices = {
-        "event_latitude_deg": EVENT_LATITUDE,
-        "event_longitude_deg": EVENT_LONGITUDE,
-        "event_depth_km": DEPTH,
-        "station_latitude_deg": LATITUDE,
-        "station_longitude_deg": LONGITUDE,
-        "station_height_m": HEIGHT,
-        "epicentral_distance_km": DISTANCE,
-    }
-    metadata |= {key: float(reals[place]) for key, place in real_indices.items() if abs(reals[place]) < MISSING}
-    magnitude = next((float(reals[place]) for place in MAGNITUDES if abs(reals[place]) < MISSING), None)
-    return metadata if magnitude is None else metadata | {"magnitude": magnitude}
+    return drop_missing(
+        {
+            "unit": "gal",
+            "station_name": search_group(r"station\s*=\s*(.*?)\s*(?:component\b|\Z)", lines[5]).rstrip(", "),
+            "origin_time": origin,
+            "event_name": event[6].strip() if event else "",
+            **{key: float(reals[place]) for key, place in REAL_INDICES.items() if abs(reals[place]) < MISSING},
+            "magnitude": next((float(reals[place]) for place in MAGNITUDES if abs(reals[place]) < MISSING), None),
+        }
+    )
 
 
 def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ...]:
@@ -193,3 +164,26 @@ def _qc_flags(code: str, reals: FloatArray, gal: FloatArray) -> tuple[QCFlag, ..
     peak = max((float(reals[place]) for place in (LARGEST, SMALLEST)), key=lambda value: abs(value) if abs(value) < MISSING else -1.0)
     peak_text = repr(peak) if abs(peak) < MISSING else ""
     return flag_peak_mismatch(code, peak_text, gal, "gal", _SAMPLE_TOLERANCE * min(abs(peak), MISSING))
+
+
+def smc_file_set(basename: str) -> FileSet | None:
+    """Return the file set of a station from a file name: the letter behind the number, or that of a SEED code, is the component.
+
+    Examples
+    --------
+    >>> smc_file_set("0111a.smc"), smc_file_set("np01002p_4225b_a.smc").key, smc_file_set("CE36456.V2")
+    (FileSet(key='0111?.smc', size=3, component='a', level=''), 'np01002p_4225?_a.smc', None)
+    """
+    match = _FILE_NAME.match(basename)
+    return FileSet(f"{match['before']}?{match['after']}".lower(), 3, match["code"]) if match else seed_file_set(basename)
+
+
+def _recording_key(head: bytes) -> object:
+    lines = head.decode("latin-1").splitlines()
+    if not is_smc(head):
+        return None
+    # title, event, station, and start among the integers
+    return lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[TEXT].split()[1:7]
+
+
+FORMAT = register(Format(name="SMC", parse=read_smc, matches=is_smc, synchronous=True, file_set=smc_file_set, recording_key=_recording_key))

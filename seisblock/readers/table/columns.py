@@ -36,21 +36,8 @@ _RIGHT_ANGLE_TOLERANCE_DEG = 1.0
 class Column:
     """Column to be read.
 
-    Parameters
-    ----------
-    index : int
-        Index in the table.
-    label : str
-        Name for messages.
-    code : str
-        Component code, or ``TIME``.
-    unit : str
-        Normalised acceleration unit; empty for time.
-    azimuth_deg : float or None
-    sign : float
-        -1 if the samples are converted to positive up.
-    seconds : float
-        Unit of a time column, s.
+    `label` is its name in messages, `code` the component or ``TIME``, `unit` the normalised acceleration unit (empty for time), `seconds`
+    the unit of a time column, s. `sign` is -1 if the samples are converted to positive up.
     """
 
     index: int
@@ -71,16 +58,7 @@ class TableColumns:
 
 
 def parse_header(name: str, names: Sequence[str], units: str | None = None) -> TableColumns:
-    """Return the columns of a table from the names in its header.
-
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    names : sequence of str
-        Column names as written, at least one not empty.
-    units : str or None
-        Unit of columns without a unit.
+    """Return the columns of a table from the names in its header, at least one not empty; `units` is the unit of columns without one.
 
     Raises
     ------
@@ -106,14 +84,8 @@ def parse_header(name: str, names: Sequence[str], units: str | None = None) -> T
     if unitless and len(stated_units) == 1 and default_unit is None:
         common_unit = next(iter(stated_units))
         stating_names = _quote_names(names, [c for c in columns if c.unit])
-        notes.append(
-            lazy_gettext(
-                "unit {unit} of {states} also used for {others}",
-                unit=common_unit,
-                states=stating_names,
-                others=_quote_names(names, unitless),
-            )
-        )
+        message = "unit {unit} of {states} also used for {others}"
+        notes.append(lazy_gettext(message, unit=common_unit, states=stating_names, others=_quote_names(names, unitless)))
         default_unit = common_unit
     final_columns = tuple(_apply_unit(name, names[column.index], column, default_unit, units) for column in columns)
     notes += [
@@ -144,40 +116,22 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     unit, seconds = normalize_unit(unit_text), time_unit_seconds(unit_text)
     inner_unit = normalize_unit(split_unit(split_unit(heading)[0])[1])
     if unit and inner_unit and inner_unit != unit:
-        raise UnitError(
-            "{name}: two units, {inner} and {unit}, in column {written!r}; keep one",
-            name=name,
-            written=heading,
-            inner=inner_unit,
-            unit=unit,
-        )
+        message = "{name}: two units, {inner} and {unit}, in column {written!r}; keep one"
+        raise UnitError(message, name=name, written=heading, inner=inner_unit, unit=unit)
     if bare_heading.isdecimal() and parse_direction(bare_heading) is None:
-        raise RecordFormatError(
-            "{name}: column name {written!r} is not an azimuth: expected 0 to 360 degrees, or {understood}",
-            name=name,
-            written=heading,
-            understood=ACCEPTED_NAMES,
-        )
+        message = "{name}: column name {written!r} is not an azimuth: expected 0 to 360 degrees, or {understood}"
+        raise RecordFormatError(message, name=name, written=heading, understood=ACCEPTED_NAMES)
     if normalize_unit(bare_heading) or bare_heading.lower() in _NON_NAMES:
-        raise RecordFormatError(
-            "{name}: {written!r} is not a name for column {index}: expected {understood}",
-            name=name,
-            written=heading,
-            index=index + 1,
-            understood=ACCEPTED_NAMES,
-        )
+        message = "{name}: {written!r} is not a name for column {index}: expected {understood}"
+        raise RecordFormatError(message, name=name, written=heading, index=index + 1, understood=ACCEPTED_NAMES)
     direction = parse_direction(bare_heading)
     if unit:
         return _acceleration_column(index, heading, direction or _unknown_direction(bare_heading), unit)
     # acceleration units come first: 'T (gal)' is transverse, 'T (s)' is time
     if component_code(heading) == TIME or seconds:
         if unit_text and seconds is None and not is_clock_unit(unit_text):
-            raise UnitError(
-                "{name}: unknown time unit {unit_text!r} in column {written!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
-                name=name,
-                written=heading,
-                unit_text=unit_text,
-            )
+            message = "{name}: unknown time unit {unit_text!r} in column {written!r}: expected s, ms or min, or JST, UTC, hh:mm:ss"
+            raise UnitError(message, name=name, written=heading, unit_text=unit_text)
         return Column(index, heading, TIME, seconds=seconds or 1.0)
     if direction is not None and (not unit_text or unit_text.lower() == "deg"):
         return _acceleration_column(index, heading, direction, "")
@@ -185,12 +139,8 @@ def _classify_column(name: str, index: int, heading: str) -> Column | str:
     if quantity is not None:
         return quantity
     if unit_text:
-        raise UnitError(
-            "{name}: unknown unit {unit_text!r} in column {written!r}: expected gal, m/s2 or g; correct the unit or remove the column",
-            name=name,
-            written=heading,
-            unit_text=unit_text,
-        )
+        message = "{name}: unknown unit {unit_text!r} in column {written!r}: expected gal, m/s2 or g; correct the unit or remove the column"
+        raise UnitError(message, name=name, written=heading, unit_text=unit_text)
     if component_code(heading) == "ACC":
         return Column(index, heading, "ACC")
     return Column(index, heading or f"number {index + 1}", "", unit="")
@@ -224,13 +174,11 @@ def _resolve_transverse(name: str, names: Sequence[str], columns: list[Column], 
     if time_column is None or not {"L", "R"} & {c.code for c in columns}:
         return columns
     if units is None and not any(c.unit for c in columns):
-        raise UnitError(
+        message = (
             "{name}: columns {names} have no unit: {one!r} may be time or the transverse direction; add the unit to the header, as "
-            "in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
-            name=name,
-            names=[repr(n) for n in names],
-            one=names[time_column.index],
+            "in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g"
         )
+        raise UnitError(message, name=name, names=[repr(n) for n in names], one=names[time_column.index])
     return [replace(c, code="T") if c is time_column else c for c in columns]
 
 
@@ -257,12 +205,8 @@ def _check_ambiguous(name: str, names: Sequence[str], columns: list[Column], uni
     unknown_columns = [c for c in columns if not c.code]
     known_columns = [c for c in columns if c.code and c.code != TIME]
     if unknown_columns and (known_columns or units is None):
-        raise RecordFormatError(
-            "{name}: unknown column {names}: expected {understood}; rename or remove the column",
-            name=name,
-            names=_quote_names(names, unknown_columns),
-            understood=ACCEPTED_NAMES,
-        )
+        message = "{name}: unknown column {names}: expected {understood}; rename or remove the column"
+        raise RecordFormatError(message, name=name, names=_quote_names(names, unknown_columns), understood=ACCEPTED_NAMES)
     for position, column in enumerate(columns):
         if not column.code:  # `units` declares all columns as accelerations
             columns[position] = replace(column, code=re.sub(r"\s+", " ", names[column.index].upper()) or f"C{column.index + 1}")
@@ -278,12 +222,8 @@ def _check_duplicates(name: str, names: Sequence[str], columns: Sequence[Column]
     for code, count in Counter(c.code for c in columns).items():
         if count > 1:
             meaning = lazy_gettext("time") if code == TIME else code
-            raise RecordFormatError(
-                "{name}: several columns for {meant} ({names}); keep one",
-                name=name,
-                meant=meaning,
-                names=_quote_names(names, [c for c in columns if c.code == code]),
-            )
+            message = "{name}: several columns for {meant} ({names}); keep one"
+            raise RecordFormatError(message, name=name, meant=meaning, names=_quote_names(names, [c for c in columns if c.code == code]))
 
 
 def _parse_units_option(units: str | None) -> str | None:
@@ -299,19 +239,11 @@ def _apply_unit(name: str, heading: str, column: Column, option: str | None, uni
         return column
     unit = column.unit or option
     if unit is None:
-        raise UnitError(
-            "{name}: column {written!r} has no unit: add it to the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
-            name=name,
-            written=heading or column.index + 1,
-        )
+        message = "{name}: column {written!r} has no unit: add it to the header, as in 'EW (gal)', or give `units`, gal|m/s2|g"
+        raise UnitError(message, name=name, written=heading or column.index + 1)
     if units is not None and unit != option:
-        raise UnitError(
-            "{name}: unit {unit} of column {written!r} contradicts `units` {units}; omit `units`",
-            name=name,
-            written=heading,
-            unit=unit,
-            units=units,
-        )
+        message = "{name}: unit {unit} of column {written!r} contradicts `units` {units}; omit `units`"
+        raise UnitError(message, name=name, written=heading, unit=unit, units=units)
     return replace(column, unit=unit)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from seisblock.core.errors import UnitError
 from seisblock.core.i18n import N_
 from seisblock.readers.directions import parse_direction, strip_component_words
 
@@ -83,6 +84,14 @@ def normalize_unit(text: str) -> str | None:
     """
     unit_text = normalize_cell(text).lower().replace("sec", "s").replace("/s/s", "s2").replace("s^-2", "s2").replace("s-2", "s2")
     return _UNITS.get(re.sub(r"[\s/^_*.'’]", "", unit_text))
+
+
+def require_unit(name: str, line: int, text: str) -> str:
+    """Return the normalised acceleration unit in a line of a file; raise UnitError if there is none."""
+    unit = normalize_unit(text)
+    if unit is None:
+        raise UnitError("{name}, line {line}: unknown acceleration unit {text!r}", name=name, line=line, text=text)
+    return unit
 
 
 def time_unit_seconds(text: str) -> float | None:

@@ -1,4 +1,4 @@
-"""Layout of plain tables: first line of numbers, separator, header line."""
+"""Layout of plain tables: header line, units in a separate line, first line of numbers, separator."""
 
 from __future__ import annotations
 
@@ -6,10 +6,57 @@ import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from seisblock.core.errors import RecordFormatError
+from seisblock.readers._header import parse_number
 from seisblock.readers.table.columns import is_header_row
-from seisblock.readers.table.header_rows import merge_unit_row
+from seisblock.readers.table.headers import is_clock_unit, is_unit, split_unit
+from seisblock.readers.table.sampling import parse_timestamp
+
+TIME_HEADING = "time (s)"
+"""Name given to an unnamed first column of evenly increasing values."""
+
+NO_UNIT_MARKS = ("-", "--", "―", "なし")
+"""Cells of a unit line for columns without a unit."""
+
+INSPECTED_LINES = 50
+"""Number of lines inspected to guess the meaning of a column."""
+
+
+def merge_unit_row(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...] | None:
+    """Return names with the units of the line below, or None if that is not a unit line.
+
+    Examples
+    --------
+    >>> merge_unit_row(["time", "NS", "UD"], ["s", "(gal)", "(gal)"])
+    ('time (s)', 'NS (gal)', 'UD (gal)')
+    >>> merge_unit_row(["No", "NS"], ["-", "gal"]), merge_unit_row(["time", "NS"], ["0.00", "1.5"]) is None
+    (('No', 'NS (gal)'), True)
+    """
+    units = [cell.strip().strip("()[]（）").strip() for cell in cells]
+    units = ["" if unit in NO_UNIT_MARKS else unit for unit in units]
+    while len(units) > len(names) and not units[-1]:
+        units.pop()
+    if len(units) != len(names) or not any(units) or not all(is_unit(unit) or is_clock_unit(unit) for unit in units if unit):
+        return None
+    return tuple(name if not unit or split_unit(name)[1] == unit else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
+
+
+def guess_first_name(lines: Sequence[str], separator: str | None) -> str:
+    """Return the name of an unnamed first column from the first lines of the table: ``index``, time, or empty."""
+    cells = [line.split(separator)[0].strip().strip('"') for line in lines if line.strip()]
+    if cells and all(parse_timestamp(cell) for cell in cells):
+        return "time"
+    values = [parse_number(cell) for cell in cells]
+    # whole numbers in steps of one are line numbers, other steps below 1 are times in s
+    steps = [b - a for a, b in pairwise(values) if a is not None and b is not None]
+    if not steps or len(steps) + 1 != len(values):
+        return ""
+    if all(cell.isdecimal() for cell in cells):
+        return "index" if set(steps) == {1.0} else ""
+    return TIME_HEADING if min(steps) > 0.0 and max(steps) < 1.0 else ""
+
 
 FORTRAN_EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d)")
 """Exponent letter of Fortran double precision."""
@@ -55,12 +102,9 @@ def preamble_error(name: str, lines: Sequence[str]) -> RecordFormatError | None:
     first = next((line.strip() for line in head if is_data_line(line)), "")
     if table_line is None or head[table_line].strip() == first:
         return None
+    message = "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #"
     return RecordFormatError(
-        "{name}: column names found in line {line} ({header!r}), below {first!r}; remove the lines above or begin each with #",
-        name=name,
-        line=table_line + 1,
-        header=head[table_line].strip()[:MAX_QUOTED_LENGTH],
-        first=first[:MAX_QUOTED_LENGTH],
+        message, name=name, line=table_line + 1, header=head[table_line].strip()[:MAX_QUOTED_LENGTH], first=first[:MAX_QUOTED_LENGTH]
     )
 
 

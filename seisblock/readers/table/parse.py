@@ -5,16 +5,14 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from math import isfinite
-from typing import NoReturn
 
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
-from seisblock.core.i18n import lazy_gettext
 from seisblock.core.limits import CHUNK_SIZE
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import ACCELERATION_UNITS
-from seisblock.readers.lines import iter_chunks
+from seisblock.readers.lines import iter_chunks, line_error
 from seisblock.records.record import readonly
 
 _DECIMAL_SHIFTS = {0.01: 2, 1e-3: 3}
@@ -59,20 +57,8 @@ def parse_columns(
 ) -> list[FloatArray]:
     """Return selected columns of a table, one array of shape (lines,) each.
 
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    lines : sequence of str
-        Lines of the table; blank lines are skipped.
-    first_line : int
-        Number of ``lines[0]`` in the file, counted from 1.
-    columns : mapping of str to int
-        Label (for messages) and index of each selected column.
-    width : int
-        Number of columns in the header; further cells must be blank.
-    separator : str or None
-        Cell separator; None for any run of blanks.
+    `first_line` is the number of ``lines[0]`` in the file, from 1; blank lines are skipped. `columns` are labels (for messages) and
+    indices, `width` is the number of columns in the header: further cells must be blank. A `separator` of None is any run of blanks.
 
     Raises
     ------
@@ -141,9 +127,7 @@ def _parse_cell_by_cell(
             continue
         cells = line.split(separator)
         if any(cell.strip() for cell in cells[width:]):
-            raise_line_error(
-                name, first_line + offset, lazy_gettext("expected {width} cells, found {count}", width=width, count=len(cells))
-            )
+            raise line_error("expected {width} cells, found {count}", name, first_line + offset, width=width, count=len(cells))
         rows.append([_parse_cell(name, first_line + offset, label, cells, index) for label, index in columns.items()])
     return np.array(rows, dtype=np.float64)
 
@@ -155,14 +139,9 @@ def _parse_cell(name: str, line: int, label: str, cells: Sequence[str], index: i
     except ValueError:
         value = float("nan")
         if cell:
-            raise_line_error(name, line, lazy_gettext("expected a number in column {label}, found {cell!r}", label=label, cell=cell))
+            raise line_error("expected a number in column {label}, found {cell!r}", name, line, label=label, cell=cell) from None
     if not cell:
-        raise_line_error(name, line, lazy_gettext("empty cell in column {label}", label=label))
+        raise line_error("empty cell in column {label}", name, line, label=label)
     if not isfinite(value):
-        raise_line_error(name, line, lazy_gettext("expected a finite number in column {label}, found {cell!r}", label=label, cell=cell))
+        raise line_error("expected a finite number in column {label}, found {cell!r}", name, line, label=label, cell=cell)
     return value
-
-
-def raise_line_error(name: str, line: int, message: str) -> NoReturn:
-    """Raise RecordFormatError for a line of a file."""
-    raise RecordFormatError("{name}, line {line}: {what}; correct the line, or cut the file before it", name=name, line=line, what=message)

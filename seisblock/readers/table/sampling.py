@@ -1,14 +1,106 @@
-"""Sampling interval of a time column, even within the printed digits."""
+"""Time columns of tables: clock times, and the sampling interval, even within the printed digits."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, date, datetime, timedelta
 
 import numpy as np
 
 from seisblock.core.errors import RecordFormatError
 from seisblock.core.typing import FloatArray
+
+DAY_S = 86400
+EPOCH = datetime(1000, 1, 1, tzinfo=UTC)
+MAX_YEAR = 9000
+"""Origin of the seconds and last accepted year; far enough from the calendar limits for any zone offset."""
+
+_TIMESTAMP = re.compile(
+    r"[\"']?(?:(\d{4})([-/])(\d{1,2})\2(\d{1,2})(?:[T ]|\s+))?"
+    r"(\d{1,2}):(\d\d):(\d\d)(?:\.(\d*))?\s*(Z|UTC|GMT|JST|[-+]\d\d(?::?\d\d)?)?[\"']?",
+    re.IGNORECASE,
+)
+_ZONES = {"Z": 0, "UTC": 0, "GMT": 0, "JST": 9 * 3600}
+
+
+@dataclass(frozen=True)
+class Timestamp:
+    """Clock time of one cell.
+
+    `seconds` count from midnight, or from the year 1000 if a date is given, in UTC if a zone is given; `fraction` has the decimals of the
+    second, as printed; `utc_offset_s` is the offset ahead of UTC, s, None if not given.
+    """
+
+    seconds: int
+    fraction: str
+    has_date: bool
+    utc_offset_s: int | None
+
+    @property
+    def utc(self) -> datetime | None:
+        """Time in UTC, assumed if no zone is given; None without a date."""
+        if not self.has_date:
+            return None
+        return EPOCH + timedelta(seconds=self.seconds, microseconds=int(f"{self.fraction:0<6}"[:6]))
+
+
+def parse_timestamp(cell: str) -> Timestamp | None:
+    """Return the clock time in a cell, or None.
+
+    Examples
+    --------
+    >>> parse_timestamp("2024-01-01T16:10:10.25+09:00").utc.isoformat(), parse_timestamp("00:01:02.5").seconds, parse_timestamp("0.25")
+    ('2024-01-01T07:10:10.250000+00:00', 62, None)
+    """
+    match = _TIMESTAMP.fullmatch(cell.strip())
+    if match is None:
+        return None
+    hour, minute, second = (int(part) for part in match.group(5, 6, 7))
+    if hour > 23 or minute > 59 or second > 59:
+        return None
+    zone = _parse_zone(match[9])
+    # integer seconds: decimals stay in the printed digits of the fraction
+    seconds = 3600 * hour + 60 * minute + second - (zone or 0)
+    if match[1]:
+        if not EPOCH.year < int(match[1]) < MAX_YEAR:
+            return None
+        try:
+            seconds += DAY_S * (date(int(match[1]), int(match[3]), int(match[4])) - EPOCH.date()).days
+        except ValueError:  # no such day
+            return None
+    return Timestamp(seconds, match[8] or "", bool(match[1]), zone)
+
+
+def seconds_replacer(index: int, separator: str | None, first: Timestamp) -> Callable[[str], str]:
+    """Return a function that replaces the clock times in column `index` of a line by whole seconds since the first.
+
+    The printed digits of the fraction are kept. Times without a date continue past midnight. A cell without a time is unchanged and fails
+    later, with its line.
+    """
+
+    def replace_cell(line: str) -> str:
+        cells = line.split(separator)
+        timestamp = parse_timestamp(cells[index]) if index < len(cells) else None
+        if timestamp is None or timestamp.has_date != first.has_date or (timestamp.utc_offset_s is None) != (first.utc_offset_s is None):
+            return line
+        # a time of day before the first one belongs to the next day
+        elapsed_s = timestamp.seconds - first.seconds
+        cells[index] = f"{elapsed_s if first.has_date else elapsed_s % DAY_S}.{timestamp.fraction}"
+        return (separator or " ").join(cells)
+
+    return replace_cell
+
+
+def _parse_zone(text: str | None) -> int | None:
+    if not text:
+        return None
+    if text.upper() in _ZONES:
+        return _ZONES[text.upper()]
+    digits = text[1:].replace(":", "").ljust(4, "0")
+    return (-1 if text[0] == "-" else 1) * (3600 * int(digits[:2]) + 60 * int(digits[2:]))
+
 
 TIME_TOLERANCE = 1e-6
 """Tolerance of sample times against an even spacing, s, where more digits are printed."""
@@ -26,23 +118,8 @@ def sampling_interval(
 
     Of the intervals that fit, one with six digits or a whole number of samples per second is preferred: 0.02, not 0.020000000000000004.
     Times printed with few digits (100.001, 100.002, 100.004 for steps of 0.00125 s) are even if such an interval explains each of them to
-    half a unit of its last digit.
-
-    Parameters
-    ----------
-    name : str
-        File name, for messages.
-    times : (n,) array
-        Times as read, in `unit`.
-    printed_times : callable or None
-        Function that returns the times as printed in the file; called only if they are not even to 1e-6 s.
-    unit : float, s
-        Unit of the times.
-
-    Raises
-    ------
-    RecordFormatError
-        If there are fewer than two times, or they are not evenly spaced.
+    half a unit of its last digit. `times`, (n,), are in `unit`, s; `printed_times` returns them as printed in the file and is called only
+    if they are not even to 1e-6 s. Raise RecordFormatError if there are fewer than two times, or they are not evenly spaced.
     """
     seconds = times if unit == 1.0 else times * unit
     count = seconds.size
@@ -70,27 +147,21 @@ def sampling_interval(
     steps = np.diff(seconds)
     repeat_count = int(np.count_nonzero(steps == 0.0))
     if steps.min() >= 0.0 and repeat_count > max(MIN_ROUNDED_STEPS, MIN_ROUNDED_SHARE * steps.size):
-        raise RecordFormatError(
+        message = (
             "{name}: too few digits in the time column: {repeats} of {count} times repeat the previous line (first: {first:g} s); "
-            "write more digits, or remove the column and give the sampling interval with `dt`, in s",
-            name=name,
-            repeats=repeat_count,
-            count=count,
-            first=seconds[int(np.argmin(steps))],
+            "write more digits, or remove the column and give the sampling interval with `dt`, in s"
         )
+        raise RecordFormatError(message, name=name, repeats=repeat_count, count=count, first=seconds[int(np.argmin(steps))])
     if not median_step > 0.0:
         raise RecordFormatError(
             "{name}: time column does not increase (usual step {usual:g} s): expected evenly increasing times", name=name, usual=median_step
         )
     row = int(np.argmax(np.abs(steps - median_step)))
-    raise RecordFormatError(
+    message = (
         "{name}: uneven time column: step from {first:.9g} to {second:.9g} s, usual step {usual:.9g} s (line missing or "
-        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits",
-        name=name,
-        first=seconds[row],
-        second=seconds[row + 1],
-        usual=median_step,
+        "duplicate, or uneven sampling); expected equal steps within 1e-6 s or the printed digits"
     )
+    raise RecordFormatError(message, name=name, first=seconds[row], second=seconds[row + 1], usual=median_step)
 
 
 def half_last_digits(texts: Sequence[str]) -> FloatArray:

@@ -13,7 +13,7 @@ from seisblock.report.figures import style
 from seisblock.report.figures.curves import draw_curve
 from seisblock.report.figures.heading import motions_heading, panel_labels
 from seisblock.report.figures.time_histories import history_columns, strong_motion_interval
-from seisblock.report.registry import verdict_text
+from seisblock.report.text.solver import describe
 
 MAX_PANELS = 6
 """Most panels of a column; further channels stand in the file of histories."""
@@ -39,5 +39,5 @@ def _build_figure(responses: Sequence[Response[Any]], *, narrow: bool = False) -
             quantity = channel.symbol or gettext(channel.name.replace("_", " "))
             unit = "" if channel.unit == "1" else f" ({channel.unit})"
             style.label_axes(panel, y=f"{quantity}{unit}")
-        style.set_panel_title(panels[0], gettext("{name}: {what}", name=name, what=verdict_text(response)))
+        style.set_panel_title(panels[0], gettext("{name}: {what}", name=name, what=describe(response)))
     return fig

@@ -16,7 +16,7 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver
 from seisblock.core.typing import Progress
 from seisblock.readers.discover import RecordSource, iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.studies.batch.table import BatchTable, Row, batch_columns

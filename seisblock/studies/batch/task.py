@@ -14,7 +14,8 @@ from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver
 from seisblock.core.results import Status
 from seisblock.readers.discover import RecordSource
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.qc_report import qc_summary, require_clean
@@ -110,7 +111,7 @@ def record_rows(recording: RecordSource | Record, plan: Plan) -> list[Row]:
     """
     columns = _record_columns(recording, plan)
     try:
-        record = recording if isinstance(recording, Record) else recording.read(plan.read_options)
+        record = recording if isinstance(recording, Record) else read_source(recording, plan.read_options)
         if plan.read_options.station is not None and not matches_station(record, plan.read_options.station):
             return []
         columns |= {"station": record.station or None, "start": record.start.isoformat() if record.start else None}

@@ -22,7 +22,7 @@ from seisblock.core.io.csv_table import (
     split_cells,
 )
 from seisblock.core.typing import Progress
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.samples import resolve_file_or_sample, sample_names

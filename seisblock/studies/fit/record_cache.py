@@ -9,8 +9,8 @@ from pathlib import Path
 from seisblock.core.errors import ComponentError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.readers.discover import RecordSource, group_files
-from seisblock.readers.dispatch import ReadOptions
-from seisblock.readers.read import read
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read, read_source
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.qc_report import require_clean
 
@@ -78,9 +78,8 @@ class RecordCache:
             if bundle not in self.bundles:
                 self.bundles[bundle] = {item.path: item for item in group_files([str(bundle)], self.read_options)}
             if str(local_path) in self.bundles[bundle]:
-                return self.bundles[bundle][str(local_path)].read(self.read_options)
-        options = {key: getattr(self.read_options, key) for key in ("format", "units", "dt", "station", "level")}
-        return read(str(local_path) if os.path.lexists(local_path) else name, **options)
+                return read_source(self.bundles[bundle][str(local_path)], self.read_options)
+        return read(str(local_path) if os.path.lexists(local_path) else name, **self.read_options.keywords)
 
     def doubts(self) -> list[str]:
         """Return the warnings about the records, the first of each kind with a count."""

@@ -13,7 +13,8 @@ from seisblock.core.errors import ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.readers.discover import iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
@@ -162,7 +163,7 @@ def read_suite(
     for source in sources:
         for recording in [source] if isinstance(source, Record) else iter_records([str(source)], options):
             try:
-                loaded.append(recording if isinstance(recording, Record) else recording.read(options))
+                loaded.append(recording if isinstance(recording, Record) else read_source(recording, options))
             except SeisblockError as error:
                 failure = error
                 if strict:

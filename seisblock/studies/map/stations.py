@@ -19,7 +19,8 @@ from seisblock.measures.baseline import ground_history
 from seisblock.measures.intensity import jma_intensity
 from seisblock.measures.peaks import peak_acceleration, peak_velocity
 from seisblock.readers.discover import RecordSource, iter_records
-from seisblock.readers.dispatch import ReadOptions
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.records.qc_report import qc_summary, require_clean
@@ -228,7 +229,7 @@ def _assess_station(
         raise KindError("expected names or records of stations, found {found}", found=checks.type_name(recording))
     name = recording.name if isinstance(recording, RecordSource) else recording.source.rsplit("/", 1)[-1]
     try:
-        record = recording.read(reading) if isinstance(recording, RecordSource) else recording
+        record = read_source(recording, reading) if isinstance(recording, RecordSource) else recording
         if reading.station is not None and not matches_station(record, reading.station):
             return None
         if strict:

@@ -16,8 +16,9 @@ import pytest
 from seisblock.core.errors import RecordError, RecordFormatError, RecordNotFoundError
 from seisblock.readers import member_buffer, read, source
 from seisblock.readers.discover import iter_records
-from seisblock.readers.dispatch import ReadOptions
 from seisblock.readers.member_buffer import MemberBuffer
+from seisblock.readers.options import ReadOptions
+from seisblock.readers.read import read_source
 from seisblock.samples import sample_directory
 from tests.studies.batch.conftest import run, write_record
 
@@ -72,12 +73,12 @@ def test_component_files_of_station_form_one_record(folder):
         (folder / path.name.replace("synthetic", "other")).write_bytes(path.read_bytes())
     both = record_sources(*[each.name for each in KNET], "other_knet.EW", "other_knet.NS")
     assert [each.name for each in both] == ["synthetic_knet.EW", "other_knet.EW"]
-    assert [each.read(ReadOptions()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
+    assert [read_source(each, ReadOptions()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
     (alone,) = record_sources("synthetic_knet.NS")
     np.testing.assert_array_equal(
-        alone.read(ReadOptions()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
+        read_source(alone, ReadOptions()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
     )
-    assert alone.read(ReadOptions()).codes == ("NS", "EW", "UD")
+    assert read_source(alone, ReadOptions()).codes == ("NS", "EW", "UD")
 
 
 def pack(path, members):
@@ -108,7 +109,7 @@ def test_each_station_of_bundle_is_a_record(folder, suffix, order):
     if order == "by component":
         members.sort(key=lambda each: each[0].rsplit(".", 1)[-1])
     bundle = pack(folder / f"event{suffix}", members)
-    records = {each.name[:6]: each.read(ReadOptions()) for each in record_sources(bundle)}
+    records = {each.name[:6]: read_source(each, ReadOptions()) for each in record_sources(bundle)}
     assert {name: (record.station, record.codes) for name, record in records.items()} == {
         "AAA001": ("AAA001", ("NS", "EW", "UD")),
         "BBB002": ("BBB002", ("NS", "EW", "UD")),
@@ -140,9 +141,9 @@ def test_damaged_bundle_keeps_earlier_records(folder):
     data[place + 200 : place + 400] = bytes(200)
     bundle.write_bytes(bytes(data))
     good, bad = record_sources(bundle)
-    assert good.read(ReadOptions()).codes == ("NS", "EW", "UD")
+    assert read_source(good, ReadOptions()).codes == ("NS", "EW", "UD")
     with pytest.raises(ValueError, match="damaged"):
-        bad.read(ReadOptions())
+        read_source(bad, ReadOptions())
 
 
 def test_borehole_sensor_is_selectable(folder):
@@ -193,7 +194,7 @@ def test_full_temporary_folder_is_reported(folder, monkeypatch):
     monkeypatch.setattr(member_buffer.tempfile, "SpooledTemporaryFile", lambda size: Full())
     *_, failed = record_sources(bundle)[:1]
     with pytest.raises(RecordError, match=r"cannot write a temporary file.*No space left"):
-        failed.read(ReadOptions())
+        read_source(failed, ReadOptions())
 
 
 def test_truncated_bundle_keeps_earlier_records(folder):
@@ -207,6 +208,6 @@ def test_truncated_bundle_keeps_earlier_records(folder):
     for data, good in ((whole[: len(whole) * 2 // 3], 2), (gzip.compress(spoilt, 1), 3), (spoilt, 3), (lie, 4)):
         bundle.write_bytes(data)
         *kept, failed = [each for each in record_sources(bundle) if each.failure or len(each.blobs) == 3]
-        assert [each.read(ReadOptions()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
+        assert [read_source(each, ReadOptions()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
         with pytest.raises(RecordFormatError, match=r"event.tar.gz: archive damaged or encrypted"):
-            failed.read(ReadOptions())
+            read_source(failed, ReadOptions())

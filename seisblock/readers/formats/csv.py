@@ -14,20 +14,27 @@ from seisblock.core.errors import InputError, ParameterError, RecordFormatError,
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.readers._header import JST
+from seisblock.readers._header_check import qc_flag
 from seisblock.readers.lines import map_lines, read_lines
+from seisblock.readers.registry import Format, register
 from seisblock.readers.source import RawFile
+from seisblock.readers.table.checks import flag_comment_mismatch, flag_missing_points, flag_truncated_end
 from seisblock.readers.table.columns import Column, TableColumns, parse_header
-from seisblock.readers.table.comments import flag_comment_mismatch
-from seisblock.readers.table.header_rows import INSPECTED_LINES, TIME_HEADING, guess_first_name
 from seisblock.readers.table.headers import TIME, split_unit, zone_offset_s
-from seisblock.readers.table.layout import FORTRAN_EXPONENT, find_layout, is_data_line, preamble_error
+from seisblock.readers.table.layout import (
+    FORTRAN_EXPONENT,
+    INSPECTED_LINES,
+    TIME_HEADING,
+    find_layout,
+    guess_first_name,
+    is_data_line,
+    looks_like_csv,
+    preamble_error,
+)
 from seisblock.readers.table.parse import parse_columns, to_si_in_place
-from seisblock.readers.table.precision import flag_missing_points, flag_truncated_end
-from seisblock.readers.table.sampling import sampling_interval
-from seisblock.readers.table.timestamps import Timestamp, parse_timestamp, seconds_replacer
+from seisblock.readers.table.sampling import Timestamp, parse_timestamp, sampling_interval, seconds_replacer
 from seisblock.records import Component, QCFlag, Record
 
-FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
 _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s")
 
@@ -35,26 +42,18 @@ _TIME_GUESSED_NOTE = N_("first column (evenly increasing) used as the time in s"
 def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None = None) -> Record:
     """Return the record in a plain table.
 
-    Parameters
-    ----------
-    blob : RawFile
-        Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name
-        the columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in
-        a line below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time
-        with a date (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time.
-    units : str or None
-        Unit of columns without a unit.
-    dt : float or None, s
-        Sampling interval of a table without a time column.
+    Cells are separated by commas, semicolons (decimal comma allowed), tabs or blanks; ``#`` begins a comment. The first line may name the
+    columns (:func:`seisblock.readers.table.columns.parse_header`) with units: ``EW (gal)``, ``ew_gal``, ``NS[m/s^2]``, or units in a line
+    below the names. A time column gives the sampling interval and must be even within the printed digits; the first clock time with a date
+    (``2024-01-01T16:10:10Z``) is the start. Without names, an evenly increasing first column is the time. `units` is the unit of columns
+    without one, `dt` the sampling interval, s, of a table without a time column.
 
     Raises
     ------
     RecordFormatError
         If a column is unknown or a cell is not a number; the message has its name or line.
-    UnitError
-        If a unit is unknown or missing.
-    ParameterError
-        If the sampling interval is missing, or contradicts the time column.
+    UnitError, ParameterError
+        If a unit or the sampling interval is missing, or contradicts the file.
     """
     lines = read_lines(blob)
     layout = find_layout(blob.name, lines)
@@ -111,7 +110,7 @@ def read_plain_csv(blob: RawFile, *, units: str | None = None, dt: float | None 
         dt,
         start=start,
         source=blob.name,
-        format=FORMAT,
+        format=FORMAT.name,
         history=(*columns.notes, *start_notes),
         metadata=metadata
         | (
@@ -168,16 +167,12 @@ def _qc_flags(lines: Sequence[str], body: int, *, has_time: bool) -> tuple[QCFla
     last = max(i for i, line in enumerate(lines) if is_data_line(line))
     empty_lines = [] if has_time else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty_lines:
-        text = lazy_gettext(
-            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early",
-            count=len(empty_lines),
-            line=empty_lines[0],
+        message = (
+            "{count} empty line(s) among the samples (first: line {line}); if samples are missing there, all later samples are too early"
         )
-        flags.append(QCFlag("line", text))
+        flags.append(qc_flag(message, "line", count=len(empty_lines), line=empty_lines[0]))
     if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data_line(line)):
-        flags.append(
-            QCFlag("cut", lazy_gettext("last line shortest and without line end: file probably truncated, last number incomplete"))
-        )
+        flags.append(qc_flag("last line shortest and without line end: file probably truncated, last number incomplete", "cut"))
     return tuple(flags)
 
 
@@ -196,11 +191,8 @@ def _guess_columns(name: str, rows: Sequence[FloatArray], units: str | None) -> 
     if len(rows) - has_time == 1:
         names[-1] = "ACC"
     if units is None:
-        raise UnitError(
-            "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g",
-            name=name,
-            column=1 + has_time,
-        )
+        message = "{name}: column {column} has no unit: add a header such as 'EW (gal)' or give `units`, gal|m/s2|g"
+        raise UnitError(message, name=name, column=1 + has_time)
     columns = parse_header(name, names, units)
     return TableColumns(columns.columns, (lazy_gettext(_TIME_GUESSED_NOTE),) if has_time else ())
 
@@ -213,10 +205,19 @@ def _column_interval(name: str, column: Column, row: FloatArray, body: Sequence[
 
     interval = sampling_interval(name, row, printed_times, unit=column.seconds)
     if dt is not None and abs(dt - interval) > 1e-6:
-        raise ParameterError(
-            "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`",
-            name=name,
-            found=interval,
-            dt=dt,
-        )
+        message = "{name}: interval of the time column {found:g} s contradicts `dt` {dt:g} s; omit `dt`"
+        raise ParameterError(message, name=name, found=interval, dt=dt)
     return interval
+
+
+FORMAT = register(
+    Format(
+        name="CSV",
+        title=N_("a plain table"),
+        parse=read_plain_csv,
+        matches_text=looks_like_csv,
+        specificity=0,
+        options=("units", "dt"),
+        plugin=False,
+    )
+)
