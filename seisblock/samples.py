@@ -94,6 +94,7 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
 
     Examples
     --------
+    >>> from seisblock.samples import sample_path
     >>> sample_path("aoyama").name
     'aoyama.csv'
     """
@@ -123,3 +124,6 @@ def find_sample(name: str) -> Path | None:
     stems = {spelling.split(".")[0]: full for spelling, full in samples.items()}
     filename = samples.get(key) or stems.get(key)
     return None if filename is None else sample_directory() / filename
+
+
+__all__ = ["DEFAULT_SAMPLE", "REAL_SAMPLE", "Sample", "list_samples", "sample_path"]

@@ -1,10 +1,12 @@
 """Reference pages generated from the program while the site is built.
 
-A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature`, `options` or `names` (one public
-name per line) is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+A fence named `commands`, `documents`, `formats`, `gallery`, `glossary`, `literature`, `options` or `names` (one public name per
+line, those of subpackages with a dot) is replaced by the generated text, and the key of a paper in brackets, [Housner1963], by a
+link to its entry.
 """
 
 import inspect
+import operator
 import re
 import tomllib
 from collections.abc import Iterator
@@ -160,18 +162,18 @@ def options(_: str) -> str:
 
 
 def names(name_list: str) -> str:
-    """Return the public names of a list: a table, then each with its docstring."""
+    """Return the public names of a list, those of subpackages with a dot: a table, then each with its docstring."""
     public_names = name_list.split()
     head = ["```{eval-rst}", ".. currentmodule:: seisblock", "", ".. autosummary::", "   :nosignatures:", ""]
     parts = [*head, *(f"   {name}" for name in public_names), ""]
     for name in public_names:
-        value = getattr(seisblock, name)
+        value = operator.attrgetter(name)(seisblock)
         if inspect.ismodule(value):
             parts += [f".. automodule:: {value.__name__}", ""]
         elif inspect.isclass(value):
-            parts += [f".. auto{'exception' if issubclass(value, Exception) else 'class'}:: {name}", "   :members:", ""]
+            parts += [f".. auto{'exception' if issubclass(value, Exception) else 'class'}:: seisblock.{name}", "   :members:", ""]
         else:
-            parts += [f".. autofunction:: {name}", ""]
+            parts += [f".. auto{'function' if inspect.isfunction(value) else 'data'}:: seisblock.{name}", ""]
     return "\n".join((*parts, "```"))
 
 

@@ -1,1 +1,5 @@
 """Bodies: rigid blocks, two-layer blocks, piles of stones, scans and sliding bases."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

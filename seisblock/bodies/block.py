@@ -266,6 +266,7 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 
     Examples
     --------
+    >>> from seisblock.bodies import from_slenderness
     >>> round(from_slenderness(0.3, 2.5).height, 3)
     2.248
     """

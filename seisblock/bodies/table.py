@@ -126,6 +126,7 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[BodySpec, ...
 
     Examples
     --------
+    >>> from seisblock.bodies import read_bodies
     >>> [body.name for body in read_bodies(["gravestone", "lantern"])]
     ['gravestone', 'lantern']
     """

@@ -29,7 +29,8 @@ def load_records(source: Source, *, vertical_counts: bool = False, keep_whole: b
     """
     if not keep_whole:
         check_single_window(source)
-    from seisblock.readers import DEFAULT_SAMPLE, REAL_SAMPLE, read_all
+    from seisblock.readers import read_all
+    from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE
 
     names: tuple[str, ...] = source.record
     if not names and use_recording:

@@ -112,12 +112,12 @@ def map(  # noqa: A001 - the command's name
     from seisblock.cli.progress import progress
     from seisblock.cli.write_results import write_results
     from seisblock.core.errors import RecordError
-    from seisblock.readers import REAL_SAMPLE
     from seisblock.readers.options import ReadOptions
     from seisblock.report.io.atomic import check_distinct_outputs
     from seisblock.report.io.suffix import check_text_suffix
     from seisblock.report.json.map import document
     from seisblock.report.text import map as text_output
+    from seisblock.samples import REAL_SAMPLE
     from seisblock.studies.map.stations import survey_stations
     from seisblock.studies.map.surveyed_places import compare_surveys, read_surveys
 

@@ -20,7 +20,7 @@ from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.records.floor_motion import Storey
+from seisblock.records.floor import Storey
 
 Function = Callable[..., Any]
 

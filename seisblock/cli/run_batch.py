@@ -19,7 +19,6 @@ from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
 from seisblock.core.errors import OutputError, ParameterError, RecordError, SeisblockError
 from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
-from seisblock.readers import DEFAULT_SAMPLE
 from seisblock.readers.discover import expand_names, group_files
 from seisblock.readers.options import ReadOptions
 from seisblock.report.io.atomic import check_target, read_table, write_table
@@ -27,6 +26,7 @@ from seisblock.report.io.parquet import check_parquet, read_parquet, write_parqu
 from seisblock.report.json.batch import document
 from seisblock.report.json.encode import to_json
 from seisblock.report.text import batch as text_output
+from seisblock.samples import DEFAULT_SAMPLE
 from seisblock.studies.batch.cluster import connect
 from seisblock.studies.batch.run import iter_record_rows, make_plan
 from seisblock.studies.batch.table import REASON, Row, batch_columns, row_cells

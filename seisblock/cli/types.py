@@ -15,7 +15,7 @@ from seisblock.core.format_names import format_names
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_JOINT_POINTS, MAX_VALUES, check_limit
 from seisblock.core.units import LENGTH_UNITS, FigureSize, parse_length, parse_mass, to_halfwidth
-from seisblock.records.floor_motion import Storey, parse_storey
+from seisblock.records.floor import Storey, parse_storey
 
 MIN_SIDE, MAX_SIDE = 0.04, 1.2
 """Smallest and largest side of a figure, m."""

@@ -93,8 +93,14 @@ _QUANTITY = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)
 def unit_suffix(unit: str) -> str:
     """Return the suffix of names of quantities in a unit: ``_m_s2`` for ``m/s^2``, empty for a dimensionless one.
 
+    Parameters
+    ----------
+    unit : str
+        Unit, ``1`` for a dimensionless quantity.
+
     Examples
     --------
+    >>> from seisblock.units import unit_suffix
     >>> unit_suffix("m/s^2"), unit_suffix("1")
     ('_m_s2', '')
     """
@@ -104,10 +110,21 @@ def unit_suffix(unit: str) -> str:
 def acceleration_unit(name: str) -> float:
     """Return the value of an acceleration unit in m/s^2.
 
+    Parameters
+    ----------
+    name : str
+        Unit, such as ``gal``; case-insensitive.
+
     Raises
     ------
     UnitError
         If the unit is not one of ``ACCELERATION_UNITS``.
+
+    Examples
+    --------
+    >>> from seisblock.units import acceleration_unit
+    >>> acceleration_unit("gal"), acceleration_unit("g")
+    (0.01, 9.80665)
     """
     factor = ACCELERATION_UNITS.get(name.strip().lower())
     if factor is None:
@@ -134,6 +151,7 @@ def parse_length(text: str | float, *, quantity: str = "length") -> float:
 
     Examples
     --------
+    >>> from seisblock.units import parse_length
     >>> parse_length("8sun"), parse_length("2尺4寸")
     (0.2424, 0.7272)
     """
@@ -225,7 +243,26 @@ def parse_quantity(text: str | float, units: Mapping[str, float], *, quantity: s
 
 
 def parse_mass(text: str | float, *, quantity: str = "mass") -> float:
-    """Return a mass in kilograms from a number (kg) or a text such as ``1.3t``."""
+    """Return a mass in kilograms from a number (kg) or a text such as ``1.3t``.
+
+    Parameters
+    ----------
+    text : str or float
+        Number, kg, or text with a unit of ``MASS_UNITS``.
+    quantity : str
+        Name of the quantity in an error.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> from seisblock.units import parse_mass
+    >>> parse_mass("1.3t"), parse_mass(250)
+    (1300.0, 250.0)
+    """
     return _parse(text, MASS_UNITS, "kg", quantity)
 
 
@@ -248,6 +285,7 @@ def parse_acceleration(text: str, *, quantity: str = "acceleration") -> float:
 
     Examples
     --------
+    >>> from seisblock.units import parse_acceleration
     >>> parse_acceleration("245gal")
     2.45
     """

@@ -43,7 +43,7 @@ class CriterionResult:
     frequency : str or None
         Name of the equivalent frequency used; None if the criterion does not depend on frequency.
     frequency_hz : float or None
-    threshold, demand : float
+    threshold, demand : float, in `unit`
         The criterion predicts overturning if the demand exceeds the threshold.
     overturns : bool
     """
@@ -84,6 +84,7 @@ def overturning_card(
 
     Examples
     --------
+    >>> from seisblock.criteria import overturning_card
     >>> first = overturning_card(Block(0.24, 0.8), 4.0, 0.5, {"pga_pgv": 1.3})[0]
     >>> first.criterion, round(first.threshold, 2), first.overturns
     ('West, static', 2.94, True)

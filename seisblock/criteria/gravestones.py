@@ -52,7 +52,7 @@ class GravestoneFit:
     q_hz : float, Hz
         Frequency at which a(f) is sqrt(2) a(0).
     r : float
-        Exponent.
+        Exponent, a ratio of logarithms.
     name : str
 
     Raises
@@ -102,6 +102,7 @@ def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> Float
 
     Examples
     --------
+    >>> from seisblock.criteria import overturning_level
     >>> float(overturning_level(2.0).round(4))
     12.2817
     """
@@ -118,12 +119,32 @@ def overturning_ratio(pga: ArrayLike, frequency: ArrayLike, fit: GravestoneFit =
         Peak ground acceleration, positive.
     frequency : array, Hz
     fit : GravestoneFit
+
+    Examples
+    --------
+    >>> from seisblock.criteria import overturning_ratio
+    >>> round(float(overturning_ratio(4.0, 1.0)), 2)
+    2.12
     """
     return overturning_level(frequency, fit) / _validate(pga, N_("PGA"), "m/s^2")
 
 
 def overturning_pga(ratio: ArrayLike, frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
-    """Return the minimum PGA, m/s^2, that overturns a stone with a given H/B: [Furukawa2009]_ eq. (7) solved for PGA."""
+    """Return the minimum PGA, m/s^2, that overturns a stone with a given H/B: [Furukawa2009]_ eq. (7) solved for PGA.
+
+    Parameters
+    ----------
+    ratio : array
+        H/B of the stones, positive.
+    frequency : array, Hz
+    fit : GravestoneFit
+
+    Examples
+    --------
+    >>> from seisblock.criteria import overturning_pga
+    >>> round(float(overturning_pga(3.0, 1.0)), 2)
+    2.82
+    """
     return overturning_level(frequency, fit) / _validate(ratio, N_("height over width"), "1")
 
 
@@ -131,6 +152,20 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
     """Return the maximum frequency, Hz, at which a PGA overturns a stone with a given H/B; NaN if there is none.
 
     [Furukawa2009]_ eqs. (7), (8) solved for f.
+
+    Parameters
+    ----------
+    pga : array, m/s^2
+        Peak ground acceleration, positive.
+    ratio : array
+        H/B of the stones.
+    fit : GravestoneFit
+
+    Examples
+    --------
+    >>> from seisblock.criteria import overturning_frequency
+    >>> round(float(overturning_frequency(4.0, 3.0)), 2)
+    1.96
     """
     level = _validate(pga, N_("PGA"), "m/s^2") * _validate(ratio, N_("height over width"), "1")
     # negative surplus: PGA below p/(H/B), too low at any frequency
@@ -141,8 +176,16 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
 def predict(ratio: float, threshold: float) -> Prediction:
     """Return the prediction for a stone; on the line within 0.1 of the threshold ([Furukawa2009]_ table 5).
 
+    Parameters
+    ----------
+    ratio : float
+        H/B of the stone.
+    threshold : float
+        Minimum H/B of a stone that overturns.
+
     Examples
     --------
+    >>> from seisblock.criteria import predict
     >>> predict(2.6, 2.5), predict(2.6, 2.4), predict(2.6, 2.75)
     ('on the line', 'overturns', 'stands')
     """
@@ -160,6 +203,14 @@ def fit_range_warnings(pga: float, frequency: float, ratios: ArrayLike = ()) -> 
     frequency : float, Hz
     ratios : array
         H/B of the stones.
+
+    Examples
+    --------
+    >>> from seisblock.criteria import fit_range_warnings
+    >>> fit_range_warnings(3.0, 2.0, [2.5])
+    ()
+    >>> len(fit_range_warnings(3.0, 9.0, [2.5]))
+    1
     """
     messages = []
     (low, high), stones = FITTED_PGA, np.asarray(ratios, dtype=np.float64)

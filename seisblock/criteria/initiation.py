@@ -41,6 +41,7 @@ def peak_loading_ratio(motion: Motion, *, vertical: Gain | None = None, gravity:
 
     Examples
     --------
+    >>> from seisblock.criteria import peak_loading_ratio
     >>> peak_loading_ratio(Motion.from_arrays([0.0, 2.0, -3.0], 0.1, vertical=[0.0, 0.0, -4.0]), gravity=10.0)
     (0.5, 0.2)
     """
@@ -95,6 +96,7 @@ def friction_to_rock(block: Block, ratio: float) -> float | None:
 
     Examples
     --------
+    >>> from seisblock.criteria import friction_to_rock
     >>> block = Block(0.3, 1.0)
     >>> friction_to_rock(block, 0.2), round(friction_to_rock(block, 0.6), 4)
     (None, 0.3706)
@@ -123,6 +125,7 @@ def first_mode(block: Block, mu: float, ratio: float) -> str:
 
     Examples
     --------
+    >>> from seisblock.criteria import first_mode
     >>> [first_mode(Block(0.3, 1.0), mu, 0.6) for mu in (0.2, 0.31, 0.5, 0.7)]
     ['slide', 'slide-rock', 'rock', 'rock']
     """

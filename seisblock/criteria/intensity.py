@@ -35,6 +35,7 @@ def intensity_from_velocity(pgv: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import intensity_from_velocity
     >>> round(intensity_from_velocity(0.5), 2)
     5.6
     """

@@ -28,6 +28,7 @@ def static_acceleration(width: float, height: float, gravity: float = STANDARD_G
 
     Examples
     --------
+    >>> from seisblock.criteria import static_acceleration
     >>> round(static_acceleration(1.0, 4.0, 9.8), 12)
     2.45
     """
@@ -55,6 +56,12 @@ def housner_acceleration(slenderness: float, frequency_parameter: float, frequen
     ------
     ParameterError
         If a parameter is not positive.
+
+    Examples
+    --------
+    >>> from seisblock.criteria import housner_acceleration
+    >>> round(housner_acceleration(0.3, 4.0, 1.0), 3)
+    5.478
     """
     _check_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, frequency=frequency, gravity=gravity)
     return gravity * slenderness * math.hypot(1.0, 2 * math.pi * frequency / frequency_parameter)
@@ -75,6 +82,12 @@ def housner_acceleration_as_printed(width: float, height: float, frequency: floa
     ------
     ParameterError
         If a parameter is not positive.
+
+    Examples
+    --------
+    >>> from seisblock.criteria import housner_acceleration_as_printed
+    >>> round(housner_acceleration_as_printed(0.3, 0.9, 1.0), 3)
+    4.757
     """
     _check_sizes(width, height, gravity)
     _check_positive(frequency=frequency)
@@ -103,6 +116,7 @@ def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAV
 
     Examples
     --------
+    >>> from seisblock.criteria import tsutsui_velocity
     >>> round(tsutsui_velocity(0.242, 0.726, 9.8, cosine=True), 3)
     0.709
     """
@@ -122,6 +136,12 @@ def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
     ------
     ParameterError
         If a parameter is not positive.
+
+    Examples
+    --------
+    >>> from seisblock.criteria import tsutsui_sine_velocity
+    >>> round(tsutsui_sine_velocity(3.0, 1.0), 3)
+    0.955
     """
     _check_positive(acceleration=acceleration, frequency=frequency)
     return acceleration / (math.pi * frequency)
@@ -149,6 +169,8 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
 
     Examples
     --------
+    >>> import math
+    >>> from seisblock.criteria import velocity_step
     >>> block_of_1_by_4 = velocity_step(math.atan(0.25), math.sqrt(3 * 9.8 / (4 * math.hypot(0.5, 2.0))), 9.8)
     >>> round(block_of_1_by_4, 4)
     1.3073
@@ -163,7 +185,21 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
 def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
     """Return g B/H, m/s^2, to be exceeded together with the velocity limit ([Ishiyama1982]_ criterion).
 
-    Parameters and errors as in :func:`static_acceleration`.
+    Parameters
+    ----------
+    width, height : float, m
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is not positive.
+
+    Examples
+    --------
+    >>> from seisblock.criteria import ishiyama_acceleration
+    >>> round(ishiyama_acceleration(0.3, 0.9), 3)
+    3.269
     """
     return static_acceleration(width, height, gravity)
 
@@ -184,6 +220,7 @@ def ishiyama_velocity(width: float, height: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import ishiyama_velocity
     >>> ishiyama_velocity(0.25, 1.0)
     0.25
     """

@@ -26,7 +26,7 @@ def half_sine_ratio(w: float) -> float:
     Parameters
     ----------
     w : float
-        W = omega/p, positive: circular frequency of the sine over the frequency parameter.
+        W = omega/p, positive: ratio of the circular frequency of the sine to the frequency parameter.
 
     Returns
     -------
@@ -44,6 +44,7 @@ def half_sine_ratio(w: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import half_sine_ratio
     >>> [round(half_sine_ratio(w), 4) for w in (1, 2, 5)]
     [1.3224, 1.8007, 3.2891]
     """
@@ -119,7 +120,7 @@ def one_sine_ratio(w: float) -> float:
     Parameters
     ----------
     w : float
-        W = omega/p, positive.
+        W = omega/p, positive: ratio of the circular frequency of the sine to the frequency parameter.
 
     Raises
     ------
@@ -128,6 +129,7 @@ def one_sine_ratio(w: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import one_sine_ratio
     >>> round(one_sine_ratio(5), 5)
     7.16813
     """
@@ -151,6 +153,7 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import rectangular_ratio
     >>> round(rectangular_ratio(0.5, 2.0), 6)
     1.581977
     """

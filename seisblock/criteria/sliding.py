@@ -33,6 +33,7 @@ def slip_acceleration(mu: float, *, vertical: ArrayLike = 0.0, gravity: float = 
 
     Examples
     --------
+    >>> from seisblock.criteria import slip_acceleration
     >>> round(float(slip_acceleration(0.2, gravity=9.8)), 3)
     1.96
     """
@@ -66,6 +67,7 @@ def slip_limits(
 
     Examples
     --------
+    >>> from seisblock.criteria import slip_limits
     >>> downhill, uphill = slip_limits(0.0, 0.2, gravity=9.8)
     >>> round(float(downhill), 3), round(float(uphill), 3)
     (-1.96, 1.96)
@@ -83,7 +85,7 @@ def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
     ----------
     slope_deg : float, degrees
     kappa : float
-        Kinetic over static friction, positive.
+        Ratio of kinetic to static friction, positive.
 
     Returns
     -------
@@ -96,6 +98,7 @@ def min_friction_to_stop(slope_deg: float, kappa: float) -> float:
 
     Examples
     --------
+    >>> from seisblock.criteria import min_friction_to_stop
     >>> round(min_friction_to_stop(20.0, 0.5), 4)
     0.7279
     """
@@ -110,9 +113,9 @@ def min_friction_to_hold(slope_deg: float, horizontal: ArrayLike, vertical: Arra
     ----------
     slope_deg : float, degrees
     horizontal : array
-        Horizontal ground acceleration over gravity, alpha in the paper, positive downhill.
+        Ratio of horizontal ground acceleration to gravity, alpha in the paper, positive downhill.
     vertical : array
-        Vertical ground acceleration over gravity, upwards positive: alpha times mu in the paper.
+        Ratio of vertical ground acceleration to gravity, upwards positive: alpha times mu in the paper.
 
     Returns
     -------
@@ -125,6 +128,7 @@ def min_friction_to_hold(slope_deg: float, horizontal: ArrayLike, vertical: Arra
 
     Examples
     --------
+    >>> from seisblock.criteria import min_friction_to_hold
     >>> round(float(min_friction_to_hold(20.0, -0.2)), 4)
     0.6082
     """
@@ -154,6 +158,7 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
 
     Examples
     --------
+    >>> from seisblock.criteria import pulse_slip
     >>> round(pulse_slip(4.0, 1.0, 1.96133), 6)
     2.078865
     """
@@ -174,7 +179,7 @@ def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float =
     mu : float
         Static friction coefficient.
     kappa : float
-        Kinetic over static friction.
+        Ratio of kinetic to static friction.
     gravity : float, m/s^2
 
     Returns
@@ -194,6 +199,7 @@ def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float =
 
     Examples
     --------
+    >>> from seisblock.criteria import steady_slip
     >>> round(steady_slip(4.0, 1.0, 0.1), 5)
     0.18701
     >>> steady_slip(4.0, 1.0, 0.25) is None

@@ -27,13 +27,13 @@ class SquareBaseModes:
     Parameters
     ----------
     c1, c2 : float
-        Rocking frequencies omega_1 = omega_2 and omega_5 = omega_6 over omega_V.
+        Ratios of the rocking frequencies omega_1 = omega_2 and omega_5 = omega_6 over omega_V.
     torsion : float
-        Frequency omega_4 over omega_V.
+        Ratio of the frequency omega_4 to omega_V.
     d1, d2 : float
-        Entries of the modal matrix: mode 1 is x = 1, b theta_y = -d2; mode 5 is x = -d1, b theta_y = 1.
+        Entries of the modal matrix, ratios of displacements: mode 1 is x = 1, b theta_y = -d2; mode 5 is x = -d1, b theta_y = 1.
     m1, m5 : float
-        Modal masses of modes 1 and 5.
+        Ratios of the modal masses of modes 1 and 5 to the mass.
     """
 
     c1: float
@@ -56,9 +56,9 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
     Parameters
     ----------
     alpha : float
-        Height over side length, H/b, positive.
+        Ratio of height to side length, H/b, positive.
     beta : float
-        Horizontal over vertical circular frequency, positive.
+        Ratio of the horizontal to the vertical circular frequency, positive.
 
     Returns
     -------
@@ -77,6 +77,7 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
 
     Examples
     --------
+    >>> from seisblock.criteria import square_base_modes
     >>> round(square_base_modes(2.0, 3**0.5 / 2).c2, 12)
     1.732050807569
     """
@@ -113,7 +114,7 @@ def harmonic_uplift_ratio(
     frequency_ratio : (n,) array
         Frequency of the shaking over the first rocking frequency, theta/omega_1.
     alpha, beta : float
-        Height over side length; horizontal over vertical circular frequency.
+        Ratios of height to side length and of horizontal to vertical circular frequency.
     damping : float
         Modal damping ratio h, the same in each mode.
     phi_deg, rho_deg : float, degrees
@@ -145,6 +146,7 @@ def harmonic_uplift_ratio(
 
     Examples
     --------
+    >>> from seisblock.criteria import harmonic_uplift_ratio
     >>> harmonic_uplift_ratio([2.78225], alpha=1.0, beta=0.6**0.5, damping=0.05).round(6)
     array([0.676683])
     """

@@ -69,6 +69,15 @@ def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | 
     ------
     ParameterError
         If the corner is negative or above the Nyquist frequency.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import ground_history
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> history = ground_history(sine, 0.01, highpass_hz=None)
+    >>> round(float(abs(history.velocity).max()), 3)
+    0.159
     """
     filtered_acceleration = highpass_samples(acceleration, dt, highpass_hz) if highpass_hz else acceleration
     return ground_history_of(filtered_acceleration, dt)

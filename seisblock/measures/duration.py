@@ -52,6 +52,12 @@ def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GR
     ------
     ParameterError
         If a size is not positive.
+
+    Examples
+    --------
+    >>> from seisblock.measures import block_threshold
+    >>> round(block_threshold(0.3, 0.9), 3)
+    3.269
     """
     checks.positive("width of the block", width, "m")
     checks.positive("height of the block", height, "m")
@@ -84,6 +90,13 @@ def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     ------
     ParameterError
         If the threshold is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import intervals_above
+    >>> intervals_above(np.array([0.0, 2.0, 0.0, -2.0, 0.0]), 0.1, 1.0).round(3).tolist()
+    [[0.05, 0.15], [0.25, 0.35]]
     """
     checks.positive("the threshold", threshold, "m/s^2")
     signs = {"both": (1.0, -1.0), "positive": (1.0,), "negative": (-1.0,)}.get(side)
@@ -114,6 +127,8 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from seisblock.measures import duration_above
     >>> duration_above(np.array([0.0, 2.0, 0.0, -2.0, 0.0]), 0.1, 1.0)
     Duration(threshold_m_s2=1.0, total_s=0.2, longest_s=0.1, count=2)
     """

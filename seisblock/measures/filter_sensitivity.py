@@ -51,6 +51,16 @@ def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) ->
     -------
     FilterRange or None
         None also for a record without motion, or if a corner is above the Nyquist frequency.
+
+    Examples
+    --------
+    >>> from seisblock import measure, read
+    >>> from seisblock.measures import filter_range
+    >>> record = read("synthetic_jma.csv")
+    >>> peaks = measure(record).components[0]
+    >>> limits = filter_range(record.components[0].acceleration, record.dt, peaks.pga_m_s2, peaks.pgv_m_s)
+    >>> round(limits.pgv_m_s[0], 2), round(limits.pgv_m_s[1], 2)
+    (1.16, 1.3)
     """
     if not (pga > 0.0 and pgv > 0.0 and max(USUAL_HIGHPASS_HZ) * dt < 0.5):
         return None

@@ -23,11 +23,11 @@ class EquivalentFrequency:
 
     Parameters
     ----------
-    pga_pgv : float or None
+    pga_pgv : float or None, Hz
         Method 1, the paper's choice: PGA / (2 pi PGV).
-    fourier : float or None
+    fourier : float or None, Hz
         Method 2: frequency of the largest smoothed Fourier amplitude.
-    pulse_width : float or None
+    pulse_width : float or None, Hz
         Method 3: 1 / T, with T/2 the width of the pulse that contains the PGA.
     """
 
@@ -71,6 +71,12 @@ def pga_pgv_frequency(pga: float, pgv: float) -> float | None:
     -------
     float or None, Hz
         None if a peak is zero.
+
+    Examples
+    --------
+    >>> from seisblock.measures import pga_pgv_frequency
+    >>> round(pga_pgv_frequency(3.0, 0.3), 3)
+    1.592
     """
     return pga / (2.0 * math.pi * pgv) if pga > 0 and pgv > 0 else None
 
@@ -103,6 +109,14 @@ def dominant_frequency(
     ------
     ParameterError
         If the band is empty.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import dominant_frequency
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> round(dominant_frequency(sine, 0.01), 2)
+    1.0
     """
     low, high = band_hz[0], min(band_hz[1], 0.5 / dt)
     if not 0 <= low < high:
@@ -146,6 +160,15 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
     -------
     Pulse or None
         None if all samples are zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import peak_pulse
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> pulse = peak_pulse(sine, 0.01)
+    >>> round(pulse.frequency_hz, 3)
+    1.0
     """
     peak, top = peak_acceleration(acceleration)
     if peak == 0.0:

@@ -51,6 +51,14 @@ def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STA
     Returns
     -------
     float, m/s
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import arias_intensity
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> round(arias_intensity(sine, 0.01), 3)
+    0.8
     """
     return math.pi / (2.0 * gravity) * float(_square_integrals(acceleration, dt).sum())
 
@@ -74,6 +82,14 @@ def significant_duration(acceleration: FloatArray, dt: float, *, fractions: tupl
     -------
     float, s
         0 if all samples are zero.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import significant_duration
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> round(significant_duration(sine, 0.01), 2)
+    9.0
     """
     cumulative = np.zeros(acceleration.size)
     cumulative[1:] = _square_integrals(acceleration, dt)
@@ -116,6 +132,7 @@ def jma_intensity(record: Record) -> float | None:
 
     Examples
     --------
+    >>> from seisblock.measures import jma_intensity
     >>> from seisblock.readers import read
     >>> round(jma_intensity(read("synthetic_jma.csv")), 1)
     6.6
@@ -180,6 +197,7 @@ def jma_class(intensity: float) -> str:
 
     Examples
     --------
+    >>> from seisblock.measures import jma_class
     >>> [jma_class(i) for i in (-1.0, 4.494, 4.497, 5.1, 7.2)]
     ['0', '4', '5-', '5+', '7']
     """

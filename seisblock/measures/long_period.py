@@ -75,6 +75,7 @@ def long_period_motion(record: Record) -> LongPeriodMotion | None:
 
     Examples
     --------
+    >>> from seisblock.measures import long_period_motion
     >>> from seisblock.readers import read
     >>> result = long_period_motion(read("synthetic_jma.csv"))
     >>> result.long_period_class, round(result.floor_velocity_m_s, 3), result.period_s
@@ -96,10 +97,16 @@ def long_period_motion(record: Record) -> LongPeriodMotion | None:
 
 
 def long_period_class(floor_velocity: float) -> str:
-    """Return JMA's class of long-period ground motion, ``0`` to ``4``, for a floor velocity, m/s ([JMA2016]_ method).
+    """Return JMA's class of long-period ground motion, ``0`` to ``4``, for a floor velocity ([JMA2016]_ method).
+
+    Parameters
+    ----------
+    floor_velocity : float, m/s
+        Largest absolute velocity of the floors.
 
     Examples
     --------
+    >>> from seisblock.measures import long_period_class
     >>> [long_period_class(v) for v in (0.049, 0.05, 0.2, 0.999, 1.0)]
     ['0', '1', '2', '3', '4']
     """

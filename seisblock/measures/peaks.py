@@ -48,6 +48,13 @@ def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
         Absolute value.
     index : int
         First sample with that value.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import peak_acceleration
+    >>> peak_acceleration(np.array([0.0, 1.0, -2.0, 0.5]))
+    (2.0, 2)
     """
     highest, lowest = int(acceleration.argmax()), int(acceleration.argmin())
     maximum, minimum = float(acceleration[highest]), -float(acceleration[lowest])
@@ -70,6 +77,14 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     Returns
     -------
     float, m/s
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import ground_history, peak_velocity
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> round(peak_velocity(ground_history(sine, 0.01, highpass_hz=None), 0.01), 3)
+    0.159
     """
     largest = 0.0
     for begin, v in velocities(history.acceleration, dt, history.initial_velocity):
@@ -94,6 +109,14 @@ def peak_displacement(history: GroundHistory) -> float:
     Returns
     -------
     float, m
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import ground_history, peak_displacement
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> round(peak_displacement(ground_history(sine, 0.01, highpass_hz=None)), 3)
+    0.025
     """
     pieces = displacements(history.acceleration, history.dt, history.initial_velocity)
     return max(float(np.abs(piece).max()) for _, piece in pieces)
@@ -115,6 +138,14 @@ def peak_horizontal(record: Record) -> HorizontalPeak | None:
     -------
     HorizontalPeak or None
         None without two horizontals.
+
+    Examples
+    --------
+    >>> from seisblock import read
+    >>> from seisblock.measures import peak_horizontal
+    >>> peak = peak_horizontal(read("synthetic_jma.csv"))
+    >>> round(peak.pga_m_s2, 3), round(peak.azimuth_deg, 1)
+    (10.412, 314.1)
     """
     if len(record.horizontals) < 2:
         return None

@@ -52,7 +52,15 @@ class ResponseSpectrum(PlotMixin):
 
 
 def default_periods() -> FloatArray:
-    """Return 100 logarithmically spaced periods from 0.05 to 10 s for response spectra ([NigamJennings1969]_)."""
+    """Return 100 logarithmically spaced periods from 0.05 to 10 s for response spectra ([NigamJennings1969]_).
+
+    Examples
+    --------
+    >>> from seisblock.measures import default_periods
+    >>> periods = default_periods()
+    >>> periods.size, round(float(periods[0]), 3), round(float(periods[-1]), 3)
+    (100, 0.05, 10.0)
+    """
     return np.geomspace(0.05, 10.0, 100)
 
 
@@ -87,6 +95,7 @@ def response_spectrum(
 
     Examples
     --------
+    >>> from seisblock.measures import response_spectrum
     >>> import numpy as np
     >>> pulse = 4.0 * np.sin(np.linspace(0.0, np.pi, 101))
     >>> response_spectrum(pulse, 0.01, [1.0]).sa_m_s2.round(3)
@@ -140,6 +149,15 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     ------
     ParameterError
         If the bandwidth is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.measures import fourier_amplitude
+    >>> sine = np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+    >>> frequency, amplitude = fourier_amplitude(sine, 0.01)
+    >>> round(float(frequency[amplitude.argmax()]), 2)
+    1.0
     """
     checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size

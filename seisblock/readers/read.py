@@ -123,6 +123,7 @@ def read_all(
 
     Examples
     --------
+    >>> from seisblock.readers import read_all
     >>> [record.codes for record in read_all(["synthetic_jma.csv", "elcentro_1940_ns.csv"])]
     [('NS', 'EW', 'UD'), ('NS',)]
     """

@@ -1,9 +1,5 @@
 """Strong-motion records, input motions, processing and quality control."""
 
-from seisblock.records.floor_motion import Storey
-from seisblock.records.motion import Motion, motion_of
-from seisblock.records.preparation import Preparation
-from seisblock.records.qc_flags import QCFlag
-from seisblock.records.record import Component, Record
+import lazy_loader
 
-__all__ = ["Component", "QCFlag", "Motion", "Preparation", "Record", "Storey", "motion_of"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from seisblock.core import checks
 from seisblock.core.typing import TimeWindow
 from seisblock.records import process
-from seisblock.records.floor_motion import Storey, floor_motion
+from seisblock.records.floor import Storey, floor_motion
 from seisblock.records.record import Record
 
 
@@ -30,7 +30,7 @@ class Preparation:
     window : (float or None, float or None) or None, s
         Start and end, counted from the record's first sample as read; None keeps the end of the record.
     floor : Storey or None
-        Replace the ground motion by :func:`~seisblock.records.floor_motion.floor_motion`. Scale and target PGA refer to the ground; the
+        Replace the ground motion by :func:`~seisblock.records.floor.floor_motion`. Scale and target PGA refer to the ground; the
         window is extracted from the floor motion and includes the response to earlier shaking.
 
     Raises

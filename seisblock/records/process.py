@@ -32,6 +32,7 @@ def demean(record: Record) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import demean
     >>> from seisblock.readers import read
     >>> demean(read("synthetic_knet.EW")).history
     ('mean of the whole record removed (NS -13.87, EW 9.134, UD 22.27 gal)',)
@@ -61,6 +62,7 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import crop
     >>> from seisblock.readers import read
     >>> part = crop(read("synthetic_jma.csv"), 20.0, 30.0)
     >>> part.samples, part.offset_s
@@ -113,6 +115,7 @@ def scale(record: Record, factor: float) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import scale
     >>> from seisblock.readers import read
     >>> scale(read("synthetic_jma.csv"), 0.5).history
     ('scaled by 0.5',)
@@ -144,6 +147,7 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
 
     Examples
     --------
+    >>> from seisblock.records import scale_to_pga
     >>> from seisblock.readers import read
     >>> east = scale_to_pga(read("synthetic_jma.csv"), 4.0, "EW").component("EW")
     >>> round(float(abs(east.acceleration).max()), 12)
@@ -230,6 +234,7 @@ def highpass(record: Record, hz: float) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import highpass
     >>> from seisblock.readers import read
     >>> low = highpass(read("synthetic_jma.csv"), 0.1)
     >>> bool(abs(low.component("EW").acceleration.mean()) < 1e-4)
@@ -258,6 +263,7 @@ def component_at_azimuth(record: Record, azimuth_deg: float) -> Component:
 
     Examples
     --------
+    >>> from seisblock.records import component_at_azimuth
     >>> from seisblock.readers import read
     >>> component_at_azimuth(read("synthetic_jma.csv"), 45.0).azimuth_deg
     45.0
@@ -285,6 +291,7 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import rotate
     >>> from seisblock.readers import read
     >>> rotate(read("synthetic_jma.csv"), 30.0).codes
     ('30', '120', 'UD')

@@ -134,6 +134,7 @@ def criterion_study(
 
     Examples
     --------
+    >>> from seisblock.survey import criterion_study
     >>> from seisblock.bodies.pile.toml import load_pile
     >>> criterion_study(load_pile("wagata"), frequencies=(1.0,), pgas=(6.0,), ratios=(2.0, 4.0), points=2, duration=1.0).levels
     {1.0: 24.0}

@@ -111,6 +111,7 @@ def slide_study(
 
     Examples
     --------
+    >>> from seisblock.studies import slide_study
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> [round(point.max_slip_m, 2) for point in slide_study([0.1, 0.2], pulse)]

@@ -18,7 +18,7 @@ import seisblock
 from seisblock import Block, Contact, Motion, SlidingBase
 from seisblock.models.rock import solve_rock
 
-record = seisblock.highpass(seisblock.demean(seisblock.read("synthetic_jma.csv")), 0.1)
+record = seisblock.records.highpass(seisblock.records.demean(seisblock.read("synthetic_jma.csv")), 0.1)
 motion = seisblock.motion_of(record, "EW")
 gravestone = seisblock.load_block("gravestone")
 pavilion = seisblock.load_two_layer("chozusha")
@@ -30,13 +30,13 @@ reveal_type(solve_rock(gravestone, motion).outcome)  # RockOutcome
 reveal_type(seisblock.solve_rock(gravestone, motion).outcome.overturning_time_s)  # float | None
 reveal_type(seisblock.solve_jump(pavilion, motion, contact=seisblock.load_contact("chozusha")))  # Response[JumpOutcome]
 reveal_type(seisblock.solve_stack(seisblock.load_pile("wagata"), motion).outcome.overturned)  # tuple[str, ...]
-reveal_type(seisblock.find_margin(gravestone, motion).nearest_flip)  # float | None
-reveal_type(seisblock.perturb(gravestone, motion, 20, spread=seisblock.Spread()).probability)  # float
+reveal_type(seisblock.studies.find_margin(gravestone, motion).nearest_flip)  # float | None
+reveal_type(seisblock.uncertainty.perturb(gravestone, motion, 20, spread=seisblock.uncertainty.Spread()).probability)  # float
 reveal_type(seisblock.criteria.overturning_card)  # def (block: Block
 reveal_type(seisblock.core.errors.SolverError)  # def (
 try:
     seisblock.read("nothing.csv")
-except seisblock.RecordNotFoundError as found:
+except seisblock.errors.RecordNotFoundError as found:
     reveal_type(found)  # RecordNotFoundError
 """
 

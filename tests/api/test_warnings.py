@@ -12,7 +12,7 @@ import seisblock as sb
 from seisblock.core.units import MAX_UNITLESS_LENGTH
 
 SINE = np.sin(0.1 * np.arange(400))
-STRONG = sb.Record((sb.Component("NS", 400.0 * SINE), sb.Component("UD", SINE)), 0.01)
+STRONG = sb.Record((sb.records.Component("NS", 400.0 * SINE), sb.records.Component("UD", SINE)), 0.01)
 
 
 @pytest.mark.parametrize(
@@ -28,8 +28,8 @@ STRONG = sb.Record((sb.Component("NS", 400.0 * SINE), sb.Component("UD", SINE)),
         (lambda: sb.Motion.from_arrays(SINE, 0.01, vertical=-60.0 * SINE), r"peak acceleration 60 m/s\^2"),
         (lambda: sb.Motion.from_arrays(SINE, 100), r"sampling interval 100 s exceeds 0.1 s; check the unit"),
         (lambda: sb.motion_of(STRONG, "NS"), r"peak acceleration 400 m/s\^2"),
-        (lambda: sb.motion_of(sb.scale(STRONG, 0.5), "NS"), r"peak acceleration 200 m/s\^2"),
-        (lambda: sb.motion_of(sb.Record((sb.Component("NS", SINE),), 10.0), "NS"), r"sampling interval 10 s"),
+        (lambda: sb.motion_of(sb.records.scale(STRONG, 0.5), "NS"), r"peak acceleration 200 m/s\^2"),
+        (lambda: sb.motion_of(sb.Record((sb.records.Component("NS", SINE),), 10.0), "NS"), r"sampling interval 10 s"),
     ],
 )
 def test_suspicious_unit_warns_at_callers_line(call, says):
@@ -55,12 +55,12 @@ def test_common_values_do_not_warn():
 
 def test_internal_calls_do_not_warn(tmp_path):
     """Sizes that follow from others, versions, motions scaled within studies, and a record whose doubt says it already."""
-    house = call_without_warnings(lambda: sb.from_slenderness(0.3, 0.4))
+    house = call_without_warnings(lambda: sb.bodies.from_slenderness(0.3, 0.4))
     assert house.height > MAX_UNITLESS_LENGTH
-    motion = call_without_warnings(lambda: sb.motion_of(sb.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
-    call_without_warnings(lambda: sb.perturb(house, motion, 2))
+    motion = call_without_warnings(lambda: sb.motion_of(sb.records.crop(sb.read("synthetic_jma.csv"), 24.0, 26.0), "EW"))
+    call_without_warnings(lambda: sb.uncertainty.perturb(house, motion, 2))
     call_without_warnings(lambda: replace(house, mass=1e6).with_wear(0.1))
-    call_without_warnings(lambda: sb.mode_map([0.3], [100.0], [0.2], motion))
+    call_without_warnings(lambda: sb.studies.mode_map([0.3], [100.0], [0.2], motion))
     path = tmp_path / "gal.csv"
     path.write_text("time,NS (m/s2)\n" + "".join(f"{0.01 * i:.2f},{400.0 * a:.6f}\n" for i, a in enumerate(SINE)))
     record = sb.read(path)
@@ -85,11 +85,11 @@ def test_command_line_warns_once(tmp_path):
         (lambda: sb.Motion.from_arrays(np.zeros((100, 1)), 0.01), r"must have shape \(n,\), found \(100, 1\): give one component"),
         (lambda: sb.Motion.from_arrays(3.0, 0.01), r"found \(\)"),
         (lambda: sb.Motion.from_arrays(SINE, 0.01, vertical=np.zeros((1, 400))), r"the vertical acceleration must have shape \(n,\)"),
-        (lambda: sb.response_spectrum(np.zeros((3, 100)), 0.01), r"the accelerations must have shape \(n,\), found \(3, 100\)"),
-        (lambda: sb.response_spectrum([], 0.01), "a motion needs at least 2 samples, found 0"),
+        (lambda: sb.measures.response_spectrum(np.zeros((3, 100)), 0.01), r"the accelerations must have shape \(n,\), found \(3, 100\)"),
+        (lambda: sb.measures.response_spectrum([], 0.01), "a motion needs at least 2 samples, found 0"),
     ],
 )
 def test_wrong_array_shape_is_rejected_with_both_shapes(call, says):
     """The shape expected and the one found, in a sentence of ours."""
-    with pytest.raises(sb.ParameterError, match=says):
+    with pytest.raises(sb.errors.ParameterError, match=says):
         call()

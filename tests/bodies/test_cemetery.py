@@ -9,8 +9,8 @@ from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import use_locale
-from seisblock.readers import sample_path
 from seisblock.report.text.tables import format_number
+from seisblock.samples import sample_path
 from tests import make_aoyama
 
 SURVEY = """\

@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from seisblock.readers import sample_path
+from seisblock.samples import sample_path
 
 CHAIN_KEYS = {
     "outcome",

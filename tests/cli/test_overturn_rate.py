@@ -16,7 +16,7 @@ from click.testing import CliRunner
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
-from seisblock.readers import sample_path
+from seisblock.samples import sample_path
 from seisblock.studies.intervals import clopper_pearson
 
 AOYAMA = read_cemetery("aoyama.csv")

@@ -16,7 +16,7 @@ from seisblock.measures import measure
 from seisblock.models.jump.chain import JUMPED
 from seisblock.models.respond import solve_respond
 from seisblock.models.rock.solve import solve_rock
-from seisblock.readers import read, sample_path
+from seisblock.readers import read
 from seisblock.records import Preparation, motion_of
 from seisblock.records.process import crop
 from seisblock.report.figures.heading import heading
@@ -24,6 +24,7 @@ from seisblock.report.figures.measure import measure_figure
 from seisblock.report.figures.svg import MAX_POINTS, embed_figure
 from seisblock.report.html.report import report
 from seisblock.report.html.report_text import verdict
+from seisblock.samples import sample_path
 from seisblock.studies.assessment import assess
 from seisblock.studies.report.models import body_models
 from tests.brief_record import brief_record

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from seisblock import find_risk, read_hazard
 from seisblock.cli import main
 from seisblock.core.i18n import use_locale
+from seisblock.fragility import find_risk, read_hazard
 from seisblock.report.json.risk import document
 from seisblock.report.text.risk import risk_label
 from seisblock.studies.fragility.io import FragilityCurve

@@ -197,7 +197,9 @@ def test_slide_study_reports_progress_to_the_end():
     """A study tells how many of its runs are done, and ends with all of them."""
     told = []
     motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
-    seisblock.slide_study([0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2)
+    seisblock.studies.slide_study(
+        [0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2
+    )
     assert told[-1] == (6, 6)
     assert [done for done, _ in told] == sorted(done for done, _ in told)
 

@@ -9,7 +9,8 @@ import pytest
 from PySGM import jma as pysgm_jma
 from PySGM import nied as pysgm_nied
 
-from seisblock.readers import read, sample_path
+from seisblock.readers import read
+from seisblock.samples import sample_path
 
 JST = timedelta(hours=9)
 

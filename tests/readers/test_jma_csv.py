@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from seisblock.core.errors import RecordFormatError, UnitError
-from seisblock.readers import read, sample_path
+from seisblock.readers import read
+from seisblock.samples import sample_path
 from tests.readers.files import JMA_BODY, JMA_HEADER, KOBE
 
 

@@ -10,7 +10,8 @@ import obspy
 import pytest
 
 from seisblock.core.errors import ComponentError, RecordError, RecordFormatError, UnitError
-from seisblock.readers import read, read_all, sample_path
+from seisblock.readers import read, read_all
+from seisblock.samples import sample_path
 from tests.readers.files import KIK_CSV, KNET_CSV, kik_net, knet
 
 OBSPY_FILE = Path(obspy.__file__).parent / "io" / "nied" / "tests" / "data" / "test.knet"

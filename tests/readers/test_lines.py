@@ -10,10 +10,11 @@ import pytest
 
 from seisblock.core.errors import RecordError, RecordFormatError
 from seisblock.readers import lines as pieces
-from seisblock.readers import read, sample_path, source
+from seisblock.readers import read, source
 from seisblock.readers.limits import ReadBudget
 from seisblock.readers.lines import LazyLines, map_lines, read_lines
 from seisblock.readers.source import FileBytes, RawFile, decode_text, open_source, sha256_digest
+from seisblock.samples import sample_path
 
 TEXTS = {
     "no end": "a\nb\nc",

@@ -14,7 +14,8 @@ import obspy
 import pytest
 
 from seisblock.core.errors import ComponentError, InputError, ParameterError, RecordError, RecordFormatError, RecordNotFoundError, UnitError
-from seisblock.readers import read, read_all, sample_path
+from seisblock.readers import read, read_all
+from seisblock.samples import sample_path
 from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
 
 

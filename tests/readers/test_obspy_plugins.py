@@ -11,8 +11,9 @@ import obspy
 import pytest
 from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
-from seisblock.readers import obspy_plugins, read, sample_path
+from seisblock.readers import obspy_plugins, read
 from seisblock.readers.registry import list_formats
+from seisblock.samples import sample_path
 from tests.fuzz.formats import FORMATS
 from tests.readers.files import JMA_BODY, JMA_HEADER, KIK_CSV, KNET_CSV, KOBE, knet
 

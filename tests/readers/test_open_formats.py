@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from seisblock.core.errors import ComponentError, RecordError, RecordFormatError, UnitError
-from seisblock.readers import list_samples, read, read_all
+from seisblock.readers import read, read_all
 from seisblock.readers.discover import iter_records
 from seisblock.readers.options import ReadOptions
 from seisblock.records import motion_of
 from seisblock.records.site import format_local_time, get_earthquake, get_site
+from seisblock.samples import list_samples
 from tests.fuzz.formats import ROWS, WRITERS
 from tests.readers import layouts
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from seisblock.core.errors import RecordNotFoundError
-from seisblock.readers import DEFAULT_SAMPLE, list_samples, read, sample_path
+from seisblock.readers import read
+from seisblock.samples import DEFAULT_SAMPLE, list_samples, sample_path
 from tests import make_sample_records as maker
 
 RECORDS = [s for s in list_samples() if s.kind == "record"]

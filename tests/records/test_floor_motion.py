@@ -14,7 +14,7 @@ from seisblock.cli import COMMANDS, main
 from seisblock.core.errors import ParameterError
 from seisblock.measures import response_spectrum
 from seisblock.records import Component, Preparation, Record, motion_of, process
-from seisblock.records.floor_motion import RINGDOWN_RATIO, Storey, floor_motion, parse_storey
+from seisblock.records.floor import RINGDOWN_RATIO, Storey, floor_motion, parse_storey
 from seisblock.references import papers
 
 RNG = np.random.default_rng(7)

@@ -17,10 +17,6 @@ from seisblock import (
     SlidingBase,
     SpringBlock,
     TwoLayerBlock,
-    find_risk,
-    fit_block,
-    read_hazard,
-    run_fragility,
     solve_jump,
     solve_respond,
     solve_rock,
@@ -31,6 +27,7 @@ from seisblock import (
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.scan.scan import scan_body
 from seisblock.core.registry import solver_names
+from seisblock.fragility import find_risk, read_hazard, run_fragility
 from seisblock.measures import measure, response_spectrum
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.rock.options import RockOptions
@@ -60,6 +57,7 @@ from seisblock.report.figures import (
 from seisblock.report.figures import stations as stations_figure
 from seisblock.report.figures.measure import measure_figure
 from seisblock.report.registry import response_figure
+from seisblock.studies import fit_block
 from seisblock.studies.criteria_comparison import compare_criteria
 from seisblock.studies.fragility.io import FragilityCurve
 from seisblock.studies.fragility.lognormal import Lognormal

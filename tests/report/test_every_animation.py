@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from seisblock import Block, crop, load_pile, motion_of, read, scale, solve_respond, solve_rock, solve_stack
+from seisblock import Block, load_pile, motion_of, read, solve_respond, solve_rock, solve_stack
 from seisblock.bodies.spring_block import CORNER_SIGNS
 from seisblock.core.i18n import use_locale
 from seisblock.core.registry import solver_names
 from seisblock.measures import ground_history
 from seisblock.models.stack.outcome import rotate_vectors
+from seisblock.records import crop, scale
 from seisblock.report.animation import jump, respond, rock, slide, stack, uplift
 from seisblock.report.animation.frames import animation_frames, build_figure
 from seisblock.report.animation.html import animation_html

@@ -69,9 +69,9 @@ def test_plot_of_unsupported_model_lists_supported_models():
 VALUES = {
     "Record": lambda motion: motion.record,
     "Motion": lambda motion: motion,
-    "ResponseSpectrum": lambda motion: seisblock.response_spectrum(motion.horizontal, motion.dt),
-    "RockingSpectrum": lambda motion: seisblock.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion),
-    "FragilityStudy": lambda motion: seisblock.run_fragility(
+    "ResponseSpectrum": lambda motion: seisblock.measures.response_spectrum(motion.horizontal, motion.dt),
+    "RockingSpectrum": lambda motion: seisblock.studies.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion),
+    "FragilityStudy": lambda motion: seisblock.fragility.run_fragility(
         [motion.record, seisblock.read("elcentro_1940_ns.csv")], seisblock.Block(0.3, 1.2), "rock", im="pgv", steps=8, bootstrap=10
     ),
 }

@@ -5,8 +5,9 @@ import functools
 import numpy as np
 import pytest
 
-from seisblock import Pile, PileStone, crop, load_pile, motion_of, read, scale, solve_stack
+from seisblock import Pile, PileStone, load_pile, motion_of, read, solve_stack
 from seisblock.core.i18n import use_locale
+from seisblock.records import crop, scale
 from seisblock.report.animation.stack import stack_animation
 from seisblock.report.registry import response_figure
 from seisblock.report.text.stone_falls import describe_falls

@@ -146,9 +146,11 @@ def test_environment_variable_raises_limit(monkeypatch):
 
 PULSE = Motion.from_arrays([0.0, 1.0, 0.0], 0.01)
 TOO_MUCH = {
-    "versions of a stone": lambda: seisblock.perturb(Block(0.2, 0.8), PULSE, 10**9),
-    "versions of a body": lambda: seisblock.respond_probability(Block(0.2, 0.8), PULSE, options=RespondOptions(mu=0.5), runs=10**9),
-    "factors of a margin": lambda: seisblock.find_margin(Block(0.2, 0.8), PULSE, step=1e-9),
+    "versions of a stone": lambda: seisblock.uncertainty.perturb(Block(0.2, 0.8), PULSE, 10**9),
+    "versions of a body": lambda: seisblock.uncertainty.respond_probability(
+        Block(0.2, 0.8), PULSE, options=RespondOptions(mu=0.5), runs=10**9
+    ),
+    "factors of a margin": lambda: seisblock.studies.find_margin(Block(0.2, 0.8), PULSE, step=1e-9),
     "factors of a scan": lambda: scale_factors(abs, 1.0, PULSE, steps=10**9),
     "points of a joint": lambda: seisblock.solve_stack(seisblock.load_pile("wagata"), PULSE, points=10**9),
     "directions": lambda: respond_directions(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import seisblock
-from seisblock import Block, Component, Motion, Record, SpringBlock, motion_of, read, scale_to_pga
+from seisblock import Block, Motion, Record, SpringBlock, motion_of, read
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
@@ -20,6 +20,7 @@ from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model as rocking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
+from seisblock.records import Component, scale_to_pga
 from seisblock.studies.criteria_comparison import compare_criteria
 from seisblock.studies.model_comparison import compare_pile_models
 from tests.lengths import all_but_slow

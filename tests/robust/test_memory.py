@@ -14,10 +14,11 @@ import pytest
 
 from seisblock.core.errors import ParameterError
 from seisblock.measures import jma_intensity, measure
-from seisblock.readers import read, sample_path
+from seisblock.readers import read
 from seisblock.readers._memory import trim_heap
 from seisblock.records import Component, Record
 from seisblock.records.process import highpass
+from seisblock.samples import sample_path
 
 SHORTER, LONGER = 2**19, 2**20
 """Samples of each of three components; pieces are smaller than these."""

@@ -5,26 +5,18 @@ import math
 import numpy as np
 import pytest
 
-from seisblock import (
-    Block,
-    motion_of,
-    perturb,
-    read,
-    respond_probability,
-    rocking_spectrum,
-    rocking_spectrum_all_azimuths,
-    solve_respond,
-    solve_rock,
-)
+from seisblock import Block, motion_of, read, solve_respond, solve_rock
 from seisblock.bodies.block_array import wear_within
 from seisblock.bodies.scan.toml import load_scan
 from seisblock.core.errors import ComponentError, ParameterError
 from seisblock.models.respond.options import RespondOptions
 from seisblock.records.process import crop, scale
+from seisblock.studies import rocking_spectrum, rocking_spectrum_all_azimuths
 from seisblock.studies.azimuths import make_azimuth_sweep
 from seisblock.studies.model_comparison import compare_models
 from seisblock.studies.respond.azimuths import respond_directions
 from seisblock.studies.rocking.azimuths import rock_directions
+from seisblock.uncertainty import perturb, respond_probability
 
 BOULDER = load_scan("boulder").with_wear(0.1)
 RECORD = scale(crop(read("synthetic_jma.csv"), 22.0, 32.0), 0.42)

@@ -84,7 +84,7 @@ def test_mode_map_marks_a_cell_without_an_answer(drop_rows):
 
 def test_respond_many_answers_the_other_rows():
     """A row that hops without end is marked; the others are those of runs of their own."""
-    settings = [seisblock.respond_params(BLOCK, options=RespondOptions(mu=0.5, restitution=e)) for e in (0.0, 0.9999999, 0.3)]
+    settings = [seisblock.models.respond_params(BLOCK, options=RespondOptions(mu=0.5, restitution=e)) for e in (0.0, 0.9999999, 0.3)]
     start = at_lean(BLOCK, 1e-8)
     still = Motion.from_arrays(np.zeros(101), 0.01)
     fates = respond_many(settings, still, initial=start)

@@ -21,7 +21,7 @@ from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.models.slide.solve import solve_slide
 from seisblock.models.stack.solve import solve_stack
 from seisblock.records import Component, Motion, Preparation, Record, Storey, motion_of, process
-from seisblock.records.floor_motion import floor_motion
+from seisblock.records.floor import floor_motion
 from seisblock.report.exports.pelicun import pelicun_rows
 from seisblock.studies.capabilities import _CAPABILITIES, capabilities
 from seisblock.studies.fragility.capacities import capacities, moments
@@ -422,7 +422,7 @@ class TestScatter:
         factor = 1.4
         ends = capabilities("rock").end_states(placed, motion, np.array([factor]), version_draws(60, 7))
         scaled = Motion(motion.acceleration * factor, motion.dt)
-        same = seisblock.perturb(SHELF, scaled, 60, spread=seisblock.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
+        same = seisblock.uncertainty.perturb(SHELF, scaled, 60, spread=seisblock.uncertainty.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
         assert int(ends.overturned.sum()) == same.overturned
         assert 0 < same.overturned < 60
 
@@ -487,8 +487,8 @@ def test_all_azimuths_counts_any_direction():
             falls = 0
             for record in few:
                 largest = max(IM["pga"].of(motion_of(record, str(azimuth))) for azimuth in range(0, 180, 5))
-                scaled = seisblock.scale(record, level.im / largest)
-                falls += any(each.overturned for each in seisblock.rock_directions(body, scaled))
+                scaled = seisblock.records.scale(record, level.im / largest)
+                falls += any(each.overturned for each in seisblock.studies.rock_directions(body, scaled))
             assert (level.exceeding, level.runs) == (falls, 3)
     counts = [level.exceeding for level in curve.levels]
     assert counts[0] < counts[-1]

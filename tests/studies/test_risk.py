@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from seisblock import Hazard, HazardCurve, find_risk, read_hazard
 from seisblock.core.errors import HazardError, ParameterError, UnitError
+from seisblock.fragility import Hazard, HazardCurve, find_risk, read_hazard
 from seisblock.samples import sample_path
 from seisblock.studies.fragility.io import check_measure, fragility_from_median, read_fragility
 from seisblock.studies.fragility.lognormal import Lognormal

@@ -115,6 +115,7 @@ def scan_body(
 
     Examples
     --------
+    >>> from seisblock.bodies import scan_body
     >>> scan = scan_body("boulder.ply")
     >>> round(scan.body.mass), round(scan.body.block_toward(0.0).slenderness, 2)
     (310, 0.22)

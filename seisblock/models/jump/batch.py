@@ -79,6 +79,7 @@ def jump_many(
 
     Examples
     --------
+    >>> from seisblock.models import jump_many
     >>> import numpy as np
     >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
     >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.pi * np.linspace(0, 1, 101)), np.zeros(200)]), 0.01)

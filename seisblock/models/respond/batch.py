@@ -125,6 +125,7 @@ def respond_many(
 
     Examples
     --------
+    >>> from seisblock.models import respond_many
     >>> import numpy as np
     >>> from seisblock.bodies.block import Block
     >>> from seisblock.models.respond.solve import respond_params

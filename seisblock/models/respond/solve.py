@@ -119,6 +119,7 @@ def respond_params(block: Body, options: RespondOptions) -> RespondParams:
 
     Examples
     --------
+    >>> from seisblock.models import respond_params
     >>> respond_params(Block(0.24, 0.8), RespondOptions(mu=0.5)).mu_kinetic
     0.5
     """

@@ -81,6 +81,7 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, options: R
 
     Examples
     --------
+    >>> from seisblock.models import rock_verdict
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> [rock_verdict(Block(0.24, 0.8), pulse, scale=scale).overturned for scale in (0.5, 1.0)]

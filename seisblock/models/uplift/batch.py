@@ -40,6 +40,7 @@ def uplift_many(
 
     Examples
     --------
+    >>> from seisblock.models import uplift_many
     >>> import numpy as np
     >>> shaking = 4.0 * np.sin(2 * np.pi * 1.5 * 0.01 * np.arange(400))
     >>> block = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)

@@ -140,6 +140,7 @@ def uplift_thresholds(
 
     Examples
     --------
+    >>> from seisblock.models import uplift_thresholds
     >>> block = SpringBlock.from_ratios(alpha=1.0, beta=0.6**0.5, damping=0.05)
     >>> uplift_thresholds(block, [2.78225]).min(axis=0).round(6)
     array([0.676683])

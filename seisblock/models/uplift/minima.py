@@ -116,6 +116,7 @@ def uplift_minima(
 
     Examples
     --------
+    >>> from seisblock.models import uplift_minima
     >>> block = SpringBlock.from_ratios(alpha=1.0, beta=0.6**0.5, damping=0.05)
     >>> second = uplift_minima(block)[-1]
     >>> round(second.frequency_ratio, 5), round(second.acceleration_ratio, 6), second.mode

@@ -72,6 +72,7 @@ def natural_modes(body: SpringBlock) -> Modes:
 
     Examples
     --------
+    >>> from seisblock.models import natural_modes
     >>> modes = natural_modes(SpringBlock.from_ratios(alpha=1.0, beta=3**0.5 / 2))
     >>> modes.names[-1], round(modes.frequencies_hz[-1], 12)
     ('second rocking in y-z', 1.732050807569)

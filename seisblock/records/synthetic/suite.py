@@ -68,6 +68,7 @@ def synthetic_suite(magnitude: float, distance_km: float, count: int, *, seed: i
 
     Examples
     --------
+    >>> from seisblock.records import synthetic_suite
     >>> records = synthetic_suite(7.0, 20.0, 2, seed=1)
     >>> [record.codes for record in records], records[0].dt
     ([('NS', 'EW', 'UD'), ('NS', 'EW', 'UD')], 0.01)

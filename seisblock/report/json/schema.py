@@ -13,7 +13,7 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 
 from seisblock import __version__
 from seisblock.records import QCFlag, Record
-from seisblock.records.floor_motion import is_floor_motion
+from seisblock.records.floor import is_floor_motion
 from seisblock.records.qc_report import qc_summary
 from seisblock.records.site import Earthquake, epicentral_distance_km, format_local_time, get_earthquake, get_site
 from seisblock.references import papers

@@ -181,6 +181,7 @@ def fit_block(
 
     Examples
     --------
+    >>> from seisblock.studies import Observation, fit_block
     >>> import numpy as np
     >>> from seisblock import Motion
     >>> time = np.linspace(0.0, 1.0, 101)

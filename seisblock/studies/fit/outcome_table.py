@@ -132,6 +132,7 @@ def read_outcomes(
 
     Examples
     --------
+    >>> from seisblock.studies import read_outcomes
     >>> outcomes = read_outcomes("shaken_block.csv")
     >>> len(outcomes), outcomes.kind, outcomes.observed[0].happened
     (60, 'fell', False)

@@ -55,6 +55,7 @@ def read_fragility(path: str | Path) -> tuple[FragilityCurve, ...]:
 
     Examples
     --------
+    >>> from seisblock.fragility import read_fragility
     >>> read_fragility("nothing.json")
     Traceback (most recent call last):
     seisblock.core.errors.ParameterError: cannot read nothing.json: No such file or directory

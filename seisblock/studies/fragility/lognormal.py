@@ -89,6 +89,7 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
 
     Examples
     --------
+    >>> from seisblock.fragility import fit_fragility
     >>> curve = fit_fragility([1.0, 2.0, 4.0, 8.0], [0, 3, 7, 10], 10)
     >>> round(curve.median, 3), round(curve.beta, 3)
     (2.828, 0.477)

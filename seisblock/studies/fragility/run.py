@@ -159,6 +159,7 @@ def run_fragility(
 
     Examples
     --------
+    >>> from seisblock.fragility import run_fragility
     >>> from seisblock.bodies.block import Block
     >>> study = run_fragility(
     ...     ["synthetic_jma.csv", "elcentro_1940_ns.csv"], Block(0.3, 1.2, name="shelf"), "rock", im="pgv", steps=12, bootstrap=20

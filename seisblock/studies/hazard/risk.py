@@ -151,7 +151,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
 
     Examples
     --------
-    >>> from seisblock import Hazard, HazardCurve, Lognormal
+    >>> from seisblock.fragility import Hazard, HazardCurve, Lognormal, find_risk
     >>> hazard = Hazard("pgv", "m/s", (HazardCurve([0.1, 1.0], [1e-2, 1e-4]),))
     >>> round(find_risk(Lognormal(0.5, 0.4), hazard).annual_rate, 7)  # 1e-4 x 0.5^-2 x exp(2^2 x 0.4^2 / 2)
     0.0005509

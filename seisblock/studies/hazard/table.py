@@ -80,6 +80,7 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
 
     Examples
     --------
+    >>> from seisblock.fragility import read_hazard
     >>> hazard = read_hazard("synthetic_hazard.csv")
     >>> hazard.im, hazard.unit, [branch.name for branch in hazard.branches]
     ('pgv', 'm/s', ['often', 'rare'])

@@ -176,6 +176,7 @@ def survey_stations(
 
     Examples
     --------
+    >>> from seisblock.studies import survey_stations
     >>> survey = survey_stations("hanmer_springs_2016")
     >>> survey.answers[0].station, survey.answers[0].latitude, round(survey.answers[0].jma_intensity, 1)
     ('HSES', -42.52333, 5.4)

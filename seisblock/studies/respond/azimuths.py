@@ -84,6 +84,7 @@ def respond_directions(
 
     Examples
     --------
+    >>> from seisblock.studies import respond_directions
     >>> from seisblock.bodies.factory import load_block
     >>> from seisblock.readers import read
     >>> worst = respond_directions(load_block("gravestone"), read("synthetic_jma.csv"), RespondOptions(mu=0.5), step_deg=45.0)[0]

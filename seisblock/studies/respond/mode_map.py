@@ -118,6 +118,7 @@ def mode_map(
 
     Examples
     --------
+    >>> from seisblock.studies import mode_map
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> result = mode_map([0.2, 0.6], [1.0], [0.2], pulse)

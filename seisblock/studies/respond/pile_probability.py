@@ -166,6 +166,7 @@ def stack_probability(
 
     Examples
     --------
+    >>> from seisblock.uncertainty import stack_probability
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> result = stack_probability(Pile("grave", (PileStone("post", 0.2, 0.2, 1.2),)), pulse, runs=4)

@@ -77,6 +77,7 @@ def rock_directions(
 
     Examples
     --------
+    >>> from seisblock.studies import rock_directions
     >>> from seisblock.readers import read
     >>> worst = rock_directions(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0)[0]
     >>> worst.azimuth_deg, worst.overturned

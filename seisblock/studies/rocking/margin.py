@@ -108,6 +108,7 @@ def find_margin(
 
     Examples
     --------
+    >>> from seisblock.studies import find_margin
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> round(find_margin(Block(0.24, 0.8), pulse, limit=1.0, step=0.05).first_fall, 4)

@@ -123,6 +123,7 @@ def perturb(
 
     Examples
     --------
+    >>> from seisblock.uncertainty import perturb
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> result = perturb(Block(0.24, 0.8), pulse, 20)

@@ -95,6 +95,7 @@ def rocking_spectrum(
 
     Examples
     --------
+    >>> from seisblock.studies import rocking_spectrum
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> rocking_spectrum([1.0, 2.0], [0.3], pulse).max_rotation_ratio.round(2).tolist()
@@ -140,6 +141,7 @@ def rocking_spectrum_all_azimuths(
 
     Examples
     --------
+    >>> from seisblock.studies import rocking_spectrum_all_azimuths
     >>> from seisblock import read
     >>> result = rocking_spectrum_all_azimuths([0.5, 4.0], [0.2], read("synthetic_jma.csv"), step_deg=30.0)
     >>> result.overturned.tolist(), result.overturning_rate.round(2).tolist()

@@ -95,6 +95,7 @@ def estimate_shaking(
 
     Examples
     --------
+    >>> from seisblock.survey import estimate_shaking
     >>> from seisblock.bodies.cemetery.table import read_cemetery
     >>> from seisblock.studies.survey.likelihood import counted_survey
     >>> estimate = estimate_shaking(counted_survey(read_cemetery("aoyama.csv"), 35, 100), 2.75)

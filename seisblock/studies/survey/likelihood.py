@@ -100,6 +100,7 @@ def marked_survey(cemetery: Cemetery) -> Survey:
 
     Examples
     --------
+    >>> from seisblock.survey import marked_survey
     >>> from seisblock.bodies.cemetery.cemetery import Stone
     >>> survey = marked_survey(Cemetery((Stone(2.5, fallen=False), Stone(3.0, fallen=True), Stone(3.5, fallen=True), Stone(4.0))))
     >>> survey.fell, survey.stone_count
@@ -134,6 +135,7 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
 
     Examples
     --------
+    >>> from seisblock.survey import counted_survey
     >>> from seisblock.bodies.cemetery.table import read_cemetery
     >>> survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)
     >>> survey.fell, survey.stone_count

@@ -94,6 +94,7 @@ def overturning_rate(
 
     Examples
     --------
+    >>> from seisblock.survey import overturning_rate
     >>> from seisblock.bodies.cemetery.table import read_cemetery
     >>> overturning_rate(read_cemetery("aoyama.csv"), 7.25, 2.75).fallen
     35
@@ -170,6 +171,7 @@ def rate_curve(
 
     Examples
     --------
+    >>> from seisblock.survey import rate_curve
     >>> from seisblock.bodies.cemetery.table import read_cemetery
     >>> [point.rate for point in rate_curve(read_cemetery("aoyama.csv"), [7.25], [2.75])]
     [0.35]

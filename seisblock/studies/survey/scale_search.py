@@ -131,6 +131,7 @@ def scale_factors(
 
     Examples
     --------
+    >>> from seisblock.survey import scale_factors
     >>> motion = Motion.from_arrays([0.0, 2.0, 0.0], 0.1)
     >>> result = scale_factors(lambda s: s * (2.0 - s) if s < 2.0 else 0.0, 0.75, motion)
     >>> [round(f.scale, 6) for f in result.scale_factors]
@@ -214,6 +215,7 @@ def jump_displacement(block: TwoLayerBlock, motion: Motion, options: JumpOptions
 
     Examples
     --------
+    >>> from seisblock.survey import jump_displacement
     >>> import numpy as np
     >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
     >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.linspace(0.0, np.pi, 101)), np.zeros(200)]), 0.01)
@@ -263,6 +265,7 @@ def slide_displacement(
 
     Examples
     --------
+    >>> from seisblock.survey import slide_displacement
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
     >>> displacement = slide_displacement(0.2, pulse)

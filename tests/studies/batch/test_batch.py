@@ -114,12 +114,12 @@ def test_batch_probability_equals_single_study(folder):
     """Perturbed runs under the same seed."""
     found = seisblock.run_batch("records/r2.csv", {"a": seisblock.Block(0.2, 1.0)}, "respond", mu=0.6, runs=30, seed=4)
     motion = seisblock.motion_of(seisblock.read("records/r2.csv"), "EW")
-    alone = seisblock.respond_probability(seisblock.Block(0.2, 1.0), motion, options=RespondOptions(mu=0.6), runs=30, seed=4)
+    alone = seisblock.uncertainty.respond_probability(seisblock.Block(0.2, 1.0), motion, options=RespondOptions(mu=0.6), runs=30, seed=4)
     row = found.rows[found["component"].index("EW")]
     assert (row["probability_overturned"], row["probability_moved"]) == (alone.overturned, alone.moved)
     assert (row["probability_low"], row["probability_high"]) == alone.interval
     rocking = seisblock.run_batch("records/r2.csv", [seisblock.Block(0.2, 1.0)], "rock", components="EW", runs=30, seed=4)
-    expected = seisblock.perturb(seisblock.Block(0.2, 1.0), motion, 30, seed=4)
+    expected = seisblock.uncertainty.perturb(seisblock.Block(0.2, 1.0), motion, 30, seed=4)
     assert rocking["probability_overturned"] == [expected.probability]
 
 
@@ -144,12 +144,12 @@ def test_batch_unsuitable_body_fails_its_rows_only(folder):
     assert [bool(row.get("failure")) for row in found.rows] == [False, True]
     assert "friction required" in found.rows[1]["failure"]
     with pytest.raises(ParameterError, match="none of the bodies"):
-        seisblock.run_batch("records/r0.csv", [body for body in seisblock.read_bodies("b.csv") if body.name == "b"], "respond")
+        seisblock.run_batch("records/r0.csv", [body for body in seisblock.bodies.read_bodies("b.csv") if body.name == "b"], "respond")
 
 
 def test_batch_processes_records_and_rotates_components(folder):
     """What is done to a record, and a direction that is no component."""
-    preparation = seisblock.Preparation(scale=1.5, window=(2.0, 9.0))
+    preparation = seisblock.records.Preparation(scale=1.5, window=(2.0, 9.0))
     found = seisblock.run_batch("records/r1.csv", [seisblock.Block(0.2, 1.0)], "rock", components="37", preparation=preparation)
     motion = seisblock.motion_of(preparation.apply(seisblock.read("records/r1.csv")), "37")
     assert found["max_rotation_rad"] == [seisblock.solve_rock(seisblock.Block(0.2, 1.0), motion).outcome.max_rotation_rad]

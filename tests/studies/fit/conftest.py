@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 
-from seisblock import Motion, Observation, from_slenderness, rock_verdict
+from seisblock import Motion
+from seisblock.bodies import from_slenderness
+from seisblock.models import rock_verdict
 from seisblock.models.rock.options import RockOptions
+from seisblock.studies import Observation
 from seisblock.studies.fit.fit import fit_block
 
 TRUTH = from_slenderness(0.25, 4.0)

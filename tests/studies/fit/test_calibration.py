@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from seisblock import Observation, fit_block
+from seisblock.studies import Observation, fit_block
 from seisblock.studies.fit.block_family import BlockFamily
 from seisblock.studies.fit.dataset import make_experiment
 from seisblock.studies.fit.likelihood import make_lapse_rate

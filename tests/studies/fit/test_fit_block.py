@@ -5,9 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock import Block, KindError, Observation, ParameterError, fit_block, from_slenderness
+from seisblock import Block
+from seisblock.bodies import from_slenderness
+from seisblock.errors import KindError, ParameterError
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
+from seisblock.studies import Observation, fit_block
 from seisblock.studies.fit.block_family import BlockFamily
 from seisblock.studies.fit.cross_validation import calibration, score_predictions
 from seisblock.studies.fit.dataset import assign_folds, make_experiment, trim_zeros

@@ -8,8 +8,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from seisblock import ParameterError, RecordNotFoundError, read_outcomes, rock_verdict, sample_path
 from seisblock.cli import main
+from seisblock.errors import ParameterError, RecordNotFoundError
+from seisblock.models import rock_verdict
+from seisblock.samples import sample_path
+from seisblock.studies import read_outcomes
 from tests import make_shaken_block
 from tests.studies.fit.conftest import TRUTH, pulse
 

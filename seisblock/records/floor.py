@@ -153,6 +153,7 @@ def floor_motion(record: Record, storey: Storey) -> Record:
 
     Examples
     --------
+    >>> from seisblock.records import Storey, floor_motion
     >>> from seisblock.readers import read
     >>> floor = floor_motion(read("elcentro_1940_ns.csv"), Storey(0.6))
     >>> floor.dt, round(float(abs(floor.horizontals[0].acceleration).max()), 2)
