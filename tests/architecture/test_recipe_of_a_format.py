@@ -51,7 +51,7 @@ def test_format_of_the_recipe_is_listed_and_found_in_archives(tree):
     """Help, errors and archives know the format; a wrong count in the header is a quality flag; obspy has a plug-in."""
     ((name, text),) = SAMPLE_FILE.findall(RECIPE)
     measure = ("-m", "seisblock", "measure")
-    assert "TABLE-LOG" in run(tree, *measure, "--help")[0]
+    assert "TABLE-LOG" in run(tree, *measure, "--help-all")[0]
     (tree / "note.txt").write_text("abc def\n-\n")
     assert "a log of a shaking table" in run(tree, *measure, "note.txt", exit_code=3)[1]
     with zipfile.ZipFile(tree / "runs.zip", "w") as archive:
