@@ -34,11 +34,12 @@ class RespondOptions(SolverOptions):
             N_("Kinetic friction coefficient, at most --mu. [default: as --mu]"),
             "--mu-kinetic",
             unit="1",
-            interval="[0, inf, document=float)",
+            interval="[0, inf)",
             label=N_("the kinetic friction coefficient"),
             kind="friction",
             metavar="MU",
             section="Body",
+            document=float,
         ),
     )
     restitution: float = field(
