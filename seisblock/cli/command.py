@@ -28,7 +28,7 @@ SECTIONS = (
 """Headings of ``--help`` in their order; each option names its section."""
 
 
-SHARED_ESSENTIAL = frozenset(("--component", "--json", "--csv", "--plot", "--animate", "--help", "--help-all"))
+SHARED_ESSENTIAL = frozenset(("--component", "--json", "--csv", "--plot", "--animate", "--details", "--help", "--help-all"))
 """Shared options of the short help."""
 
 HELP_ALL = "seisblock.help_all"

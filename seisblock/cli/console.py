@@ -93,11 +93,11 @@ def print_result(text: str) -> None:
     click.echo(text)
 
 
-def print_tables(tables: Iterable[Any]) -> None:
-    """Print rich tables on stdout."""
-    from seisblock.report.text.tables import console
+def print_tables(tables: Iterable[Any], *, details: bool = False) -> None:
+    """Print rich tables on stdout: in full with `details`, else shortened and with the option that prints the rest."""
+    from seisblock.report.text.tables import console, shortened_answer, whole_answer
 
-    screen, parts = console(), list(tables)
+    screen, parts = console(), list(whole_answer(tables) if details else shortened_answer(tables))
     close_line()
     for part in parts:
         screen.print(part)

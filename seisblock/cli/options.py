@@ -204,6 +204,8 @@ _GAL = option(
     help="Units of tables, figures and animations: gal, kine and cm, or m/s², m/s and m. [default: gal]",
 )
 
+_DETAILS = option("--details", is_flag=True, section="Output", help="Print the whole result: all tables and columns.")
+
 _QUIET = option("--quiet", is_flag=True, section="Output", help="Print only errors and one line of quality warnings on stderr.")
 
 
@@ -260,7 +262,7 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
         Whether ``--units`` of accelerations applies.
     """
     texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_ANIMATION_OPTIONS if film else ()))
-    declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
+    declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _DETAILS, _QUIET)
     return lambda function: _collect_options(_with_output_check(function), declarations, OutputOptions, "output")
 
 

@@ -31,6 +31,7 @@ class OutputOptions:
     gal: bool = True
     animate: Path | None = None
     slow: float = SLOW
+    details: bool = False
 
 
 def check_output(output: OutputOptions) -> None:

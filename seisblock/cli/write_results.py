@@ -86,7 +86,7 @@ def write_results(
     if output.json:
         print_result(to_json(document))
     else:
-        print_tables(tables())
+        print_tables(tables(), details=output.details)
 
 
 def _to_stdout(write: Callable[[Path], None]) -> None:

@@ -40,6 +40,7 @@ class RespondOptions(SolverOptions):
             kind="friction",
             metavar="MU",
             section="Body",
+            document=float,
         ),
     )
     restitution: float = field(

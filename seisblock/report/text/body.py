@@ -12,7 +12,7 @@ from seisblock.bodies.scan.body import min_slenderness
 from seisblock.bodies.scan.scan import Scan
 from seisblock.core.i18n import N_, gettext
 from seisblock.report.io.atomic import write_table
-from seisblock.report.text.tables import acceleration_cell, format_fixed, format_number, styled_line, table
+from seisblock.report.text.tables import Part, acceleration_cell, format_fixed, format_number, styled_line, table
 from seisblock.report.units_display import acceleration_unit, format_length, length_cell, length_unit
 
 PLANE = N_(
@@ -20,6 +20,9 @@ PLANE = N_(
     "one side is not considered"
 )
 """Validity of the values by azimuth."""
+
+SHORT_ROWS = 12
+"""Most azimuths in the shortened table."""
 
 
 def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Iterator[Any]:
@@ -54,7 +57,10 @@ def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Itera
         ]
         for direction in directions
     ]
-    yield table(gettext("By azimuth"), headings, rows, caption=gettext(PLANE))
+    title, caption = gettext("By azimuth"), gettext(PLANE)
+    step = math.ceil(len(rows) / SHORT_ROWS)
+    whole = table(title, headings, rows, caption=caption)
+    yield whole if step == 1 else Part((whole,), (table(title, headings, rows[::step], caption=caption),))
 
 
 def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:

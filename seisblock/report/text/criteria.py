@@ -12,10 +12,10 @@ from seisblock.core.i18n import N_, gettext
 from seisblock.criteria.compare import ACCELERATION, CriterionResult, unique_criteria
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.io.history_csv import write_by_record
-from seisblock.report.text.model_comparison import agreement_line
+from seisblock.report.text.model_comparison import agreement_line, spread_line
 from seisblock.report.text.respond import outcome_text
 from seisblock.report.text.rock import verdict
-from seisblock.report.text.tables import format_number, group_answers, styled_line, table
+from seisblock.report.text.tables import DASH, Part, format_number, format_range, group_answers, side_by_side, styled_line, table
 from seisblock.report.units_display import acceleration_unit, velocity_unit
 from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.respond.best_estimate import BestEstimate
@@ -29,14 +29,41 @@ DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": 
 
 
 def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
-    """Yield the record, then per component the simulated outcome, the tables of criteria and the model comparison."""
+    """Yield the record, then per component the simulated outcome, the tables of criteria and the model comparison; in short one table."""
     for heading, part in group_answers(cards, lambda card: card.record, lambda card: _summary(card, gal=gal)):
         yield from heading
-        for card in part:
-            yield from _tables(card, gal=gal)
-            if card.agreement is not None:
-                yield styled_line(agreement_line(card.component, card.agreement))
-            yield styled_line()
+        whole = tuple(block for card in part for block in _details(card, gal=gal))
+        yield Part(whole, tuple(_ratios(part)))
+
+
+def _details(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
+    """Yield the tables of one component and the model comparison."""
+    yield from _tables(card, gal=gal)
+    if card.agreement is not None:
+        yield styled_line(agreement_line(card.component, card.agreement))
+    yield styled_line()
+
+
+def _ratios(cards: Sequence[CriteriaComparison]) -> Iterator[Any]:
+    """Yield the ratio of each criterion, a column per component, and the spread of the models."""
+    names = dict.fromkeys(row.criterion for card in cards for row in card.rows)
+    title = gettext("Demand over threshold; yes: overturning predicted; !: differs from simulation")
+    rows = [[gettext(name), *(_range_cell([row for row in card.rows if row.criterion == name], card) for card in cards)] for name in names]
+    yield side_by_side(title, [gettext("criterion"), *(card.component for card in cards)], rows)
+    for card in cards:
+        if card.agreement is not None:
+            yield styled_line(spread_line(card.component, card.agreement))
+
+
+def _range_cell(rows: Sequence[CriterionResult], card: CriteriaComparison) -> str:
+    """Return the range of ratios over the equivalent frequencies and the prediction, marked "!" where one differs from the simulation."""
+    if not rows:
+        return DASH
+    by_ratio = sorted(rows, key=lambda row: row.demand / row.threshold)
+    low, high = format_ratio(by_ratio[0]), format_ratio(by_ratio[-1])
+    predictions = dict.fromkeys(gettext("yes") if row.overturns else gettext("no") for row in by_ratio)
+    mark = " " if all(row.overturns == card.outcome.overturned for row in rows) else "!"
+    return f"{low if low == high else format_range(low, high)} {'/'.join(predictions)}{mark}"
 
 
 def _summary(card: CriteriaComparison, *, gal: bool) -> Iterator[Text]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
-from seisblock.report.text.tables import DASH, format_number, format_range, styled_line, table
+from seisblock.report.text.tables import DASH, details, format_number, format_range, styled_line, table
 from seisblock.report.units_display import length_unit
 from seisblock.studies.fragility.damage_states import SLIP, describe_limit
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
@@ -59,13 +59,15 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
     if compare is not None:
         yield from (styled_line(_comparison_text(study, curve, compare, gal=gal)) for curve in with_median)
     with_measures = [curve for curve in with_median if curve.measures]
-    yield from (_measure_table(curve, is_labelled=len(with_median) > 1, gal=gal) for curve in with_measures)
+    measure_tables = [_measure_table(curve, is_labelled=len(with_median) > 1, gal=gal) for curve in with_measures]
+    yield from measure_tables if len(measure_tables) == 1 else map(details, measure_tables)
     if with_measures:
         text = N_(
             "beta: efficiency, the smaller the better; slopes: sufficiency, trend of the residuals with magnitude and "
             "distance; p: its p-value"
         )
-        yield styled_line(gettext(text), "dim")
+        caption = styled_line(gettext(text), "dim")
+        yield caption if len(measure_tables) == 1 else details(caption)
 
 
 def _verdicts(study: FragilityStudy, with_median: Sequence[Fragility], *, gal: bool) -> Iterator[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from typing import Any
 
 from seisblock.core.i18n import N_, gettext
@@ -12,7 +12,7 @@ from seisblock.models.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.models.jump.describe import exceeds
 from seisblock.models.jump.solve import JumpOutcome
 from seisblock.report.directions import direction_label, format_displacement
-from seisblock.report.text.tables import format_acceleration, format_seconds, group_answers, side_by_side, styled_line, with_notes
+from seisblock.report.text.tables import Part, format_acceleration, format_seconds, group_answers, side_by_side, styled_line, with_notes
 from seisblock.report.text.threshold import ROCKS, threshold_text
 from seisblock.report.units_display import Unit, format_size, length_cell, length_unit
 
@@ -39,6 +39,11 @@ _LENGTHS: tuple[tuple[str, str], ...] = (
 )
 
 
+_ALL = frozenset(key for _, key in (*_ROWS, *_LENGTHS))
+_DECISIVE = frozenset(("rocking_start_s", "landing_s", "time_above_threshold_s", "max_rise_m", "total_displacement_m"))
+"""Results of the largest chain in the shortened answer, beside direction, tilt and friction."""
+
+
 MAX_CHAINS = 6
 """Most chains in the table: those with the largest displacement, in order of time."""
 
@@ -48,11 +53,35 @@ MIN_VELOCITY = 0.005
 
 
 def tables(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Iterator[Any]:
-    """Yield, per component, the verdict and a table with a column per chain as in [Sugimoto2017]_ table 1."""
+    """Yield, per component, the verdict and a table with a column per chain as in [Sugimoto2017]_ table 1; in short the largest chains."""
     for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(describe(item, gal=gal))]):
         yield from heading
-        for response in part:
-            yield from _details(response, gal=gal, tenon=tenon)
+        whole = [block for response in part for block in _details(response, gal=gal, tenon=tenon)]
+        moving = [response for response in part if response.outcome.chains]
+        yield from [Part(tuple(whole), tuple(_largest_chains(moving, gal=gal, tenon=tenon)))] if moving else whole
+
+
+def _largest_chains(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Iterator[Any]:
+    """Yield a table with the largest chain of each component, and the effect of the highest rise on tenons."""
+    outcomes = [response.outcome for response in responses]
+    indices = [max(range(len(o.chains)), key=lambda i: _size(o.chains[i])) for o in outcomes]
+    chains = [outcome.chains[i] for outcome, i in zip(outcomes, indices, strict=True)]
+    names = [response.motion.name for response in responses]
+    title = gettext(
+        "{body}, rocking threshold {threshold}; largest chain of motion",
+        body=gettext(responses[0].body.name),
+        threshold=format_acceleration(outcomes[0].rocking_threshold_m_s2, gal=gal),
+    )
+    places = [gettext("{number} of {count}", number=i + 1, count=len(o.chains)) for i, o in zip(indices, outcomes, strict=True)]
+    yield side_by_side(title, ["", *names], [[gettext("chain"), *places], *_cells(chains, names, gal=gal, keys=_DECISIVE)])
+    if tenon is not None:
+        for name, outcome in zip(names, outcomes, strict=True):
+            rises = [(chain.foot_rise_m, chain.max_rise_m) for chain in outcome.chains]
+            foot, centroid = max(((foot, rise) for foot, rise in rises if foot is not None and rise is not None), default=(None, 0.0))
+            if foot is not None:
+                text = _tenon_text(foot, centroid, tenon, gal=gal)
+                yield styled_line(gettext("{name}: {text}", name=name, text=text))
+        yield styled_line()
 
 
 def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None) -> Iterator[Any]:
@@ -66,7 +95,8 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
             body=gettext(response.body.name),
             threshold=format_acceleration(outcome.rocking_threshold_m_s2, gal=gal),
         )
-        cells = _cells([outcome.chains[i] for i in chain_indices], response.motion.name, gal=gal)
+        chains = [outcome.chains[i] for i in chain_indices]
+        cells = _cells(chains, [response.motion.name] * len(chains), gal=gal)
         yield side_by_side(title, [gettext("chain"), *(str(i + 1) for i in chain_indices)], cells)
     for sentence in sentences(response, tenon, gal=gal):
         yield styled_line(sentence)
@@ -75,19 +105,27 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
 
 def _table_chains(chains: Sequence[Chain]) -> list[int]:
     """Return the indices of the chains in the table."""
-    by_size = sorted(range(len(chains)), key=lambda i: -abs(chains[i].total_displacement_m or math.inf))
+    by_size = sorted(range(len(chains)), key=lambda i: -_size(chains[i]))
     return sorted(by_size[:MAX_CHAINS])
 
 
-def _cells(chains: Sequence[Chain], name: str, *, gal: bool) -> Iterator[list[str]]:
-    yield [gettext("direction"), *(direction_label(name, chain.direction) for chain in chains)]
+def _size(chain: Chain) -> float:
+    """Return the displacement of a chain, m; infinite for an incomplete one."""
+    return abs(chain.total_displacement_m or math.inf)
+
+
+def _cells(chains: Sequence[Chain], names: Sequence[str], *, gal: bool, keys: Container[str] = _ALL) -> Iterator[list[str]]:
+    """Yield the table rows, a column per chain with the name of its component; of the timed and measured rows those in `keys`."""
+    yield [gettext("direction"), *(direction_label(name, chain.direction) for name, chain in zip(names, chains, strict=True))]
     for heading, key in _ROWS:
-        yield [gettext(heading), *(format_seconds(getattr(chain, key)) for chain in chains)]
+        if key in keys:
+            yield [gettext(heading), *(format_seconds(getattr(chain, key)) for chain in chains)]
     yield [gettext("peak tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
     yield [gettext("impact velocity (rad/s)"), *(_format_or_dash(chain.impact_velocity_rad_s, "{:z.3f}") for chain in chains)]
     unit = length_unit((getattr(chain, key) for chain in chains for _, key in _LENGTHS), gal=gal)
     for heading, key in _LENGTHS:
-        yield [gettext(heading, unit=unit.name), *(length_cell(getattr(chain, key), unit) for chain in chains)]
+        if key in keys:
+            yield [gettext(heading, unit=unit.name), *(length_cell(getattr(chain, key), unit) for chain in chains)]
     yield [gettext("friction required to land"), *(_format_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.report.text.record_info import describe_earthquake
-from seisblock.report.text.tables import format_fixed, format_number, format_range, styled_line, table
+from seisblock.report.text.tables import Part, format_fixed, format_number, format_range, styled_line, table
 from seisblock.report.units_display import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
 from seisblock.studies.map.station_response import StationBody, StationModel
 from seisblock.studies.map.stations import StationReport, Stations
@@ -31,6 +31,9 @@ _VERDICTS: dict[str, str] = {
 MAX_ROWS = 40
 """Most stations in the table; the files contain all."""
 
+SHORT_ROWS = 10
+"""Most stations in the shortened table."""
+
 
 def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iterator[Any]:
     """Yield the verdict over all stations, the earthquake, the table of the largest responses and the counts of missing results.
@@ -46,19 +49,24 @@ def tables(stations: Stations, model: StationModel | None, *, gal: bool) -> Iter
     yield styled_line(verdict(stations, model), "bold")
     if stations.earthquake is not None:
         yield styled_line(describe_earthquake(stations.earthquake, stations.origin_told))
-    listed_answers = answers[:MAX_ROWS]
-    if listed_answers:
-        header, rows = station_rows(listed_answers, model, gal=gal)
-        omitted = _omitted_text(len(answers) - MAX_ROWS)
-        caption = " ".join(filter(None, (omitted, column_note(listed_answers, model))))
-        # station names need the width
-        yield table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
+    if len(answers) > SHORT_ROWS:
+        yield Part(*((_station_table(answers, model, max_rows, gal=gal),) for max_rows in (MAX_ROWS, SHORT_ROWS)))
+    elif answers:
+        yield _station_table(answers, model, MAX_ROWS, gal=gal)
     missing = [answer for answer in stations.answers if answer.failure]
     if missing:
         yield styled_line(gettext("no result: {count}", count=len(missing)), "yellow")
     unmapped = [answer for answer in answers if not answer.is_mapped]
     if unmapped:
         yield styled_line(gettext("without coordinates, listed but not on the map: {count}", count=len(unmapped)), "yellow")
+
+
+def _station_table(answers: Sequence[StationReport], model: StationModel | None, max_rows: int, *, gal: bool) -> Any:
+    listed_answers = answers[:max_rows]
+    header, rows = station_rows(listed_answers, model, gal=gal)
+    caption = " ".join(filter(None, (_omitted_text(len(answers) - max_rows), column_note(listed_answers, model))))
+    # station names need the width
+    return table("", [name.replace(" (", "\n(").replace("overturns", "over-\nturns") for name in header], rows, caption=caption)
 
 
 def column_note(answers: Sequence[StationReport], model: StationModel | None) -> str:

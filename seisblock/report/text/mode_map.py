@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,8 @@ from seisblock.core.i18n import N_, format_share, gettext, join_list, join_sente
 from seisblock.models.respond.describe import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.records import Motion
 from seisblock.report.io.history_csv import write_by_record
-from seisblock.report.text.spectrum import thin_indices
-from seisblock.report.text.tables import group_answers, styled_line, table
+from seisblock.report.text.spectrum import rows_per_table, shorten, thin_indices
+from seisblock.report.text.tables import Part, details, group_answers, styled_line, table
 from seisblock.studies.respond.mode_map import MODES_BY_SEVERITY, NO_ANSWER, ModeMap
 
 Maps = Sequence[tuple[Motion, ModeMap]]
@@ -32,27 +33,35 @@ SHARES = {
 
 def tables(maps: Maps, wear_text: str = "") -> Iterator[Any]:
     """Yield, per component, the shares of modes, the limits of initiation and a map of at most 20 bodies and 60 frictions."""
-    for heading, part in group_answers(maps, lambda pair: pair[0].record, lambda pair: _summary(*pair)):
+    is_thinned = any(min(mode_map.size_m.size, MAX_ROWS) > rows_per_table(len(maps)) for _, mode_map in maps)
+    for heading, part in group_answers(maps, lambda pair: pair[0].record, lambda pair: _summary(*pair, is_thinned=is_thinned)):
         yield from heading
-        yield from (block for pair in part for block in _map_table(*pair, wear_text))
+        for index, pair in enumerate(part):
+            yield from shorten(pair[1].size_m.size, MAX_ROWS, len(maps), partial(_map_table, *pair, wear_text))
+            legend = (*_legend(pair[1]), styled_line())
+            yield from [details(*legend)] if is_thinned and index < len(part) - 1 else legend
 
 
-def _summary(motion: Motion, mode_map: ModeMap) -> Iterator[Text]:
+def _summary(motion: Motion, mode_map: ModeMap, *, is_thinned: bool) -> Iterator[Any]:
     yield styled_line(verdict(motion, mode_map), "bold")
-    yield styled_line("  " + limits_text(mode_map))
+    loading, *rules = _limits(mode_map)
+    whole = styled_line("  " + limits_text(mode_map))
+    yield Part((whole,), (styled_line("  " + loading),)) if rules and is_thinned else whole
 
 
-def _map_table(motion: Motion, mode_map: ModeMap, wear_text: str) -> Iterator[Any]:
-    """Yield the map of one component and its legend."""
-    rows, columns = thin_indices(mode_map.size_m.size, MAX_ROWS)[::-1], thin_indices(mode_map.mu.size, MAX_COLUMNS)
+def _map_table(motion: Motion, mode_map: ModeMap, wear_text: str, max_rows: int) -> Iterator[Any]:
+    """Yield the map of one component."""
+    rows, columns = thin_indices(mode_map.size_m.size, max_rows)[::-1], thin_indices(mode_map.mu.size, MAX_COLUMNS)
     cells = [[row_label(mode_map, i), "".join(LETTERS[MODES_BY_SEVERITY[mode_map.governing[i, j]]] for j in columns)] for i in rows]
     first, last = f"{mode_map.mu[0]:.3g}", f"{mode_map.mu[-1]:.3g}"
     axis_text = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
     yield table(_title(motion, mode_map) + gettext(wear_text), [f"{row_symbol(mode_map)} \\ μ", axis_text], cells)
+
+
+def _legend(mode_map: ModeMap) -> Iterator[Text]:
     yield styled_line(gettext(". rest, s sliding, r rocking, b slide-rocking, f flight, # overturning"), "dim")
     if mode_map.share(NO_ANSWER) > 0.0:
         yield styled_line(gettext("? no result: analysis stopped at the limit of impacts (endless small bounces)"), "dim")
-    yield styled_line()
 
 
 def verdict(motion: Motion, mode_map: ModeMap) -> str:
@@ -64,11 +73,15 @@ def verdict(motion: Motion, mode_map: ModeMap) -> str:
 
 def limits_text(mode_map: ModeMap) -> str:
     """Return the closed-form limits of initiation of motion."""
+    return join_sentences(_limits(mode_map))
+
+
+def _limits(mode_map: ModeMap) -> list[str]:
+    """Return the largest loading and the rules that follow from it."""
     if math.isinf(mode_map.loading):
-        return gettext(
-            "The downward ground acceleration exceeds gravity at {time:.2f} s; no body remains at rest.", time=mode_map.loading_time_s
-        )
-    parts = [
+        text = N_("The downward ground acceleration exceeds gravity at {time:.2f} s; no body remains at rest.")
+        return [gettext(text, time=mode_map.loading_time_s)]
+    return [
         gettext(
             "Largest horizontal force {ratio:.3f} of the effective weight, at {time:.2f} s.",
             time=mode_map.loading_time_s,
@@ -76,7 +89,6 @@ def limits_text(mode_map: ModeMap) -> str:
         ),
         gettext("Bodies with mu and b/h above this ratio remain at rest; the others slide if mu < b/h and rock if mu > b/h."),
     ]
-    return join_sentences(parts)
 
 
 def rows_are_sizes(mode_map: ModeMap) -> bool:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from seisblock.bodies.block import Block
 from seisblock.core.i18n import N_, format_percent, format_share, gettext, lazy_gettext
 from seisblock.report.describe_wear import sampled_edges
-from seisblock.report.text.tables import with_notes
+from seisblock.report.text.tables import Part, styled_line, with_notes
 from seisblock.studies.model_comparison import GRAVESTONES, ModelComparison, ModelResult
 from seisblock.studies.parallel import left_out_versions
 from seisblock.studies.rocking.perturb import Perturbation
@@ -51,6 +53,47 @@ def agreement_line(name: str, agreement: ModelComparison) -> str:
     sentence = gettext(text, **values, falls=agreement.falls, falling=falling_models, standing=stable_models)
     purpose_built = next((opinion for opinion in agreement.opinions if opinion.made_for_it), None)
     return sentence if purpose_built is None else with_notes(sentence, [_purpose_built_text(purpose_built)])
+
+
+def agreement_part(name: str, agreement: ModelComparison, *, is_short: bool) -> Any:
+    """Return the model comparison as a part of an answer; models that disagree are listed in the details.
+
+    Parameters
+    ----------
+    name : str
+        Direction of the record.
+    agreement : ModelComparison
+    is_short : bool
+        Whether models that agree take one line, too.
+    """
+    whole = styled_line(agreement_line(name, agreement))
+    if not agreement.opinions or agreement.spread is None or (agreement.unanimous and not is_short):
+        return whole
+    text = spread_line(name, agreement)
+    purpose_built = None if agreement.unanimous else next((opinion for opinion in agreement.opinions if opinion.made_for_it), None)
+    return Part((whole,), (styled_line(text if purpose_built is None else with_notes(text, [_purpose_built_text(purpose_built)])),))
+
+
+def spread_line(name: str, agreement: ModelComparison) -> str:
+    """Return the number of models that predict overturning and the range of their scale factors, in one line.
+
+    Parameters
+    ----------
+    name : str
+        Direction of the record.
+    agreement : ModelComparison
+    """
+    factors = [opinion.factor for opinion in agreement.opinions if opinion.factor is not None]
+    if not factors:
+        return agreement_line(name, agreement)
+    return gettext(
+        "{name}: overturns in {falls} of {models} models; scale factor to overturning {low:.2f}-{high:.2f}.",
+        name=name,
+        falls=agreement.falls,
+        models=agreement.models,
+        low=min(factors),
+        high=max(factors),
+    )
 
 
 def _opinion_text(opinion: ModelResult) -> str:

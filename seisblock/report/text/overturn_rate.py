@@ -12,8 +12,10 @@ from seisblock.records import Record
 from seisblock.report.io.history_csv import concat_tables
 from seisblock.report.text.measure import filter_range_text
 from seisblock.report.text.model_comparison import rates_line
+from seisblock.report.text.spectrum import thin_indices
 from seisblock.report.text.tables import (
     DASH,
+    Part,
     acceleration_cell,
     format_acceleration,
     format_number,
@@ -29,6 +31,9 @@ from seisblock.studies.survey.overturning_rate import CurvePoint
 CAPTION = N_(
     "Min. H/B: smallest height over width predicted to overturn. {level:g} %: sampling interval of the rate (Clopper-Pearson) only"
 )
+
+SHORT_ROWS = 20
+"""Most shakings in the shortened table."""
 
 MAX_VERDICTS = 4
 """Most shakings with a sentence each."""
@@ -80,13 +85,21 @@ def tables(
         groups, lambda group: group[0], lambda group: map(styled_line, verdicts(cemetery.name, group[1], gal=gal))
     ):
         yield from heading
-        yield _rate_table(title, results, gal=gal, confidence=confidence)
-        yield from (
-            styled_line(sentence) for sentence in (*_filter_lines(results, gal=gal), *_model_lines(results), *_dowel_lines(results))
-        )
+        sentences = map(styled_line, (*_filter_lines(results, gal=gal), *_model_lines(results), *_dowel_lines(results)))
+        yield from _rates(title, results, list(sentences), gal=gal, confidence=confidence)
     if not groups:
         yield styled_line(median_pga_text(cemetery.name, curve, gal=gal))
         yield _curve_table(title, curve, gal=gal)
+
+
+def _rates(title: str, results: Sequence[CemeteryRate], sentences: Sequence[Any], *, gal: bool, confidence: float) -> Iterator[Any]:
+    """Yield the rates and their sentences; in short evenly spaced rows of many shakings."""
+    whole = _rate_table(title, results, gal=gal, confidence=confidence)
+    if len(results) <= SHORT_ROWS:
+        yield from (whole, *sentences)
+    else:
+        shown = [results[i] for i in thin_indices(len(results), SHORT_ROWS)]
+        yield Part((whole, *sentences), (_rate_table(title, shown, gal=gal, confidence=confidence),))
 
 
 def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:

@@ -18,6 +18,7 @@ from seisblock.report.describe_wear import sampled_edges
 from seisblock.report.directions import direction_label, with_direction
 from seisblock.report.text.tables import (
     DASH,
+    details,
     format_number,
     format_seconds,
     format_share_interval,
@@ -59,7 +60,7 @@ def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bo
         yield styled_line()
         for _, extra in part:
             if "directions" in extra:
-                yield _direction_table(extra["directions"], gal=gal)
+                yield details(_direction_table(extra["directions"], gal=gal))
 
 
 def _summary(response: Response[RespondOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,10 +13,11 @@ from seisblock.core.results import Response
 from seisblock.models.rock.outcome import RockOutcome, friction_suffices
 from seisblock.report.describe_wear import describe_edges
 from seisblock.report.directions import direction_label
-from seisblock.report.text.model_comparison import agreement_line, perturbation_lines
+from seisblock.report.text.model_comparison import agreement_part, perturbation_lines
 from seisblock.report.text.respond import direction_sentence, fall_azimuth, rocking_text
 from seisblock.report.text.tables import (
     acceleration_cell,
+    details,
     format_acceleration,
     format_number,
     format_seconds,
@@ -57,12 +58,11 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
         yield from heading
         yield _outcome_table([r for r, _ in part], gal=gal)
         for response, extra in part:
-            for sentence in sentences(response, extra):
-                yield styled_line(sentence)
+            yield from sentences(response, extra)
         yield styled_line()
         for _, extra in part:
             if "directions" in extra:
-                yield _direction_table(extra["directions"])
+                yield details(_direction_table(extra["directions"]))
 
 
 def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
@@ -169,17 +169,19 @@ def describe(response: Response[RockOutcome], mu: float | None = None, *, gal: b
     return with_notes(sentence, [gettext(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
 
 
-def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
-    """Yield model comparison, margins and overturning probability."""
+def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[Any]:
+    """Yield model comparison, margins and overturning probability; their intervals and samples are details."""
     name = response.motion.name or "x"
     if "agreement" in extra:
-        yield agreement_line(name, extra["agreement"])
+        yield agreement_part(name, extra["agreement"], is_short="margin" in extra)
     if "directions" in extra:
-        yield direction_sentence(extra["directions"])
-    if "margin" in extra:
-        yield from (gettext("{name}: {text}", name=name, text=text) for text in _margin_lines(extra["margin"]))
-    if "perturbation" in extra:
-        yield from (gettext("{name}: {text}", name=name, text=text) for text in perturbation_lines(extra["perturbation"], response.body))
+        yield styled_line(direction_sentence(extra["directions"]))
+    answers = [_margin_lines(extra["margin"])] if "margin" in extra else []
+    answers += [perturbation_lines(extra["perturbation"], response.body)] if "perturbation" in extra else []
+    for texts in answers:
+        first, *others = (styled_line(gettext("{name}: {text}", name=name, text=text)) for text in texts)
+        yield first
+        yield from map(details, others)
 
 
 def _overturned_cell(response: Response[RockOutcome]) -> str:
@@ -223,7 +225,7 @@ def lean_text(ratio: float) -> str:
     return gettext("peak tilt {share} of the overturning angle", share=format_share(ratio))
 
 
-def _margin_lines(margin: Margin) -> Iterator[str]:
+def _margin_lines(margin: Margin) -> Iterable[str]:
     """Yield the first factor with overturning, the share above, and the intervals of overturning."""
     if margin.first_fall is None or margin.falls_above_first is None:
         yield gettext("no overturning at scale factors up to {limit:g} (steps of {step:g}).", limit=margin.limit, step=margin.step)

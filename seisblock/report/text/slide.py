@@ -10,7 +10,7 @@ from seisblock.core.i18n import N_, gettext, join_list
 from seisblock.core.results import Response
 from seisblock.models.slide.solve import SlideOutcome
 from seisblock.report.directions import with_direction
-from seisblock.report.text.tables import format_seconds, group_answers, styled_line, table
+from seisblock.report.text.tables import details, format_seconds, group_answers, styled_line, table
 from seisblock.report.text.threshold import SLIDES, threshold_text
 from seisblock.report.units_display import Unit, format_length, format_size, length_cell, length_unit
 from seisblock.studies.sliding import SlidePoint
@@ -40,7 +40,7 @@ def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: 
         unit = length_unit((point.max_slip_m for point in sweep), gal=gal)
         rows = [[point.component, length_cell(point.max_slip_m, unit), length_cell(point.residual_slip_m, unit)] for point in sweep]
         headings = N_("azimuth (deg)"), N_("max ({unit})"), N_("residual ({unit})")
-        yield table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows)
+        yield details(table(gettext("All azimuths"), [gettext(heading, unit=unit.name) for heading in headings], rows))
 
 
 def describe_base(response: Response[SlideOutcome]) -> str:

@@ -14,12 +14,14 @@ from seisblock.core.i18n import N_, gettext
 from seisblock.records import Record
 from seisblock.report.io.history_csv import concat_tables
 from seisblock.report.json.slide import SLIDE_POINT, point_entry
+from seisblock.report.text.spectrum import shorten
 from seisblock.report.text.tables import DASH, group_answers, styled_line, table
 from seisblock.report.units_display import Unit, format_length, length_cell, length_unit
 from seisblock.studies.sliding import SlidePoint
 
 Points = Sequence[SlidePoint]
 Panels = list[tuple[str, Points]]
+Cell = Callable[[SlidePoint], str]
 
 
 SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": N_("μ kinetic"), "slope_deg": N_("slope θ (deg)"), "vertical": "γ"}
@@ -66,21 +68,26 @@ def tables(records: Sequence[Record], studies: Sequence[Points], *, gal: bool = 
         arranged, lambda entry: entry[0], lambda entry: _verdicts(entry[2], gal=gal)
     ):
         yield from preamble
-        for title, part in panels:
-            unit = length_unit((point.max_slip_m for point in part), gal=gal)
-            heading = gettext("{name}: maximum displacement ({unit})", name=title, unit=unit.name)
-            yield _pivot_table(heading, part, arrangement, partial(_format_slip, unit=unit))
-            if any(point.beta is not None for point in part):
-                yield _pivot_table(
-                    gettext("{name}: beta, maximum displacement with over without vertical motion", name=title),
-                    part,
-                    arrangement,
-                    lambda point: DASH if point.beta is None else f"{point.beta:.3f}",
-                )
+        pivots = [pivot for title, part in panels for pivot in _pivots(title, part, arrangement, gal=gal)]
+        for title, part, cell in pivots:
+            count = len({getattr(point, arrangement.x) for point in part})
+            yield from shorten(count, MAX_ROWS, len(pivots), partial(_pivot_table, title, part, arrangement, cell))
+
+
+def _pivots(title: str, points: Points, arrangement: Arrangement, *, gal: bool) -> Iterator[tuple[str, Points, Cell]]:
+    """Yield heading, points and cell of the tables of one direction."""
+    unit = length_unit((point.max_slip_m for point in points), gal=gal)
+    yield gettext("{name}: maximum displacement ({unit})", name=title, unit=unit.name), points, partial(_format_slip, unit=unit)
+    if any(point.beta is not None for point in points):
+        yield gettext("{name}: beta, maximum displacement with over without vertical motion", name=title), points, _format_beta
 
 
 def _format_slip(point: SlidePoint, unit: Unit) -> str:
     return length_cell(point.max_slip_m, unit)
+
+
+def _format_beta(point: SlidePoint) -> str:
+    return DASH if point.beta is None else f"{point.beta:.3f}"
 
 
 def _verdicts(panels: Panels, *, gal: bool) -> Iterator[Text]:
@@ -114,14 +121,14 @@ def group_by_direction(points: Points, arrangement: Arrangement) -> Panels:
     return [(name, [point for point in points if point.component == name]) for name in names]
 
 
-def _pivot_table(title: str, points: Points, arrangement: Arrangement, cell: Callable[[SlidePoint], str]) -> Any:
-    """Return one table: rows are x values, columns are curves; large tables are thinned."""
+def _pivot_table(title: str, points: Points, arrangement: Arrangement, cell: Cell, max_rows: int) -> Iterator[Any]:
+    """Yield one table: rows are x values, columns are curves; large tables are thinned."""
     xs = list(dict.fromkeys(getattr(point, arrangement.x) for point in points))
     names = list(dict.fromkeys(arrangement.name(point) for point in points))
     values = {(getattr(point, arrangement.x), arrangement.name(point)): cell(point) for point in points}
-    rows, columns = _thin_values(xs, MAX_ROWS), _thin_values(names, MAX_COLUMNS)
+    rows, columns = _thin_values(xs, max_rows), _thin_values(names, MAX_COLUMNS)
     left_out = len(rows) < len(xs) or len(columns) < len(names)
-    return table(
+    yield table(
         title,
         (gettext(SYMBOLS[arrangement.x]), *(name or gettext("slip") for name in columns)),
         [[f"{x:g}", *(values.get((x, name), DASH) for name in columns)] for x in rows],

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.records import Motion
 from seisblock.report.io.history_csv import write_by_record
+from seisblock.report.text.spectrum import shorten, thin_indices
 from seisblock.report.text.tables import group_answers, styled_line, table
 from seisblock.report.units_display import format_length, length_cell, length_unit
 from seisblock.studies.sliding import SlidePoint
@@ -27,11 +27,12 @@ def tables(curves: Curves) -> Iterator[Any]:
         curves, lambda pair: pair[0].record, lambda pair: [styled_line(verdict(pair[0].name or "x", pair[1]))]
     ):
         yield from heading
-        yield from (block for pair in part for block in _slip_table(*pair))
+        for pair in part:
+            yield from shorten(len(pair[1]), MAX_ROWS, len(curves), partial(_slip_table, *pair))
 
 
-def _slip_table(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
-    indices = np.unique(np.linspace(0, len(points) - 1, min(len(points), MAX_ROWS)).round().astype(int))
+def _slip_table(motion: Motion, points: Sequence[SlidePoint], max_rows: int) -> Iterator[Any]:
+    indices = thin_indices(len(points), max_rows)
     unit = length_unit((point.max_slip_m for point in points), gal=True)
     rows = [[f"{points[i].mu:.4g}", length_cell(points[i].max_slip_m, unit), length_cell(points[i].residual_slip_m, unit)] for i in indices]
     title = gettext("{name}: sliding against friction", name=motion.name)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from seisblock.core.i18n import N_, format_share, gettext
 from seisblock.core.typing import IntArray
 from seisblock.records import Motion
 from seisblock.report.io.history_csv import write_by_record
-from seisblock.report.text.tables import DASH, group_answers, styled_line, table
+from seisblock.report.text.tables import DASH, Part, group_answers, styled_line, table
 from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 Spectra = Sequence[tuple[Motion, RockingSpectrum]]
@@ -22,12 +23,42 @@ Spectra = Sequence[tuple[Motion, RockingSpectrum]]
 MAX_ROWS, MAX_COLUMNS = 12, 9
 """Most rows and columns of the table; --csv and --json contain all."""
 
+SHORT_ROWS = 14
+"""Most rows of all tables of a shortened answer together."""
+
 
 def tables(spectra: Spectra, kind: str, wear_text: str = "") -> Iterator[Any]:
     """Yield, per component, a table of at most 12 sizes and 9 slendernesses; `wear_text` describes the edge wear."""
     for heading, part in group_answers(spectra, lambda pair: pair[0].record, lambda pair: [styled_line(verdict(*pair))]):
         yield from heading
-        yield from (block for pair in part for block in _spectrum_table(*pair, kind, wear_text))
+        for pair in part:
+            yield from shorten(pair[1].size_m.size, MAX_ROWS, len(spectra), partial(_spectrum_table, *pair, kind, wear_text))
+
+
+def shorten(count: int, max_rows: int, tables: int, blocks: Callable[[int], Iterator[Any]]) -> Iterator[Any]:
+    """Yield a table of at most `max_rows`, and its shortened form where that has fewer rows.
+
+    Parameters
+    ----------
+    count : int
+        Rows available.
+    max_rows : int
+        Most rows of the table in full.
+    tables : int
+        Tables that share the rows of the shortened answer.
+    blocks : callable
+        Returns title, table and notes for a largest number of rows.
+    """
+    short_rows = rows_per_table(tables)
+    if min(count, max_rows) <= short_rows:
+        yield from blocks(max_rows)
+    else:
+        yield Part(tuple(blocks(max_rows)), tuple(blocks(short_rows)))
+
+
+def rows_per_table(tables: int) -> int:
+    """Return the most rows of each of several tables in a shortened answer."""
+    return max(SHORT_ROWS // tables, 2)
 
 
 def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
@@ -40,8 +71,8 @@ def verdict(motion: Motion, spectrum: RockingSpectrum) -> str:
     return gettext("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=block_count)
 
 
-def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_text: str) -> Iterator[Any]:
-    rows, columns = thin_indices(spectrum.size_m.size, MAX_ROWS), thin_indices(spectrum.slenderness_rad.size, MAX_COLUMNS)
+def _spectrum_table(motion: Motion, spectrum: RockingSpectrum, kind: str, wear_text: str, max_rows: int) -> Iterator[Any]:
+    rows, columns = thin_indices(spectrum.size_m.size, max_rows), thin_indices(spectrum.slenderness_rad.size, MAX_COLUMNS)
     quantity = gettext("overturning") if kind == "overturning" else gettext("peak tilt over alpha (>1: overturns)")
     if spectrum.overturning_rate is not None:
         quantity = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from rich.box import SIMPLE_HEAD
@@ -138,6 +139,46 @@ class _WrappedText(Text):
         return lines
 
 
+@dataclass(frozen=True)
+class Part:
+    """Part of an answer in two lengths.
+
+    Parameters
+    ----------
+    whole : tuple
+        Rich renderables printed with ``--details``.
+    short : tuple
+        Rich renderables printed otherwise.
+    """
+
+    whole: tuple[Any, ...]
+    short: tuple[Any, ...] = ()
+
+
+def details(*whole: Any) -> Part:
+    """Return a part of an answer that is printed with ``--details`` only."""
+    return Part(whole)
+
+
+def whole_answer(parts: Iterable[Any]) -> Iterator[Any]:
+    """Yield an answer in full."""
+    for part in parts:
+        yield from part.whole if isinstance(part, Part) else [part]
+
+
+def shortened_answer(parts: Iterable[Any]) -> Iterator[Any]:
+    """Yield an answer without its details, and the option that prints them where there are any."""
+    has_details = False
+    for part in parts:
+        if isinstance(part, Part):
+            has_details = True
+            yield from part.short
+        else:
+            yield part
+    if has_details:
+        yield styled_line(gettext("more: --details"), "dim")
+
+
 def format_number(value: Any, digits: int = 4) -> str:
     """Return a number with `digits` significant digits, yes or no for a boolean, a dash for none."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -208,8 +249,8 @@ def format_acceleration(value: float | None, *, gal: bool) -> str:
 
 
 def group_answers(
-    items: Iterable[Item], record_of: Callable[[Item], Record | None], verdict_of: Callable[[Item], Iterable[Text]]
-) -> Iterator[tuple[list[Text], list[Item]]]:
+    items: Iterable[Item], record_of: Callable[[Item], Record | None], verdict_of: Callable[[Item], Iterable[Any]]
+) -> Iterator[tuple[list[Any], list[Item]]]:
     """Yield, per record, the heading lines and the items.
 
     For one record the verdicts come first, then the record line; for several records each group begins with its record line.
@@ -220,7 +261,7 @@ def group_answers(
     record_of : callable
         Returns the record of an item, None where it has none.
     verdict_of : callable
-        Returns the verdict lines.
+        Returns the verdict lines, or parts of an answer.
     """
     parts: dict[int, tuple[Record | None, list[Item]]] = {}
     for item in items:

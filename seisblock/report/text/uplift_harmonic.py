@@ -10,7 +10,7 @@ from typing import Any
 from seisblock.core.i18n import N_, gettext
 from seisblock.report.io.atomic import write_table
 from seisblock.report.json.uplift import RATIO_KEYS
-from seisblock.report.text.tables import styled_line, table
+from seisblock.report.text.tables import Part, details, styled_line, table
 from seisblock.studies.uplift_regions import UpliftRegion
 
 SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}
@@ -18,6 +18,8 @@ UNITS = {"phi": "°", "rho": "°"}
 RANGE_END = N_("end of the range")
 MAX_ROWS = 24
 """Most rows of a curve on the terminal, unless frequencies are given."""
+SHORT_ROWS = 12
+"""Most rows of the curve of a single region in the shortened answer; several curves are details."""
 
 
 def region_title(region: UpliftRegion, names: Sequence[str] = tuple(SYMBOLS)) -> str:
@@ -35,13 +37,15 @@ def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
     for region in regions:
         yield styled_line(verdict(region), "bold")
         wv, w1 = region.body.omega[2], region.modes.omega_1
-        yield table(
-            gettext("natural modes"),
-            [gettext("mode"), "f (Hz)", "ω/ω_V", "ω/ω_1"],
-            [
-                [gettext(name), w / (2 * math.pi), w / wv, w / w1]
-                for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)
-            ],
+        yield details(
+            table(
+                gettext("natural modes"),
+                [gettext("mode"), "f (Hz)", "ω/ω_V", "ω/ω_1"],
+                [
+                    [gettext(name), w / (2 * math.pi), w / wv, w / w1]
+                    for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)
+                ],
+            )
         )
         yield table(
             gettext("smallest A/g with uplift"),
@@ -56,15 +60,20 @@ def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
                 ]
             ],
         )
-        n = region.frequency_ratio.size
-        step = 1 if all_rows or n <= MAX_ROWS else n // MAX_ROWS
-        indices = range(step - 1, n, step)
-        yield table(
-            gettext("uplift curve"),
-            ["θ/ω_1", "A/g"],
-            [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in indices],
-            caption="" if step == 1 else gettext("every {step}th of {all} rows; all with --csv or --json", step=step, all=n),
-        )
+        whole = _curve_table(region, region.frequency_ratio.size if all_rows else MAX_ROWS)
+        yield whole if all_rows else Part((whole,), (_curve_table(region, SHORT_ROWS),) if len(regions) == 1 else ())
+
+
+def _curve_table(region: UpliftRegion, max_rows: int) -> Any:
+    """Return the table of a curve, of at most `max_rows` or a few more evenly spaced rows."""
+    n = region.frequency_ratio.size
+    step = max(n // max_rows, 1)
+    return table(
+        gettext("uplift curve"),
+        ["θ/ω_1", "A/g"],
+        [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in range(step - 1, n, step)],
+        caption="" if step == 1 else gettext("every {step}th of {all} rows; all with --csv or --json", step=step, all=n),
+    )
 
 
 def verdict(region: UpliftRegion) -> str:

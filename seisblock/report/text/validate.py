@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext, lazy_gettext
-from seisblock.report.text.tables import styled_line, table, with_notes
+from seisblock.report.text.tables import Part, details, styled_line, table, with_notes
 from seisblock.validation.case import (
     EVIDENCE_KINDS,
     VERDICTS,
@@ -34,6 +34,9 @@ _HEADINGS: dict[Verdict, str] = {
 }
 _STYLES: dict[Verdict, str] = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
 
+_HINT = N_("--all also lists the cases that agree.")
+_COUNT_HEADINGS = N_("cases"), N_("agree"), N_("differ"), N_("fail")
+
 KINDS: dict[EvidenceKind, str] = {
     "computed": N_("computed"),
     "rebuilt": N_("input rebuilt"),
@@ -46,24 +49,34 @@ KINDS: dict[EvidenceKind, str] = {
 def tables(results: Sequence[CaseResult], *, all_cases: bool = True) -> Iterator[Any]:
     """Yield counts; failures and explained differences by paper; agreements if `all_cases`; counts by kind.
 
+    In short the differences are counted by paper.
+
     Parameters
     ----------
     results : sequence of CaseResult
     all_cases : bool
         Whether the cases that hold are listed, too.
     """
-    yield _count_line(results, all_cases=all_cases)
+    count_line = _count_line(results)
+    yield count_line if all_cases else Part((_count_line(results).append(with_notes("", [gettext(_HINT)]), style="dim"),), (count_line,))
     for verdict in VERDICTS:
         selection = [result for result in results if result.verdict == verdict]
         if selection and (all_cases or verdict != "holds"):
-            yield styled_line(gettext(_HEADINGS[verdict]), _STYLES[verdict])
-            yield _case_table(heading=True)
-            for paper in dict.fromkeys(result.case.paper for result in selection):
-                yield styled_line(paper, "italic")
-                part = [result for result in selection if result.case.paper == paper]
-                yield from [_case_table(part)] if verdict == "holds" else _explained_cases(part)
-            yield styled_line()
+            blocks = _verdict_tables(verdict, selection)
+            yield from blocks if verdict == "fails" else map(details, blocks)
+    yield Part((), (_paper_table(results),))
     yield _kind_table(results)
+
+
+def _verdict_tables(verdict: Verdict, selection: Sequence[CaseResult]) -> Iterator[Any]:
+    """Yield the cases with one verdict, by paper."""
+    yield styled_line(gettext(_HEADINGS[verdict]), _STYLES[verdict])
+    yield _case_table(heading=True)
+    for paper in dict.fromkeys(result.case.paper for result in selection):
+        yield styled_line(paper, "italic")
+        part = [result for result in selection if result.case.paper == paper]
+        yield from [_case_table(part)] if verdict == "holds" else _explained_cases(part)
+    yield styled_line()
 
 
 def _explained_cases(results: Sequence[CaseResult]) -> Iterator[Any]:
@@ -143,28 +156,29 @@ def format_short(value: float, digits: int = 5) -> str:
 
 def _kind_table(results: Sequence[CaseResult]) -> Any:
     """Return the number of cases by kind and verdict."""
-    rows = [
-        [
-            gettext(EVIDENCE_KINDS[kind]),
-            sum(verdict_counts.values()),
-            verdict_counts["holds"],
-            verdict_counts["differs"],
-            verdict_counts["fails"],
-        ]
-        for kind, verdict_counts in count_verdicts_by_kind(results).items()
-    ]
-    header = [gettext("kind of evidence"), gettext("cases"), gettext("agree"), gettext("differ"), gettext("fail")]
-    return table(gettext("Evidence by kind"), header, rows)
+    rows = [[gettext(EVIDENCE_KINDS[kind]), *_count_cells(counts)] for kind, counts in count_verdicts_by_kind(results).items()]
+    return table(gettext("Evidence by kind"), [gettext("kind of evidence"), *map(gettext, _COUNT_HEADINGS)], rows)
 
 
-def _count_line(results: Sequence[CaseResult], *, all_cases: bool) -> Text:
+def _paper_table(results: Sequence[CaseResult]) -> Any:
+    """Return the number of cases by paper and verdict."""
+    papers = dict.fromkeys(result.case.paper for result in results)
+    counts = {paper: count_verdicts([result for result in results if result.case.paper == paper]) for paper in papers}
+    header = [gettext("paper"), *map(gettext, _COUNT_HEADINGS)]
+    return table(gettext("Evidence by paper"), header, [[paper, *_count_cells(counts[paper])] for paper in papers])
+
+
+def _count_cells(counts: Mapping[Verdict, int]) -> list[int]:
+    return [sum(counts.values()), counts["holds"], counts["differs"], counts["fails"]]
+
+
+def _count_line(results: Sequence[CaseResult]) -> Text:
     verdict_counts = count_verdicts(results)
     singular, plural = N_("1 case: {verdicts}."), N_("{all} cases: {verdicts}.")
-    text = styled_line(
+    return styled_line(
         gettext(singular if len(results) == 1 else plural, all=len(results), verdicts=verdict_counts_text(verdict_counts)),
         "bold red" * bool(verdict_counts["fails"]),
     )
-    return text if all_cases else text.append(with_notes("", [gettext("--all also lists the cases that agree.")]), style="dim")
 
 
 def verdict_counts_text(verdict_counts: Mapping[Verdict, int]) -> str:

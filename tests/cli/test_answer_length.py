@@ -1,0 +1,188 @@
+"""Default answers fit a screen of 40 lines of 80 columns; ``--details`` prints the whole result."""
+
+import json
+
+import pytest
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, locale, main
+from seisblock.cli.command import SHARED_ESSENTIAL
+from seisblock.core import i18n
+from seisblock.report.text.tables import Part, details, shortened_answer, whole_answer
+from seisblock.report.text.wrap import display_width
+from tests.i18n.english import english_words
+from tests.lengths import all_but_slow
+
+MAX_LINES, WIDTH = 40, 80
+
+BLOCK = ("--width", "24cm", "--height", "72cm")
+HANMER = "hanmer_springs_2016"
+RECORDS = ("synthetic_jma.csv", HANMER, "elcentro_1940_ns.csv")
+
+BY_RECORD = (
+    ("measure",),
+    ("slide", "--mu", "0.2"),
+    ("rock", "--block", "gravestone"),
+    ("rock", "--block", "gravestone", "--margin"),
+    ("jump",),
+    ("jump", "--scale", "3", "--tenon", "2cm"),
+    ("respond", "--block", "gravestone", "--mu", "0.6", "--runs", "20"),
+    ("uplift", *BLOCK, "--frequency-vertical", "8"),
+    ("criteria", "--block", "gravestone"),
+    ("criteria", "--width", "45cm", "--height", "180cm"),
+    ("spectrum",),
+    ("spectrum", "--kind", "overturning"),
+    ("spectrum", "--kind", "sliding"),
+    ("spectrum", "--kind", "modes"),
+    ("overturn-rate", "--cemetery", "aoyama.csv"),
+    ("infer", "--slid", "5cm", "--mu", "0.3"),
+    ("infer", "--jumped", "20cm"),
+    ("map", *BLOCK, "--mu", "0.5", "--runs", "5"),
+    ("map", "--cemetery", "aoyama.csv"),
+    ("stack", "--stones", "wagata", "--window", "10:11"),
+)
+"""Lines that take a record."""
+
+LINES = (
+    *((line[0], record, *line[1:]) for line in BY_RECORD for record in RECORDS),
+    ("rock", HANMER, "--block", "gravestone", "--component", "all-azimuths"),
+    ("respond", HANMER, *BLOCK, "--mu", "0.3", "--runs", "5", "--component", "all-azimuths"),
+    ("slide", HANMER, "--mu", "0.1", "--component", "all-azimuths"),
+    ("slide", "synthetic_jma.csv", "--mu", "0.05:0.6:0.01", "--slope", "5,10", "--window", "25:28"),
+    ("uplift", "--harmonic"),
+    ("body", "boulder.ply"),
+    ("overturn-rate", "--cemetery", "aoyama.csv"),
+    ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", "100:1000:50"),
+    ("infer", "--rate", "35/100", "--cemetery", "aoyama.csv"),
+    (
+        *("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--im", "pgv,pga", "--steps", "8"),
+        *("--limit", "rock,lean=0.5,overturn", "--perturb", "3", "--bootstrap", "20", "--compare", "50,0.4"),
+    ),
+    ("risk", "--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv", "--stood", "1000"),
+    ("batch", "synthetic_jma.csv", HANMER, "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "FOLDER/table.csv"),
+    ("report", "synthetic_jma.csv", "--output", "FOLDER/page.html"),
+    ("fit", "shaken_block.csv", "--free", "alpha,p"),
+    ("validate",),
+)
+
+SLOW = {("validate",), ("fit", "shaken_block.csv", "--free", "alpha,p"), ("report", "synthetic_jma.csv", "--output", "FOLDER/page.html")}
+"""Lines that take more than seconds."""
+
+WHOLE = {
+    ("jump", "synthetic_jma.csv"): (
+        "NS: Chozu-sha, short side, rocking threshold 461.2 gal",
+        "EW: Chozu-sha, short side, rocking threshold 461.2 gal",
+        " above threshold (s)          0.045    0.141    0.157 ",
+        " slide-rock distance (cm)      0.00     0.01     0.00 ",
+        "Chain 3: jumps 1.7 cm to +NS after 0.428 s of rocking; ground acceleration above",
+        "velocity (up to 0.06 rad/s) is ignored.",
+    ),
+    ("criteria", "synthetic_jma.csv", "--block", "gravestone"): (
+        " Ishiyama, velocity                  Ishiyama1982   27.48 kine    4.22 yes ",
+        " half sine, linear              Housner1963    2.33 yes    2.51 yes    1.46 yes ",
+        "simulation. Thresholds of the lower table: --csv, --json",
+        "EW: overturns in all 5 models; scale factor to overturning 0.33-0.57 (largest ",
+    ),
+    ("rock", HANMER, "--block", "gravestone", "--margin"): (
+        "10: overturning at scale factors 2.0265 to 2.0309, 2.0382 to 2.0431, 2.0913 to ",
+        "280: the result changes at a scale factor of 1.4980 (the nearest to 1 found).",
+        "280: samples with size ±5 %, slenderness ±5 %, edge wear 0 to 10 % of the width,",
+    ),
+    ("rock", HANMER, "--block", "gravestone", "--component", "all-azimuths"): ("All azimuths",),
+    ("uplift", "--harmonic"): (
+        " second rocking in y-z    1.563    1.563   2.821 ",
+        " 0.75    0.4126 ",
+        "every 25th of 600 rows; all with --csv or --json",
+    ),
+    ("body", "boulder.ply"): (" 350           11.03       14.56   0.4385        76.65       4.171        254.8 ",),
+    ("spectrum", "synthetic_jma.csv"): ("shown: 12 of 40 2R, 9 of 40 H/B; all in --csv and --json",),
+    ("spectrum", HANMER, "--kind", "modes"): (" 0.090     sssssssss############################### ",),
+    ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", "100:1000:50"): (
+        "        350.0     2.50       4.94     5 of 100   0.05   0.02-0.11 ",
+    ),
+}
+"""Lines of the whole result that the shortened answer omits."""
+
+
+def line_of(parts):
+    """Return a command line as text."""
+    return " ".join(parts)
+
+
+@pytest.fixture(scope="module")
+def run_in_language(tmp_path_factory):
+    """Run a command line in a language with compiled catalogues at a width of 80 columns."""
+    folder, written = tmp_path_factory.mktemp("locale"), tmp_path_factory.mktemp("written")
+    for catalogue in i18n.LOCALE_DIR.rglob("*.po"):
+        target = folder / catalogue.relative_to(i18n.LOCALE_DIR).with_suffix(".mo")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with catalogue.open("rb") as source, target.open("wb") as compiled:
+            write_mo(compiled, read_po(source))
+
+    def run(line, lang="en"):
+        words = [word.replace("FOLDER", str(written)) for word in line]
+        result = CliRunner().invoke(main, ["--lang", lang, *words], env={"COLUMNS": str(WIDTH)})
+        assert result.exit_code == 0, result.output
+        return result.stdout
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(i18n, "LOCALE_DIR", folder)
+        patch.setattr(locale, "LOCALE_DIR", folder)
+        i18n._load_catalogue.cache_clear()
+        yield run
+    i18n._load_catalogue.cache_clear()
+
+
+@pytest.mark.parametrize("lang", i18n.LANGUAGES)
+@pytest.mark.parametrize("line", all_but_slow(LINES, set(LINES) - SLOW), ids=line_of)
+def test_default_answer_fits_a_screen(line, lang, run_in_language):
+    """No more than 40 lines, each of at most 80 columns, without English in Japanese."""
+    answer = run_in_language(line, lang).splitlines()
+    assert len(answer) <= MAX_LINES
+    assert not [text for text in answer if display_width(text.rstrip()) > WIDTH]
+    assert lang == "en" or not english_words("\n".join(answer))
+
+
+@pytest.mark.parametrize("line", WHOLE, ids=line_of)
+def test_details_print_what_the_default_answer_omits(line, run_in_language):
+    """The shortened answer names the option in its last line; the whole one holds the omitted lines."""
+    short, whole = run_in_language(line).splitlines(), run_in_language((*line, "--details")).splitlines()
+    assert [text for text in WHOLE[line] if text not in whole] == []
+    assert not set(WHOLE[line]) & set(short)
+    assert short[-1] == "more: --details" and short[-1] not in whole
+    assert short[0] == whole[0], "the verdict comes first in both"
+
+
+def test_answer_without_details_does_not_name_the_option(run_in_language):
+    """The option changes nothing where the answer is whole."""
+    line = ("slide", "synthetic_jma.csv", "--mu", "0.2")
+    assert run_in_language(line) == run_in_language((*line, "--details"))
+
+
+def test_details_leave_documents_alone(run_in_language, tmp_path):
+    """JSON and CSV hold everything without the option."""
+    line = ("criteria", "synthetic_jma.csv", "--block", "gravestone", "--csv", str(tmp_path / "rows.csv"), "--json")
+    documents, tables = [], []
+    for extra in ((), ("--details",)):
+        documents.append(json.loads(run_in_language((*line, *extra))))
+        tables.append((tmp_path / "rows.csv").read_bytes())
+    assert documents[0] == documents[1] and tables[0] == tables[1]
+
+
+def test_every_command_with_tables_takes_details():
+    """The option stands in the short help of all commands with output options, and of validate."""
+    commands = {name: main.get_command(None, name) for name in COMMANDS}
+    with_gal = {name for name, command in commands.items() if any("--json" in parameter.opts for parameter in command.params)}
+    with_details = {name for name, command in commands.items() if any("--details" in parameter.opts for parameter in command.params)}
+    assert with_gal - with_details == {"batch", "cite", "samples"}, "a summary and lists"
+    assert "--details" in SHARED_ESSENTIAL
+
+
+def test_whole_and_shortened_answer_of_parts():
+    """A part in two lengths prints one of them."""
+    parts = ["verdict", Part(("long", "table"), ("row",)), details("modes"), "end"]
+    assert list(whole_answer(parts)) == ["verdict", "long", "table", "modes", "end"]
+    assert [str(part) for part in shortened_answer(parts)] == ["verdict", "row", "end", "more: --details"]
+    assert list(shortened_answer(["verdict", "end"])) == ["verdict", "end"]
