@@ -15,6 +15,7 @@ from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.model_comparison import agreement_line
 from seisblock.report.text.respond import outcome_text
 from seisblock.report.text.rock import verdict
+from seisblock.report.text.shaking import shaking_text
 from seisblock.report.text.tables import format_number, group_answers, styled_line, table
 from seisblock.report.units_display import acceleration_unit, velocity_unit
 from seisblock.studies.criteria_comparison import CriteriaComparison
@@ -36,6 +37,7 @@ def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
             yield from _tables(card, gal=gal)
             if card.agreement is not None:
                 yield styled_line(agreement_line(card.component, card.agreement))
+            yield styled_line(shaking_text(card.component, card.shaking, gal=gal), "dim")
             yield styled_line()
 
 
