@@ -15,7 +15,7 @@ from seisblock.core.options import OptionField, option_fields
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
-CHECKS = {"(0, inf)": checks.positive, "[0, inf)": checks.non_negative}
+CHECKS = {"(0, inf)": checks.positive}
 """Checks of a range before the command runs."""
 
 

@@ -157,7 +157,7 @@ def _help_all_option() -> click.Option:
             ctx.exit()
 
     text = N_("Show all options and exit.")
-    return Option(["--help-all"], is_flag=True, is_eager=True, expose_value=False, callback=show, section="Other", help=text)
+    return Option(["--help-all"], is_flag=True, is_eager=True, expose_value=False, callback=show, section="Output", help=text)
 
 
 def _option_file_option() -> click.Option:
@@ -170,7 +170,7 @@ def _option_file_option() -> click.Option:
 
     text = N_("TOML file of options, such as mu = 0.3; options of the line take precedence.")
     path = click.Path(path_type=Path, dir_okay=False)
-    return Option(["--options"], type=path, is_eager=True, expose_value=False, callback=load, section="Other", metavar="FILE", help=text)
+    return Option(["--options"], type=path, is_eager=True, expose_value=False, callback=load, section="Output", metavar="FILE", help=text)
 
 
 def lang_option() -> click.Option:

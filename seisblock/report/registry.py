@@ -13,6 +13,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
 
 if TYPE_CHECKING:
@@ -29,7 +30,10 @@ GENERAL = "solver"
 def _module(kind: str, model: str) -> ModuleType:
     """Return the module of a model, or the general one."""
     own = f"seisblock.report.{kind}.{model}"
-    return import_module(own if find_spec(own) else f"seisblock.report.{kind}.{GENERAL}")
+    if find_spec(own):
+        return import_module(own)
+    get_solver(model)  # an unknown model has no presentation
+    return import_module(f"seisblock.report.{kind}.{GENERAL}")
 
 
 def has_animation(model: str) -> bool:

@@ -272,7 +272,7 @@ def test_messages_below_the_command_line_name_parameters():
     """Below report and cli a message names a parameter, `` `dt` ``; the command line prints its option."""
     found = []
     for path in PACKAGE.rglob("*.py"):
-        if path.relative_to(PACKAGE).parts[0] not in {"cli", "report", "validation"}:
+        if path.relative_to(PACKAGE).parts[0] not in {"cli", "report", "validation"} and path.name != "options.py":
             tree = syntax_tree(path)
             # help texts of options are those of the command line
             calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "option"]

@@ -68,6 +68,6 @@ def test_title_is_plain_text_and_requires_plot(tmp_path):
 def test_figure_options_exist_only_where_effective():
     """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
     for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
-        told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
+        told = " ".join(CliRunner().invoke(main, [command, "--help-all"]).output.split())
         assert ("--animate" in told) == film and ("--slow " in told) == film
         assert ("Write the time histories" in told) == history

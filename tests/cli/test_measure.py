@@ -173,6 +173,6 @@ def test_help_lists_processing_options_in_order(run):
     steps = [next(i for i, did in enumerate(found["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]
     assert steps == sorted(steps)
     assert 0.1 < found["results"][0]["pga_m_s2"] < 2.9
-    told = " ".join(run("--help").stdout.split())
+    told = " ".join(run("--help-all").stdout.split())
     assert "over the whole record, before --floor and --window" in told
     assert "after --demean, before --scale" in told and "before anything else" not in told

@@ -79,7 +79,18 @@ def test_side_requires_two_layer_block(line):
 
 def test_infer_rejects_options_of_other_modes():
     """Each option of the command belongs to a form, or to all; the refused are those of the other forms."""
-    shared = {*Source.__dataclass_fields__, *OutputOptions.__dataclass_fields__, "help", "lang", "cemetery", "slid", "jumped", "rate"}
+    shared = {
+        *Source.__dataclass_fields__,
+        *OutputOptions.__dataclass_fields__,
+        "help",
+        "help_all",
+        "options",
+        "lang",
+        "cemetery",
+        "slid",
+        "jumped",
+        "rate",
+    }
     own = {"--cemetery": {*infer.STONE_OPTIONS}, "--slid": {*infer.SLID_OPTIONS}, "--jumped": {*infer.JUMPED_OPTIONS}}
     assert {each.name for each in main.get_command(None, "infer").params} - shared == set().union(*own.values())
     for form, read in own.items():

@@ -52,6 +52,7 @@ from seisblock.report.figures import (
     risk,
     slide_study,
     sliding_spectrum,
+    solver,
     spectrum,
     stack_criterion,
     uplift_harmonic,
@@ -257,6 +258,7 @@ def model_figures():
 PLANE = {"mu": tuple(np.linspace(0.1, 0.6, 9)), "slope_deg": tuple(np.linspace(0.0, 16.0, 9)), "kappa": (0.75, 1.0)}
 
 OF_THE_RECORD = dict(model_figures()) | {
+    "any model": (solver.figure, lambda gal: solver.figure([response("slide")], gal=gal)),
     "measure": (measure_figure, lambda gal: measure_figure(record(), measure(record()), gal=gal)),
     "criteria": (criteria.figure, lambda gal: criteria.figure(cards(), gal=gal)),
     "rocking": (spectrum.figure, lambda _: spectrum.figure(spectra(), "rocking", 9.81)),

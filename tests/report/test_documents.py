@@ -146,7 +146,7 @@ def test_document_keys_equal_stored_keys(command):
 def test_changed_keys_are_detected(monkeypatch):
     """A renamed key, a changed type and a key that may now be missing are named; with another version they are not."""
     before = ["seisblock/slide/1", "SlideDocument.results[].slips boolean", "SlideDocument.results[].way_m number"]
-    monkeypatch.setattr("tests.report.document_keys.stored", lambda command: before)
+    monkeypatch.setattr("tests.report.document_keys.stored_lines", lambda command: before)
     monkeypatch.setattr(
         "tests.report.document_keys.lines",
         lambda command: ["seisblock/slide/1", "SlideDocument.results[].slips? boolean", "SlideDocument.results[].way_m integer"],

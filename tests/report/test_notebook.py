@@ -62,7 +62,7 @@ def test_to_dataframe_has_column_per_channel(response):
 def test_plot_of_unsupported_model_lists_supported_models():
     """The message lists those that have one."""
     unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None)
-    with pytest.raises(ParameterError, match="rock, slide, jump, uplift, stack"):
+    with pytest.raises(ParameterError, match="available: jump, respond, rock, slide, stack, uplift"):
         unknown.plot()
 
 

@@ -7,6 +7,7 @@ from rich.cells import cell_len
 from seisblock import Motion, load_pile
 from seisblock.core.i18n import use_locale
 from seisblock.core.results import Response
+from seisblock.models.stack.options import StackOptions
 from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
 from seisblock.report.directions import direction_with_compass
 from seisblock.report.text.stack import tables
@@ -14,7 +15,7 @@ from seisblock.report.text.stone_falls import describe_falls
 from seisblock.report.text.tables import console
 
 STILL = np.zeros((3, 200))
-RIGID = {"points": 2, "law": "rigid", "contact": None, "restitution": None, "gravity_m_s2": 9.80665}
+RIGID = StackOptions(law="rigid")
 
 
 def motion_towards(azimuth):

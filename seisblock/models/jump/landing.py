@@ -36,9 +36,6 @@ from seisblock.models.jump.modes import (
     Y,
 )
 
-LANDING_RULES = ("paper", "friction")
-"""Landing rules."""
-
 _t = types()
 
 

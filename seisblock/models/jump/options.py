@@ -10,9 +10,10 @@ from seisblock.core.i18n import N_
 from seisblock.core.options import GRAVITY, SolverOptions, documented, option
 from seisblock.core.typing import TimeWindow
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.models.jump.landing import LANDING_RULES
 
 DIRECTIONS = ("+", "-", "both")
+LANDINGS = ("paper", "friction")
+"""Rules of the landing impulse, see :mod:`seisblock.models.jump.landing`."""
 
 
 @documented
@@ -48,7 +49,7 @@ class JumpOptions(SolverOptions):
         metadata=option(
             N_("Landing impulse of the foot: unlimited friction (paper), or limited by friction with further sliding (friction)."),
             "--landing",
-            choices=tuple(LANDING_RULES),
+            choices=LANDINGS,
         ),
     )
     first: bool = field(

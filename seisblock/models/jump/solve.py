@@ -24,8 +24,7 @@ from seisblock.models.jump.describe import all_phases_and_events, chain_warnings
 from seisblock.models.jump.flight import FLIGHT_MODEL
 from seisblock.models.jump.free_response import continue_after_record
 from seisblock.models.jump.impact import launch, spin_ratio
-from seisblock.models.jump.landing import LANDING_RULES
-from seisblock.models.jump.options import DIRECTIONS, JumpOptions
+from seisblock.models.jump.options import DIRECTIONS, LANDINGS, JumpOptions
 from seisblock.records import Motion
 from seisblock.records._validation import validate_inputs
 from seisblock.references import papers
@@ -177,8 +176,8 @@ def check_options(drop: float, direction: str, landing: str, gravity: float) -> 
     checks.non_negative("`drop`", drop, "m")
     if direction not in DIRECTIONS:
         raise ParameterError("`direction` must be one of {known}, found {found}", known=DIRECTIONS, found=repr(direction))
-    if landing not in LANDING_RULES:
-        raise ParameterError("`landing` must be one of {known}, found {found}", known=tuple(LANDING_RULES), found=repr(landing))
+    if landing not in LANDINGS:
+        raise ParameterError("`landing` must be one of {known}, found {found}", known=LANDINGS, found=repr(landing))
 
 
 def _window_instants(motion: Motion, first: float | None, last: float | None) -> tuple[Instant, float]:
