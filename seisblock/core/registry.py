@@ -75,6 +75,10 @@ class Solver:
         a result are left out.
     row_options : tuple of str
         Options that may differ between these bodies.
+    threshold : callable or None
+        ``threshold(body, options) -> (right, left)``: horizontal accelerations, m/s^2, at which a body at rest starts to move to +x and to
+        -x under its static weight (rocks, slips or lifts); infinite where it does not move. Motion to +x starts under ground acceleration
+        to -x.
     topics : tuple of str
         Topics of its references, see :mod:`seisblock.references`.
     """
@@ -95,6 +99,7 @@ class Solver:
     describe: Callable[[Response[Any]], str] | None = None
     solve_rows: Callable[[Sequence[SolverBody], Any], dict[str, RowResult]] | None = None
     row_options: tuple[str, ...] = ()
+    threshold: Callable[[Any, Any], tuple[float, float]] | None = None
     topics: tuple[str, ...] = ()
 
     @cached_property

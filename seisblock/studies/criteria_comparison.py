@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from seisblock.bodies.block import Block
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import Conventions
+from seisblock.measures.shaking import Shaking, response_shaking
 from seisblock.measures.summary import ComponentPeaks, component_peaks
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
@@ -30,6 +31,8 @@ class CriteriaComparison:
         Arguments of the criteria.
     rows : tuple of CriterionResult
     outcome : RockOutcome
+    shaking : Shaking
+        Of the component, for the rocking block.
     velocity_highpass_hz : float or None
         Filter of the PGV.
     warnings : tuple of str
@@ -45,6 +48,7 @@ class CriteriaComparison:
     measures: ComponentPeaks
     rows: tuple[CriterionResult, ...]
     outcome: RockOutcome
+    shaking: Shaking
     velocity_highpass_hz: float | None
     warnings: tuple[str, ...] = ()
     agreement: ModelComparison | None = None
@@ -80,5 +84,15 @@ def compare_criteria(
     comparison = compare_models(block, motion, options=options)
     estimate = best_estimate(block, motion, mu=mu, mu_kinetic=mu_kinetic, vertical=options.vertical, gravity=gravity)
     return CriteriaComparison(
-        record, motion.name, block, peaks, rows, response.outcome, conventions.velocity_highpass_hz, response.warnings, comparison, estimate
+        record,
+        motion.name,
+        block,
+        peaks,
+        rows,
+        response.outcome,
+        response_shaking(response),
+        conventions.velocity_highpass_hz,
+        response.warnings,
+        comparison,
+        estimate,
     )

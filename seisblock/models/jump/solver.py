@@ -57,6 +57,12 @@ def _solve_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowRe
     }
 
 
+def _threshold(block: TwoLayerBlock, options: JumpOptions) -> tuple[float, float]:
+    """Return g x_G/y_G for both directions ([Sugimoto2017]_ eq. (2))."""
+    threshold = block.rocking_threshold(options.gravity)
+    return threshold, threshold
+
+
 SOLVER = register(
     Solver(
         name="jump",
@@ -73,6 +79,7 @@ SOLVER = register(
         displacement="total_displacement_m",
         solve_rows=_solve_rows,
         row_options=("contact", "drop"),
+        threshold=_threshold,
         topics=("jump",),
     )
 )

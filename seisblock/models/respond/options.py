@@ -40,7 +40,6 @@ class RespondOptions(SolverOptions):
             kind="friction",
             metavar="MU",
             section="Body",
-            document=float,
         ),
     )
     restitution: float = field(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from seisblock.bodies.block import Block
 from seisblock.bodies.from_spec import BLOCK_COLUMNS, friction_from_spec, rigid_body_from_spec, spec_values
 from seisblock.bodies.scan.body import ScannedBody
@@ -10,6 +12,7 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core.registry import Solver, SolverBody, ValueMap, register
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome
+from seisblock.models.respond.params import Body, rigid_body
 from seisblock.models.respond.solve import solve_respond
 
 OWN_COLUMNS = ("restitution", "rocking_restitution", "tenon")
@@ -21,6 +24,13 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
         body = body.without_ranges("mu")
     options = RespondOptions(**{**values, **spec_values(spec, *OWN_COLUMNS), **friction_from_spec(spec, values)})
     return SolverBody(spec.name, body, options)
+
+
+def _threshold(block: Body, options: RespondOptions) -> tuple[float, float]:
+    """Return the smaller one of g b/h and mu g for each direction; feet with tenons do not slip."""
+    body = rigid_body(block)
+    friction = math.inf if options.tenon > 0.0 else options.mu
+    return options.gravity * min(friction, body.right / body.height), options.gravity * min(friction, body.left / body.height)
 
 
 SOLVER = register(
@@ -35,6 +45,7 @@ SOLVER = register(
         event="overturned",
         overturned="overturned",
         displacement="max_displacement_m",
+        threshold=_threshold,
         topics=("all modes", "two-layer body"),
     )
 )

@@ -18,6 +18,12 @@ def _build_body(spec: BodySpec, values: ValueMap) -> SolverBody:
     return SolverBody(spec.name, rigid_body_from_spec(spec), RockOptions(**{**values, **from_file, **spec_values(spec, "restitution")}))
 
 
+def _threshold(block: Block, options: RockOptions) -> tuple[float, float]:
+    """Return g b/h about the right and the left lower corner ([Furukawa2009]_ eq. (2))."""
+    right, left = block.arms
+    return options.gravity * right / block.centre, options.gravity * left / block.centre
+
+
 SOLVER = register(
     Solver(
         name="rock",
@@ -29,6 +35,7 @@ SOLVER = register(
         build_body=_build_body,
         event="overturned",
         overturned="overturned",
+        threshold=_threshold,
         topics=("rocking",),
     )
 )

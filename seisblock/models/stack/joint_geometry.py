@@ -10,13 +10,14 @@ pivot, which raises the restitution further. That share depends on the springs a
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.stone import GROUND, PileStone
+from seisblock.bodies.pile.stone import CONTACT_TOLERANCE, GROUND, Joint, PileStone, bearing_rectangle
 from seisblock.core.results import Response
 from seisblock.models.stack.arrays import CORNER_POINTS, pile_arrays
 from seisblock.models.stack.outcome import StackOutcome
@@ -50,6 +51,64 @@ class EffectiveBase:
     width_ratio: float
     restitution: float
     housner_ratio: float
+
+
+def pile_thresholds(pile: Pile, points: int, gravity: float) -> tuple[float, float]:
+    """Return the horizontal accelerations, m/s^2, at which a part of a pile starts to move to +x and to -x when applied slowly.
+
+    Each stone (or dowelled group) with everything that rests on it tips about the ends of the joints under it, at g times the arm over the
+    height of its centre of gravity above them, or slips there at mu g; the least of all parts counts (derived here). Parts that stand on
+    several levels (a pillar with a lintel that also rests on another pillar) or hold a fixed stone are not considered; infinite if no part
+    is left.
+
+    Parameters
+    ----------
+    pile : Pile
+    points : int
+        Contact points along each side of a joint; the outermost ones are the pivots.
+    gravity : float, m/s^2
+
+    Examples
+    --------
+    >>> tall, slab = PileStone("tall", 0.2, 0.2, 0.8, on="slab", offset=(0.1, 0.0)), PileStone("slab", 0.6, 0.6, 0.2)
+    >>> [round(value, 3) for value in pile_thresholds(Pile("two", (slab, tall)), 2, 10.0)]
+    [2.5, 2.5]
+    >>> [round(value, 3) for value in pile_thresholds(Pile("doweled", (slab, tall), dowels=(("slab", "tall"),)), 2, 10.0)]
+    [4.38, 4.38]
+    """
+    centres, joints = pile.centres(), pile.joints()
+    right, left = math.inf, math.inf
+    for members in pile.bodies():
+        part = _part_above(members, joints)
+        supports = [joint for joint in joints if joint.upper in part and joint.lower not in part]
+        levels = [joint.height for joint in supports]
+        if not levels or max(levels) - min(levels) > CONTACT_TOLERANCE or any(pile.names[i] in pile.fixed for i in part):
+            continue
+        spans = [_pivots(joint, pile, centres, points) for joint in supports]
+        mass = sum(pile.stones[i].mass for i in part)
+        x, z = (sum(pile.stones[i].mass * centres[i][axis] for i in part) / mass for axis in (0, 2))
+        rise = z - levels[0]
+        mu = min(pile.friction(pile.stones[joint.upper])[0] for joint in supports)
+        right = min(right, mu, (max(end for _, end in spans) - x) / rise)
+        left = min(left, mu, (x - min(end for end, _ in spans)) / rise)
+    return gravity * right, gravity * left
+
+
+def _part_above(members: tuple[int, ...], joints: Sequence[Joint]) -> set[int]:
+    """Return the stones of a body and all that rest on them."""
+    part = set(members)
+    while grown := {joint.upper for joint in joints if joint.lower in part} - part:
+        part |= grown
+    return part
+
+
+def _pivots(joint: Joint, pile: Pile, centres: Sequence[tuple[float, float, float]], points: int) -> tuple[float, float]:
+    """Return the outermost contact points of a joint along x, m."""
+    if points == CORNER_POINTS:
+        return bearing_rectangle(joint, pile.stones, centres)[0]
+    low, high = joint.x
+    inset = 0.5 * (high - low) / points
+    return low + inset, high - inset
 
 
 def effective_base(response: Response[StackOutcome]) -> EffectiveBase:

@@ -8,6 +8,7 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.table import BodySpec
 from seisblock.core.errors import BodyError
 from seisblock.core.registry import Solver, SolverBody, ValueMap, register
+from seisblock.models.stack.joint_geometry import pile_thresholds
 from seisblock.models.stack.options import StackOptions
 from seisblock.models.stack.outcome import StackOutcome
 from seisblock.models.stack.solve import solve_stack
@@ -32,6 +33,7 @@ SOLVER = register(
         event="overturned_any",
         overturned="overturned_any",
         damage_states={"slip": "residual_slip_m", "overturn": "overturned_any"},
+        threshold=lambda pile, options: pile_thresholds(pile, options.points, options.gravity),
         topics=("rigid pile",),
     )
 )

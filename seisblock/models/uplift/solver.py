@@ -42,6 +42,12 @@ def _solve_rows(bodies: Sequence[SolverBody], motion: Motion) -> dict[str, RowRe
     }
 
 
+def _threshold(body: SpringBlock, options: UpliftOptions) -> tuple[float, float]:
+    """Return the acceleration that unloads two corners when it is applied slowly: m a H/(4 a_x) = m g/4 each, g a_x/H (derived here)."""
+    threshold = options.gravity * body.width / body.height
+    return threshold, threshold
+
+
 SOLVER = register(
     Solver(
         name="uplift",
@@ -55,6 +61,7 @@ SOLVER = register(
         displacement="max_uplift_m",
         solve_rows=_solve_rows,
         row_options=("vertical",),
+        threshold=_threshold,
         topics=("uplift",),
     )
 )

@@ -8,6 +8,7 @@ from typing import Any
 
 from seisblock.core.i18n import N_, gettext, join_list, join_sentences
 from seisblock.criteria.compare import unique_criteria
+from seisblock.measures.shaking import response_shaking
 from seisblock.records.qc_report import qc_summary
 from seisblock.records.site import format_local_time, get_site, source_name
 from seisblock.references import REFERENCES
@@ -132,12 +133,23 @@ def _body(assessment: Assessment, body: BodyAssessment) -> dict[str, Any]:
 
 
 def _models(body: BodyAssessment) -> list[list[str]]:
-    """Return one row per idealised model and component: result, and factor on the record at which motion begins."""
+    """Return one row per idealised model and component: result, factor at which motion begins, threshold and time above it."""
     rows = []
     for kind in ORDER[1:]:
         for effect in _effects_of_kind(body, kind):
             begins = DASH if effect.onset is None or not math.isfinite(effect.onset) else f"{effect.onset:.2f}"
-            rows.append([gettext(words.SECTIONS[kind]), effect.response.motion.name, words.verdict(effect), begins])
+            shaking = response_shaking(effect.response)
+            rows.append(
+                [
+                    gettext(words.SECTIONS[kind]),
+                    effect.response.motion.name,
+                    words.verdict(effect),
+                    begins,
+                    acceleration_cell(shaking.threshold_m_s2, gal=True),
+                    format_seconds(shaking.time_above_threshold_s),
+                    format_seconds(shaking.longest_above_threshold_s),
+                ]
+            )
     return rows
 
 
@@ -173,7 +185,14 @@ def _criteria(assessment: Assessment, body: BodyAssessment, effects: Sequence[Mo
         highpass = assessment.measures.conventions.velocity_highpass_hz
         cards.append(
             CriteriaComparison(
-                assessment.record, name, body.subject.block, measures[name], body.cards[name], effect.response.outcome, highpass
+                assessment.record,
+                name,
+                body.subject.block,
+                measures[name],
+                body.cards[name],
+                effect.response.outcome,
+                response_shaking(effect.response),
+                highpass,
             )
         )
     for card in cards:

@@ -9,6 +9,7 @@ from msgspec import Meta, Struct
 
 from seisblock.criteria.compare import CriterionResult, unique_criteria
 from seisblock.measures.frequency import EquivalentFrequency
+from seisblock.measures.shaking import Shaking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.references import find_citations, papers
@@ -98,6 +99,8 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
         Result as in ``seisblock rock``.
     respond : RespondEntry or None
         Result as in ``seisblock respond``.
+    shaking : Shaking
+        Shaking of the motion, and the time above the rocking threshold of the block.
     """
 
     component: str
@@ -107,6 +110,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     criteria: tuple[CriterionResult, ...]
     simulated: SIMULATED
     respond: RespondEntry | None
+    shaking: Shaking
 
 
 CRITERIA = DocumentSchema("criteria", CRITERIA_PARAMETERS, CriteriaResult)
@@ -129,6 +133,7 @@ def document(cards: Sequence[CriteriaComparison], options: RockOptions) -> Docum
                 criteria=card.rows,
                 simulated=to_entry(SIMULATED, card.outcome, agreement=card.agreement),
                 respond=_respond_entry(card),
+                shaking=card.shaking,
             ),
         )
         for card in cards

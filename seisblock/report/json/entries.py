@@ -11,10 +11,14 @@ from msgspec import Meta, Struct
 
 from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.results import Response
+from seisblock.measures.shaking import Shaking, response_shaking
 from seisblock.report.json.schema import Result, is_optional
 
 COMPONENT_KEY = {"component": Annotated[str, Meta(description="Direction of the record that is +x: a code, or an azimuth in degrees.")]}
 """First key of results of one direction."""
+
+SHAKING_KEY = Annotated[Shaking, Meta(description="Shaking of the motion, and the time above the threshold of the body.")]
+"""Type of the key ``shaking`` of results of one direction."""
 
 
 def entry_type(
@@ -48,6 +52,20 @@ def entry_type(
     ]
     result_type: Any = msgspec.defstruct(name, declared, bases=(Result,), frozen=True, kw_only=True, namespace={"__doc__": source.__doc__})
     return result_type  # type: ignore[no-any-return]
+
+
+def outcome_type(name: str, outcome: type, *, extra: Mapping[str, Any] | None = None) -> type[Result]:
+    """Return the struct type of a result of one direction: component, fields of the outcome, extra keys, shaking.
+
+    Parameters
+    ----------
+    name : str
+        Of the type, in the schema.
+    outcome : dataclass
+    extra : mapping of str to type
+        As in :func:`entry_type`.
+    """
+    return entry_type(name, outcome, leading=COMPONENT_KEY, extra={**(extra or {}), "shaking": SHAKING_KEY})
 
 
 def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = None, exclude: tuple[str, ...] = ()) -> type[Struct]:
@@ -94,5 +112,6 @@ def to_entry(kind: type[Result], source: Any, **extra: Any) -> Result:
 
 
 def to_outcome_entry(kind: type[Result], response: Response[Any], **extra: Any) -> tuple[Any, Result]:
-    """Return the record of a response and its outcome as an entry with the component first."""
+    """Return the record of a response and its outcome as an entry with the component first and the shaking of its motion."""
+    extra["shaking"] = response_shaking(response)
     return response.motion.record, to_entry(kind, response.outcome, component=response.motion.name, **extra)

@@ -12,7 +12,7 @@ from seisblock.core.results import Response
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.jump.solve import JumpOutcome
 from seisblock.report.json.bodies import TwoLayerEntry, two_layer_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
 
 JUMP_PARAMETERS = parameters_type(
@@ -25,7 +25,7 @@ JUMP_PARAMETERS = parameters_type(
         "tenon_m": Annotated[float | None, Meta(description="Depth of the tenon's hole.")],
     },
 )
-JUMP_RESULT = entry_type("JumpResult", JumpOutcome, leading=COMPONENT_KEY)
+JUMP_RESULT = outcome_type("JumpResult", JumpOutcome)
 JUMP = DocumentSchema("jump", JUMP_PARAMETERS, JUMP_RESULT, version=2)
 
 

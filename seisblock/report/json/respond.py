@@ -12,7 +12,7 @@ from seisblock.core.results import Response
 from seisblock.models.respond.options import RespondOptions
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.respond.azimuths import RespondAzimuth
 from seisblock.studies.respond.probability import Probability
@@ -23,10 +23,9 @@ RESPOND_PARAMETERS = parameters_type(
     exclude=("sensitivity",),
     extra={"block": Annotated[BlockEntry, Meta(description="Block of the first result.")]},
 )
-RESPOND_RESULT = entry_type(
+RESPOND_RESULT = outcome_type(
     "RespondResult",
     RespondOutcome,
-    leading=COMPONENT_KEY,
     extra={
         "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
         "probability": Annotated[Probability, Meta(description="Overturning probability; absent with --runs 0.")] | UnsetType,

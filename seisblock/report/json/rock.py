@@ -12,7 +12,7 @@ from seisblock.core.results import Response
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.report.json.bodies import BlockEntry, block_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
 from seisblock.studies.model_comparison import ModelComparison
 from seisblock.studies.rocking.azimuths import RockAzimuth
@@ -29,10 +29,9 @@ ROCK_PARAMETERS = parameters_type(
         "mu": Annotated[float | None, Meta(description="Available friction; null if not given.")],
     },
 )
-ROCK_RESULT = entry_type(
+ROCK_RESULT = outcome_type(
     "RockResult",
     RockOutcome,
-    leading=COMPONENT_KEY,
     extra={
         "block": Annotated[BlockEntry, Meta(description="Equivalent block of a scan in this direction.")] | UnsetType,
         "agreement": Annotated[ModelComparison, Meta(description="Results of other models of the same block.")] | UnsetType,

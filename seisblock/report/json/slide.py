@@ -13,7 +13,7 @@ from seisblock.models.slide.options import SlideOptions
 from seisblock.models.slide.solve import SlideOutcome
 from seisblock.records import Record
 from seisblock.references import papers
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_entry, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import entry_type, outcome_type, parameters_type, to_entry, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.sliding import SlidePoint
 
@@ -55,7 +55,7 @@ class SlideStudyParameters(Struct, frozen=True, kw_only=True):
     gravity_m_s2: float
 
 
-SLIDE_RESULT = entry_type("SlideResult", SlideOutcome, leading=COMPONENT_KEY)
+SLIDE_RESULT = outcome_type("SlideResult", SlideOutcome)
 SLIDE_POINT = entry_type("SlidePointResult", SlidePoint, aliases={"vertical": "vertical_scale"})
 AZIMUTHS_KEY: dict[str, Any] = {
     "azimuths": Annotated[list[SLIDE_POINT], Meta(description="All directions of a sweep.")] | UnsetType  # type: ignore[valid-type]

@@ -12,7 +12,7 @@ from msgspec import Meta
 from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
 from seisblock.references import papers
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
 
 BODY_KEY = {"body": Annotated[dict[str, Any], Meta(description="Body of the first result; SI.")]}
@@ -30,7 +30,7 @@ def solver_schema(name: str) -> DocumentSchema:
     solver = get_solver(name)
     title = name.title().replace("_", "")
     parameters = parameters_type(f"{title}Parameters", solver.options, extra=BODY_KEY)
-    return DocumentSchema(name, parameters, entry_type(f"{title}Result", solver.outcome, leading=COMPONENT_KEY))
+    return DocumentSchema(name, parameters, outcome_type(f"{title}Result", solver.outcome))
 
 
 def document(responses: Sequence[Response[Any]]) -> Document:

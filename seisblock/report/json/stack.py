@@ -17,7 +17,7 @@ from seisblock.models.stack.outcome import StackOutcome
 from seisblock.records import Record
 from seisblock.references import papers
 from seisblock.report.json.bodies import PileContactEntry, PileEntry, pile_contact_entry, pile_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
 from seisblock.studies.model_comparison import ModelComparison
@@ -119,9 +119,7 @@ class StudyResult(Result, frozen=True, kw_only=True):
 
 AGREEMENT_KEY = Annotated[ModelComparison | None, Meta(description="Results of models of the top stone; null if the stone is restrained.")]
 PROBABILITY_KEY = Annotated[PileProbability, Meta(description="Probabilities of falling stones; absent with --runs 0.")] | UnsetType
-STACK_RESULT = entry_type(
-    "StackResult", StackOutcome, leading=COMPONENT_KEY, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY}
-)
+STACK_RESULT = outcome_type("StackResult", StackOutcome, extra={"agreement": AGREEMENT_KEY, "probability": PROBABILITY_KEY})
 STACK = DocumentSchema("stack", STACK_PARAMETERS, STACK_RESULT, version=3)
 STUDY = DocumentSchema("stack", StudyParameters, StudyResult, name="criterion", version=3)
 

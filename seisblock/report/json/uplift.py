@@ -15,7 +15,7 @@ from seisblock.models.uplift.options import UpliftOptions
 from seisblock.models.uplift.outcome import UpliftOutcome
 from seisblock.references import papers
 from seisblock.report.json.bodies import SpringBlockEntry, spring_block_entry
-from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
+from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.uplift_regions import UpliftRegion
 
@@ -112,7 +112,7 @@ class HarmonicResult(Result, frozen=True, kw_only=True):
     curve: tuple[CurvePointEntry, ...]
 
 
-UPLIFT_RESULT = entry_type("UpliftResult", UpliftOutcome, leading=COMPONENT_KEY)
+UPLIFT_RESULT = outcome_type("UpliftResult", UpliftOutcome)
 UPLIFT = DocumentSchema("uplift", UPLIFT_PARAMETERS, UPLIFT_RESULT)
 HARMONIC = DocumentSchema("uplift", HarmonicParameters, HarmonicResult, name="harmonic")
 

@@ -15,6 +15,7 @@ from seisblock.report.io.history_csv import write_by_record
 from seisblock.report.text.model_comparison import agreement_line, spread_line
 from seisblock.report.text.respond import outcome_text
 from seisblock.report.text.rock import verdict
+from seisblock.report.text.shaking import shaking_text
 from seisblock.report.text.tables import DASH, Part, format_number, format_range, group_answers, side_by_side, styled_line, table
 from seisblock.report.units_display import acceleration_unit, velocity_unit
 from seisblock.studies.criteria_comparison import CriteriaComparison
@@ -41,6 +42,7 @@ def _details(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
     yield from _tables(card, gal=gal)
     if card.agreement is not None:
         yield styled_line(agreement_line(card.component, card.agreement))
+    yield styled_line(shaking_text(card.component, card.shaking, gal=gal), "dim")
     yield styled_line()
 
 

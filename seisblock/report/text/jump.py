@@ -12,6 +12,7 @@ from seisblock.models.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.models.jump.describe import exceeds
 from seisblock.models.jump.solve import JumpOutcome
 from seisblock.report.directions import direction_label, format_displacement
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import Part, format_acceleration, format_seconds, group_answers, side_by_side, styled_line, with_notes
 from seisblock.report.text.threshold import ROCKS, threshold_text
 from seisblock.report.units_display import Unit, format_size, length_cell, length_unit
@@ -100,6 +101,7 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
         yield side_by_side(title, [gettext("chain"), *(str(i + 1) for i in chain_indices)], cells)
     for sentence in sentences(response, tenon, gal=gal):
         yield styled_line(sentence)
+    yield from shaking_lines([response], gal=gal)
     yield styled_line()
 
 

@@ -16,6 +16,7 @@ from seisblock.models.respond.describe import ENDLESS_HOPS, STILL_MOVING
 from seisblock.models.respond.outcome import RespondOutcome
 from seisblock.report.describe_wear import sampled_edges
 from seisblock.report.directions import direction_label, with_direction
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import (
     DASH,
     details,
@@ -53,6 +54,7 @@ def tables(responses: Responses, extras: Sequence[Mapping[str, Any]], *, gal: bo
     for heading, part in group_answers(pairs, lambda pair: pair[0].motion.record, lambda pair: _summary(*pair, gal=gal)):
         yield from heading
         yield _outcome_table([r for r, _ in part], gal=gal)
+        yield from shaking_lines([r for r, _ in part], gal=gal)
         if any("probability" in extra for _, extra in part):
             yield styled_line(
                 variation_text(*next((extra["probability"], pair.body) for pair, extra in part if "probability" in extra)), "dim"

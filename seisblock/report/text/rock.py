@@ -15,6 +15,7 @@ from seisblock.report.describe_wear import describe_edges
 from seisblock.report.directions import direction_label
 from seisblock.report.text.model_comparison import agreement_part, perturbation_lines
 from seisblock.report.text.respond import direction_sentence, fall_azimuth, rocking_text
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import (
     acceleration_cell,
     details,
@@ -57,6 +58,7 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
     ):
         yield from heading
         yield _outcome_table([r for r, _ in part], gal=gal)
+        yield from shaking_lines([r for r, _ in part], gal=gal)
         for response, extra in part:
             yield from sentences(response, extra)
         yield styled_line()

@@ -10,6 +10,7 @@ from seisblock.core.i18n import N_, gettext, join_list
 from seisblock.core.results import Response
 from seisblock.models.slide.solve import SlideOutcome
 from seisblock.report.directions import with_direction
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import details, format_seconds, group_answers, styled_line, table
 from seisblock.report.text.threshold import SLIDES, threshold_text
 from seisblock.report.units_display import Unit, format_length, format_size, length_cell, length_unit
@@ -35,6 +36,7 @@ def tables(responses: SlideResponses, sweep: Sequence[SlidePoint] = (), *, gal: 
             [_row(response, unit) for response in group],
             caption=gettext("{first}; {second}", first=_sign_text(group[0]), second=gettext(RESIDUAL)),
         )
+        yield from shaking_lines(group, gal=gal)
     if sweep:
         yield styled_line()
         unit = length_unit((point.max_slip_m for point in sweep), gal=gal)

@@ -10,6 +10,7 @@ from seisblock.core.i18n import gettext
 from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
 from seisblock.report.json.units import split_unit
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import format_number, styled_line, table
 
 
@@ -24,13 +25,13 @@ def describe(response: Response[Any]) -> str:
 
 
 def tables(responses: Sequence[Response[Any]], *, gal: bool) -> Iterator[Any]:
-    """Yield a sentence per direction, and the scalar results, SI."""
-    del gal
+    """Yield a sentence per direction, the scalar results, SI, and the shaking."""
     for response in responses:
         yield styled_line(gettext("{name}: {verdict}.", name=response.motion.name, verdict=describe(response)), "bold")
     names = [field.name for field in fields(responses[0].outcome)]
     rows = [[_heading(name), *(_cell(getattr(response.outcome, name)) for response in responses)] for name in names]
     yield table("", [gettext("result"), *(response.motion.name for response in responses)], rows)
+    yield from shaking_lines(responses, gal=gal)
 
 
 def _heading(key: str) -> str:

@@ -18,6 +18,7 @@ from seisblock.models.stack.outcome import StackOutcome, StoneOutcome
 from seisblock.records import Motion
 from seisblock.report.directions import direction_in_plane
 from seisblock.report.text.model_comparison import agreement_line
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.stone_falls import describe_falls
 from seisblock.report.text.tables import (
     DASH,
@@ -74,6 +75,7 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
     if agreement is not None:
         top = gettext("{stone}, {name}", stone=gettext(response.body.names[-1]), name=response.motion.name)
         yield styled_line(agreement_line(top, agreement))
+    yield from shaking_lines([response], gal=gal)
     yield styled_line()
 
 

@@ -9,6 +9,7 @@ from seisblock.core.i18n import N_, gettext, join_sentences
 from seisblock.core.results import Response
 from seisblock.models.uplift.batch_results import MAX_LEAN_RATIO
 from seisblock.models.uplift.outcome import UpliftOutcome
+from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import format_seconds, group_answers, styled_line, table
 from seisblock.report.text.threshold import format_factor
 from seisblock.report.units_display import format_length, length_cell, length_unit
@@ -44,6 +45,7 @@ def _details(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[Any]:
             settlement=format_length(outcome.static_settlement_m, gal=gal),
         )
     )
+    yield from shaking_lines([response], gal=gal)
     yield styled_line()
 
 

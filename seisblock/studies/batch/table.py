@@ -10,6 +10,7 @@ from seisblock.core.errors import ParameterError
 from seisblock.core.registry import Solver
 from seisblock.studies.batch.directions import DIRECTIONS, FALLEN_DIRECTIONS
 from seisblock.studies.batch.scalar_fields import scalar_fields
+from seisblock.studies.batch.shaking import SHAKING_COLUMNS
 from seisblock.studies.capabilities import capabilities
 
 if TYPE_CHECKING:
@@ -25,12 +26,13 @@ REASON, WARNINGS = "failure", "warnings"
 
 
 def batch_columns(solver: Solver, *, runs: int = 0, all_azimuths: bool = False) -> dict[str, type]:
-    """Return the columns of a batch with their types, including probabilities and azimuth sweeps."""
+    """Return the columns of a batch with their types, including shaking, probabilities and azimuth sweeps."""
     probability_columns = capabilities(solver.name).probability_columns if runs else {}
     directions: dict[str, type] = {DIRECTIONS: int} if all_azimuths else {}
     if all_azimuths and solver.event == "overturned":
         directions[FALLEN_DIRECTIONS] = int
-    return {**KEY_COLUMNS, **directions, **scalar_fields(solver.outcome), **probability_columns, WARNINGS: str, REASON: str}
+    results = {**scalar_fields(solver.outcome), **SHAKING_COLUMNS, **probability_columns}
+    return {**KEY_COLUMNS, **directions, **results, WARNINGS: str, REASON: str}
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,12 +16,13 @@ from seisblock.core.results import Status
 from seisblock.readers.discover import RecordSource
 from seisblock.readers.options import ReadOptions
 from seisblock.readers.read import read_source
-from seisblock.records import Motion, Preparation, Record, motion_of
+from seisblock.records import Preparation, Record, motion_of
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.qc_report import qc_summary, require_clean
 from seisblock.records.site import matches_station
 from seisblock.studies.batch.probability import LEFT_OUT
 from seisblock.studies.batch.scalar_fields import scalar_fields
+from seisblock.studies.batch.shaking import ShakingColumns
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.vectorized import solve_vectorized
 from seisblock.studies.batch.worst_azimuth import is_all_azimuths
@@ -169,6 +170,7 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
     except SeisblockError as error:
         yield {**columns, "component": name, REASON: error.message}
         return
+    shaking = ShakingColumns(plan.solver, motion)
     vectorized = solve_vectorized(plan.model, [body for body in plan.bodies if isinstance(body, SolverBody)], motion)
     for body in plan.bodies:
         row = {**columns, "component": motion.name, "body": body.name}
@@ -176,9 +178,9 @@ def _component_rows(record: Record, name: str, plan: Plan, columns: Row, doubts:
             yield {**row, REASON: body.reason}
         elif body.name in vectorized:
             scalars, warnings = vectorized[body.name]
-            yield {**row, **scalars, WARNINGS: "; ".join([*doubts, *warnings]) or None}
+            yield {**row, **scalars, **shaking.row(body), WARNINGS: "; ".join([*doubts, *warnings]) or None}
         else:
-            yield {**row, **_solve_row(motion, body, plan, doubts)}
+            yield {**row, **_solve_row(shaking, body, plan, doubts)}
 
 
 def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Plan, doubts: Sequence[str]) -> Row:
@@ -192,12 +194,13 @@ def _worst_azimuth_row(record: Record, body: SolverBody | RejectedBody, plan: Pl
         motion = motion_of(record, worst)
     except SeisblockError as error:
         return {**row, REASON: error.message}
-    return {**row, "component": motion.name, **direction_counts, **_solve_row(motion, body, plan, [*doubts, *remarks])}
+    scalars = _solve_row(ShakingColumns(plan.solver, motion), body, plan, [*doubts, *remarks])
+    return {**row, "component": motion.name, **direction_counts, **scalars}
 
 
-def _solve_row(motion: Motion, body: SolverBody, plan: Plan, doubts: Sequence[str]) -> Row:
+def _solve_row(shaking: ShakingColumns, body: SolverBody, plan: Plan, doubts: Sequence[str]) -> Row:
     """Return the result of one body under one motion, or the reason of its failure."""
-    model = plan.model
+    model, motion = plan.model, shaking.motion
     try:
         aligned_body = replace(body, body=block_for_motion(body.body, motion))
         response = model.solve(aligned_body.body, motion, **body.options.keywords())
@@ -209,7 +212,8 @@ def _solve_row(motion: Motion, body: SolverBody, plan: Plan, doubts: Sequence[st
         return {REASON: response.warnings[0]}
     warnings = [*doubts, *response.warnings, *([chance[LEFT_OUT]] if LEFT_OUT in chance else ())]
     scalars = {name: _to_plain(getattr(response.outcome, name), kind) for name, kind in scalar_fields(model.outcome).items()}
-    return {**scalars, **{key: value for key, value in chance.items() if key != LEFT_OUT}, WARNINGS: "; ".join(warnings) or None}
+    probability_columns = {key: value for key, value in chance.items() if key != LEFT_OUT}
+    return {**scalars, **shaking.row(aligned_body), **probability_columns, WARNINGS: "; ".join(warnings) or None}
 
 
 def _to_plain(value: Any, kind: type) -> Any:

@@ -1,0 +1,117 @@
+"""Shaking of a motion seen by one body: peaks, equivalent frequency, and the time above the acceleration at which the body moves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from seisblock.core.registry import get_solver
+from seisblock.core.results import Response
+from seisblock.core.typing import FloatArray
+from seisblock.measures.duration import Side, intervals_above
+from seisblock.measures.summary import Conventions, MotionPeaks, motion_peaks
+from seisblock.records.motion import Motion
+
+
+class Thresholds(NamedTuple):
+    """Accelerations, m/s^2, at which a body at rest starts to move to +x and to -x; infinite where it does not.
+
+    Motion to +x starts when the acceleration of the ground to -x reaches `right`, motion to -x when that to +x reaches `left`.
+    """
+
+    right: float
+    left: float
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """Shaking of one motion and the time above the threshold of one body ([Furukawa2009]_ section 3(5)e, [Sugimoto2017]_ section 4.2).
+
+    Parameters
+    ----------
+    pga_m_s2, pgv_m_s : float
+        Peak acceleration and velocity of the horizontal motion, as in ``seisblock measure``.
+    equivalent_frequency_hz : float or None
+        PGA/(2 pi PGV); null without motion.
+    threshold_m_s2 : float or None
+        Horizontal acceleration at which the body starts to move, without vertical motion: to rock, to slip, or to lift. The smaller one
+        of the two directions; null if there is none.
+    time_above_threshold_s, longest_above_threshold_s : float or None
+        Total time above the threshold of the direction, and the longest interval, for linear interpolation between samples; null without
+        a threshold.
+    """
+
+    pga_m_s2: float
+    pgv_m_s: float
+    equivalent_frequency_hz: float | None
+    threshold_m_s2: float | None
+    time_above_threshold_s: float | None
+    longest_above_threshold_s: float | None
+
+
+def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: MotionPeaks | None = None) -> Shaking:
+    """Return the shaking of a motion for a body with given thresholds to +x and to -x.
+
+    The vertical motion is not considered: the thresholds are those of the body under its static weight.
+
+    Parameters
+    ----------
+    motion : Motion
+    thresholds : two floats, m/s^2
+        To +x and to -x, see :class:`Thresholds`; a threshold that is infinite or not positive is none.
+    peaks : MotionPeaks, optional
+        Peaks of the motion, if they are known.
+
+    Examples
+    --------
+    >>> motion = Motion.from_arrays([0.0, 2.0, 0.0, -2.0, 0.0], 0.1)
+    >>> shaking = shaking_of(motion, Thresholds(right=1.0, left=1.5))
+    >>> shaking.threshold_m_s2, round(shaking.time_above_threshold_s, 12), round(shaking.longest_above_threshold_s, 12)
+    (1.0, 0.15, 0.1)
+    """
+    if peaks is None:
+        peaks = motion_peaks(motion.horizontal, motion.dt, Conventions())
+    valid = [threshold for threshold in thresholds if 0.0 < threshold < math.inf]
+    if not valid:
+        return Shaking(*peaks, None, None, None)
+    lengths = _lengths_above(motion, thresholds) if peaks.pga_m_s2 >= min(valid) else np.zeros(0)
+    return Shaking(*peaks, float(min(valid)), float(lengths.sum()), float(lengths.max(initial=0.0)))
+
+
+def _lengths_above(motion: Motion, thresholds: tuple[float, float]) -> FloatArray:
+    """Return the lengths of all intervals above the threshold of their direction, s."""
+    sides: tuple[Side, Side] = ("negative", "positive")
+    intervals = [
+        intervals_above(motion.horizontal, motion.dt, threshold, side=side)
+        for threshold, side in zip(thresholds, sides, strict=True)
+        if 0.0 < threshold < math.inf
+    ]
+    # differences of interpolated times carry round-off
+    lengths: FloatArray = np.round(np.concatenate([part[:, 1] - part[:, 0] for part in intervals]), 15)
+    return lengths
+
+
+def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = None) -> Shaking:
+    """Return the shaking of the motion of a response for its body, whose thresholds are those of the registered solver.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.block import Block
+    >>> from seisblock.models.rock.solve import solve_rock
+    >>> motion = Motion.from_arrays([0.0, 4.0, 0.0], 0.1)
+    >>> round(response_shaking(solve_rock(Block(0.2, 0.8), motion, gravity=10.0)).threshold_m_s2, 12)
+    2.5
+    """
+    return shaking_of(response.motion, body_thresholds(response.model, response.body, response.options), peaks=peaks)
+
+
+def body_thresholds(solver: str, body: Any, options: Any) -> tuple[float, float]:
+    """Return the accelerations, m/s^2, at which a body starts to move to +x and to -x in a model; infinite where there are none."""
+    threshold = get_solver(solver).threshold
+    return Thresholds(math.inf, math.inf) if threshold is None else threshold(body, options)
+
+
+__all__ = ["Shaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of"]
