@@ -125,7 +125,7 @@ def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):
         assert len(directions) == 36 and float(result["component"]) == directions[0]["azimuth_deg"]
         assert result["overturned"] is directions[0]["overturned"]
         assert "maximum displacement (cm)" in figure.read_text() if words[0] == "respond" else figure.exists()
-        table = run(*line).stdout
+        table = run(*line, "--details").stdout
         assert "All azimuths" in table and f"of {len(directions)} azimuths; results for the worst azimuth." in " ".join(table.split())
 
 

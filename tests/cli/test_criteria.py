@@ -47,7 +47,7 @@ def test_criteria_equal_hand_calculation(run):
 
 def test_criteria_writes_table_csv_and_figure(run, tmp_path):
     """The table ends with the simulated outcome; the files hold all rows and the figure."""
-    answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3)
+    answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3, "--details")
     assert answer.exit_code == 0, answer.output
     assert "EW, simulation:" in answer.stdout
     assert "of 14 criteria agree" in " ".join(answer.stdout.split())

@@ -126,7 +126,7 @@ def test_jump_totals_equal_sum_of_chains():
     assert found["final_displacement_m"] == pytest.approx(found["total_displacement_m"])
     assert (found["outcome"], found["landing"], len(found["chains"])) == ("jumped", "paper", 3)
     assert found["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in found["chains"])
-    shown = " ".join(run("--component", "EW").stdout.split())
+    shown = " ".join(run("--component", "EW", "--details").stdout.split())
     assert "EW: jumps 3 times in 3 chains of motion; final displacement 21.5 cm to +EW." in shown
     assert "0.18 < b/h = 0.47 the feet slide before the block rocks. Landing without slip requires" in shown
     assert "a friction coefficient of 3.64; the given one is 0.18." in shown

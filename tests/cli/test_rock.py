@@ -138,7 +138,9 @@ def test_rock_margin_and_probability_of_pulse(run, pulse):
 
 def test_rock_margin_states_first_overturning_factor(run):
     """It falls from some factor on, the first one found; the share of versions stands beside it, with what was varied (N11, N12)."""
-    shown = " ".join(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin").stdout.split())
+    shown = " ".join(
+        run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin", "--details").stdout.split()
+    )
     assert "scale factor to overturning 1.13 (smallest of the factors up to 3 in steps of 0.002)" in shown
     assert shown.index("overturning 1.13") < shown.index("overturning at scale factors") < shown.index("overturning probability")
     assert ", parameter variation only)." in shown
@@ -174,7 +176,7 @@ def test_rock_first_line_states_insufficient_friction(run):
 
 def test_rock_names_disagreeing_models(run):
     """One sentence: in how many models it falls, which, and by what factor they are apart (N15)."""
-    answer = run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm")
+    answer = run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--details")
     shown = " ".join(answer.stdout.split())
     assert "NS: overturns in 2 of 5 models: gravestone criterion (0.90), Ishiyama's limits of acceleration and velocity with " in shown
     assert "velocity with sharp edges (0.95); does not overturn in the others:" in shown

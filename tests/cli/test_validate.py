@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from collections import Counter
 from html.parser import HTMLParser
 
 import pytest
@@ -59,11 +60,11 @@ def test_validate_document_lists_differing_cases_first(some_papers):
 
 
 def test_validate_lists_differing_and_counts_holding():
-    """By default what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
-    short, whole = run("--paper", "Sugimoto2017").stdout, run("--paper", "Sugimoto2017", "--all").stdout
+    """--details lists what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
+    short, whole = run("--paper", "Sugimoto2017", "--details").stdout, run("--paper", "Sugimoto2017", "--all").stdout
     count = len(cases("sugimoto"))
     assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
-    japanese = run("--paper", "Sugimoto2017", "--lang", "ja").stdout
+    japanese = run("--paper", "Sugimoto2017", "--lang", "ja", "--details").stdout
     assert "。--all で" in japanese  # no blank between two Japanese sentences
     assert "Cases that agree" not in short and "--all also lists the cases that agree" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
@@ -78,9 +79,22 @@ def test_validate_lists_differing_and_counts_holding():
         assert sum(row[0] for row in rows) == len(cases("sugimoto"))
 
 
+def test_validate_counts_cases_of_each_paper_by_default(some_papers):
+    """The default answer holds a row per paper, no reasons, and names the option that lists them."""
+    text = run().stdout
+    rows = [line.split() for line in text.partition("Evidence by paper")[2].partition("Evidence by kind")[0].splitlines()[3:]]
+    counts = {row[0]: [int(cell) for cell in row[1:]] for row in rows if row}
+    assert {paper: row[0] for paper, row in counts.items()} == Counter(case.paper for case in some_papers)
+    assert {paper: row[2] for paper, row in counts.items()} == {
+        paper: sum(case.paper == paper and case.status == "differs" for case in some_papers) for paper in counts
+    }
+    assert all(row[0] == sum(row[1:]) and row[3] == 0 for row in counts.values())
+    assert "cause:" not in text and text.splitlines()[-1] == "more: --details"
+
+
 def test_validate_table_fits_80_columns():
     """The table wraps at 80 columns and no reason is cut."""
-    text = run("--paper", "Sugimoto2017").stdout
+    text = run("--paper", "Sugimoto2017", "--details").stdout
     assert max(map(len, text.splitlines())) <= 80
     flat = " ".join(text.split())
     for case in cases("sugimoto"):
