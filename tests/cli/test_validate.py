@@ -82,7 +82,7 @@ def test_validate_lists_differing_and_counts_holding():
 def test_validate_counts_cases_of_each_paper_by_default(some_papers):
     """The default answer holds a row per paper, no reasons, and names the option that lists them."""
     text = run().stdout
-    rows = [line.split() for line in text.partition("Evidence by paper")[2].partition("Evidence by kind")[0].splitlines()[3:]]
+    rows = [line.split() for line in text.partition("Evidence by paper")[2].partition("Evidence by kind")[0].splitlines()[4:]]
     counts = {row[0]: [int(cell) for cell in row[1:]] for row in rows if row}
     assert {paper: row[0] for paper, row in counts.items()} == Counter(case.paper for case in some_papers)
     assert {paper: row[2] for paper, row in counts.items()} == {
