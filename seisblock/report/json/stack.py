@@ -192,3 +192,8 @@ def study_document(
         pile=pile_entry(pile),
     )
     return STUDY.document(parameters, [(None, result)], records=records, citations=papers("rigid pile" if contact is None else "pile"))
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    return document([response], response.body, response.options.contact, [{}])
