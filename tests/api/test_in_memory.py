@@ -44,6 +44,11 @@ def test_record_from_arrays_rejects_unusable_arrays(components, message):
     ("command", "solve"),
     [
         (["slide", "--mu", "0.3"], lambda motion: sb.solve_slide(sb.SlidingBase(0.3), motion)),
+        (["rock", "--block", "gravestone"], lambda motion: sb.solve_rock(sb.load_block("gravestone"), motion)),
+        (
+            ["respond", "--block", "gravestone", "--mu", "0.4", "--runs", "0"],
+            lambda motion: sb.solve_respond(sb.load_block("gravestone"), motion, mu=0.4),
+        ),
         (
             ["jump", "--block", "chozusha"],
             lambda motion: sb.solve_jump(sb.load_two_layer("chozusha"), motion, contact=sb.load_contact("chozusha")),

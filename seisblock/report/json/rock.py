@@ -14,9 +14,9 @@ from seisblock.models.rock.outcome import RockOutcome
 from seisblock.report.json.bodies import BlockEntry, block_entry
 from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
-from seisblock.studies.model_comparison import ModelComparison
+from seisblock.studies.model_comparison import ModelComparison, compare_models
 from seisblock.studies.rocking.azimuths import RockAzimuth
-from seisblock.studies.rocking.margin import Margin
+from seisblock.studies.rocking.margin import Margin, flag_near_flip
 from seisblock.studies.rocking.perturb import Perturbation
 
 ROCK_PARAMETERS = parameters_type(
@@ -64,4 +64,5 @@ def document(
 
 def response_document(response: Response[Any]) -> Document:
     """Return the document of one response."""
-    return document([response], response.body, [{}])
+    agreement = compare_models(response.body, response.motion, options=response.options)
+    return document([flag_near_flip(response)], response.body, [{"agreement": agreement}])

@@ -20,7 +20,7 @@ from seisblock.report.json.bodies import PileContactEntry, PileEntry, pile_conta
 from seisblock.report.json.entries import COMPONENT_KEY, entry_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
-from seisblock.studies.model_comparison import ModelComparison
+from seisblock.studies.model_comparison import ModelComparison, compare_pile_models
 from seisblock.studies.respond.pile_probability import PileProbability
 
 STACK_PARAMETERS = parameters_type(
@@ -196,4 +196,4 @@ def study_document(
 
 def response_document(response: Response[Any]) -> Document:
     """Return the document of one response."""
-    return document([response], response.body, response.options.contact, [{}])
+    return document([response], response.body, response.options.contact, [{"agreement": compare_pile_models(response)}])
