@@ -20,6 +20,9 @@ class Backend(Protocol):
     def html(self, value: Any) -> str:
         """Return the HTML representation of a value for notebooks."""
 
+    def json_text(self, response: Any) -> str:
+        """Return the JSON document of a response."""
+
 
 _load_backend: Callable[[], Backend] | None = None
 

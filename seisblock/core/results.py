@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property, partial
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from seisblock.core._display import PlotMixin, summary_repr
+from seisblock.core._display import PlotMixin, backend, summary_repr
 from seisblock.core.status import Status
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import unit_suffix
@@ -281,6 +282,15 @@ class Response(PlotMixin, Generic[Outcome]):
     def summary(self) -> dict[str, Any]:
         """Return the outcome as a dictionary that begins with the component."""
         return {"component": self.motion.name, **asdict(self.outcome)}  # type: ignore[call-overload]
+
+    def to_json(self) -> str:
+        """Return the JSON document of the response, the text of the command's ``--json`` for one direction without further studies."""
+        return backend().json_text(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON document of the response as a dictionary; numbers in SI with the unit in each key's name."""
+        document: dict[str, Any] = json.loads(self.to_json())
+        return document
 
     def to_columns(self) -> dict[str, FloatArray]:
         """Return the time axis and all channels as columns named ``name_unit``."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import datetime
+from datetime import UTC, datetime
 
 import numpy as np
 
@@ -146,6 +146,45 @@ class Record(PlotMixin):
                 text = "{where}: component {code} reaches {size:.3g} m/s^2, beyond any ground acceleration"
                 raise RecordError(text, where=source, code=component.code, size=size)
 
+    @classmethod
+    def from_arrays(cls, components: Mapping[str, ArrayLike], dt: float, *, station: str = "", start: datetime | None = None) -> Record:
+        """Return a record of accelerations in memory.
+
+        Parameters
+        ----------
+        components : mapping of str to (n,) array, m/s^2
+            Ground acceleration by code: ``NS``, ``EW``, ``UD`` (positive north, east, up), or an azimuth in degrees such as ``37``.
+            Other codes have no azimuth.
+        dt : float, s
+            Sampling interval.
+        station : str
+            Code or name of the station.
+        start : datetime or None
+            Time of the first sample; UTC if it has no time zone.
+
+        Raises
+        ------
+        RecordError
+            If there are no components, their lengths differ, or a sample is not finite.
+        ParameterError
+            If an array is not 1-D and numeric.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> sine = 3.0 * np.sin(2.0 * np.pi * np.arange(1001) * 0.01)
+        >>> record = Record.from_arrays({"EW": sine, "UD": 0.3 * sine}, dt=0.01, station="shaking table")
+        >>> record.codes, record.duration_s, record.horizontals[0].azimuth_deg
+        (('EW', 'UD'), 10.0, 90.0)
+        """
+        columns = []
+        for code, values in components.items():
+            array = checks.float_vector(f"the acceleration {code}", values)
+            columns.append(Component(str(code), array.copy() if array is values else array, _azimuth_of_code(str(code))))
+        if start is not None and start.tzinfo is None:
+            start = start.replace(tzinfo=UTC)
+        return cls(tuple(columns), dt, station=station, start=start)
+
     @property
     def carries_offset(self) -> bool:
         """True if the counts of the format carry an instrument offset."""
@@ -201,3 +240,12 @@ class Record(PlotMixin):
     def with_components(self, components: Sequence[Component], entry: str, **changes: object) -> Record:
         """Return a record with other components and `entry` appended to its history."""
         return replace(self, components=tuple(components), history=(*self.history, entry), **changes)  # type: ignore[arg-type]
+
+
+def _azimuth_of_code(code: str) -> float | None:
+    """Return the azimuth that a code states as a number from 0 to 360, None for other codes."""
+    try:
+        azimuth = float(code)
+    except ValueError:
+        return None
+    return azimuth if 0.0 <= azimuth <= 360.0 else None

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
+from seisblock.report.json.schema import Document
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,6 +46,12 @@ def verdict_text(response: Response[Any]) -> str:
     """Return the result of a response as one sentence, in the language of the locale."""
     text: str = _module("text", response.model).describe(response)
     return text
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the JSON document of one response."""
+    document: Document = _module("json", response.model).response_document(response)
+    return document
 
 
 def response_figure(responses: Responses, *, gal: bool = True) -> Figure:

@@ -128,9 +128,11 @@ def respond_many(
     >>> from seisblock.models import respond_many
     >>> import numpy as np
     >>> from seisblock.bodies.block import Block
+    >>> from seisblock.models.respond.options import RespondOptions
     >>> from seisblock.models.respond.solve import respond_params
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
-    >>> respond_many([respond_params(Block(0.24, 0.8), mu=0.5)] * 2, pulse, gains=[(0.5, 0.0, 0.0), (1.0, 0.0, 0.0)]).overturned.tolist()
+    >>> params = respond_params(Block(0.24, 0.8), options=RespondOptions(mu=0.5))
+    >>> respond_many([params] * 2, pulse, gains=[(0.5, 0.0, 0.0), (1.0, 0.0, 0.0)]).overturned.tolist()
     [False, True]
     """
     validate_motion(motion)

@@ -15,9 +15,9 @@ from seisblock.measures import RecordMeasures, ResponseSpectrum
 from seisblock.records import Motion, Record
 from seisblock.report.figures.fonts import build_localized
 from seisblock.report.figures.svg import embed_figure
-from seisblock.report.json.encode import to_builtins
+from seisblock.report.json.encode import to_builtins, to_json
 from seisblock.report.json.units import split_unit
-from seisblock.report.registry import response_figure, verdict_text
+from seisblock.report.registry import response_document, response_figure, verdict_text
 from seisblock.report.templating import render_page
 from seisblock.report.text.tables import format_number
 from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
@@ -53,6 +53,11 @@ def _png(figure: Figure) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png")
     return buffer.getvalue()
+
+
+def json_text(response: Response[Any]) -> str:
+    """Return the JSON document of a response, the text of the command's ``--json`` for one direction."""
+    return to_json(response_document(response))
 
 
 def html(value: Any) -> str:

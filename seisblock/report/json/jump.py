@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 from msgspec import Meta
 
@@ -39,3 +39,8 @@ def document(responses: Sequence[Response[JumpOutcome]], block: TwoLayerBlock, *
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
     )
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    return document([response], response.body, tenon=None)

@@ -43,3 +43,8 @@ def document(responses: Sequence[Response[RespondOutcome]], block: Block, extras
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
     )
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    return document([response], response.body, [{}])

@@ -14,9 +14,9 @@ from seisblock.models.rock.outcome import RockOutcome
 from seisblock.report.json.bodies import BlockEntry, block_entry
 from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema
-from seisblock.studies.model_comparison import ModelComparison
+from seisblock.studies.model_comparison import ModelComparison, compare_models
 from seisblock.studies.rocking.azimuths import RockAzimuth
-from seisblock.studies.rocking.margin import Margin
+from seisblock.studies.rocking.margin import Margin, flag_near_flip
 from seisblock.studies.rocking.perturb import Perturbation
 
 ROCK_PARAMETERS = parameters_type(
@@ -59,3 +59,9 @@ def document(
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
     )
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    agreement = compare_models(response.body, response.motion, options=response.options)
+    return document([flag_near_flip(response)], response.body, [{"agreement": agreement}])

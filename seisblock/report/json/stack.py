@@ -20,7 +20,7 @@ from seisblock.report.json.bodies import PileContactEntry, PileEntry, pile_conta
 from seisblock.report.json.entries import outcome_type, parameters_type, to_outcome_entry, to_parameters
 from seisblock.report.json.schema import Document, DocumentSchema, Result
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, study_frequencies
-from seisblock.studies.model_comparison import ModelComparison
+from seisblock.studies.model_comparison import ModelComparison, compare_pile_models
 from seisblock.studies.respond.pile_probability import PileProbability
 
 STACK_PARAMETERS = parameters_type(
@@ -190,3 +190,8 @@ def study_document(
         pile=pile_entry(pile),
     )
     return STUDY.document(parameters, [(None, result)], records=records, citations=papers("rigid pile" if contact is None else "pile"))
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    return document([response], response.body, response.options.contact, [{"agreement": compare_pile_models(response)}])

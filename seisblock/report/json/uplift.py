@@ -155,3 +155,8 @@ def _harmonic_result(region: UpliftRegion) -> HarmonicResult:
             for r, a in zip(region.frequency_ratio.tolist(), region.acceleration_ratio.tolist(), strict=True)
         ),
     )
+
+
+def response_document(response: Response[Any]) -> Document:
+    """Return the document of one response."""
+    return document([response], response.body)
