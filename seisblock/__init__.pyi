@@ -66,6 +66,7 @@ from .models.uplift.options import UpliftOptions
 from .models.uplift.outcome import UpliftOutcome
 from .models.uplift.solve import solve_uplift
 from .readers.read import read, read_all
+from .records.analytic import half_sine_motion, pulse_motion, rectangle_motion, sine_motion
 from .records.floor_motion import Storey, floor_motion
 from .records.motion import Motion, motion_of
 from .records.preparation import Preparation
@@ -163,6 +164,10 @@ __all__ = [
     "respond_params",
     "Margin",
     "marked_survey",
+    "half_sine_motion",
+    "pulse_motion",
+    "rectangle_motion",
+    "sine_motion",
     "measure",
     "measures",
     "Motion",

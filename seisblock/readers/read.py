@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from os import PathLike
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from seisblock.readers.components import load_component_files
 from seisblock.readers.dispatch import ReadOptions, read_parts
 from seisblock.readers.source import STDIN, Location, RawFile, open_source, sha256_digest
 from seisblock.records import Record
+from seisblock.records.analytic import analytic_record, is_analytic
 from seisblock.records.qc import run_qc
 
 ALL_STATIONS = "all"
@@ -86,6 +88,8 @@ def read(
     sources = _as_list(source)
     if not sources:
         raise ParameterError("no record given: give at least one file")
+    if len(sources) == 1 and is_analytic(sources[0]):
+        return analytic_record(str(sources[0]))
     return _assemble_record([_open_and_parse(s, options) for s in sources], options)
 
 
@@ -121,6 +125,10 @@ def read_all(
     groups: list[list[OpenedSource]] = []
     names = [str(s) for s in _as_list(sources)]
     _check_duplicates(names)
+    if any(map(is_analytic, names)):
+        runs = [(analytic, list(run)) for analytic, run in groupby(names, is_analytic)]
+        keywords = {"format": format, "units": units, "dt": dt, "station": station, "level": level}
+        return [r for analytic, run in runs for r in (map(analytic_record, run) if analytic else read_all(run, **keywords))]  # type: ignore[arg-type]
     for name in names:
         opened_source = _open_and_parse(name, options)
         matching_group = next(
