@@ -30,6 +30,7 @@ from .models.stack.solve import solve_stack
 from .models.uplift.options import UpliftOptions
 from .models.uplift.solve import solve_uplift
 from .readers.read import read
+from .records.analytic import half_sine_motion, pulse_motion, rectangle_motion, sine_motion
 from .records.motion import Motion, motion_of
 from .records.record import Record
 from .studies.batch.run import run_batch
@@ -54,6 +55,10 @@ __all__ = [
     "load_pile",
     "load_scan",
     "load_two_layer",
+    "half_sine_motion",
+    "pulse_motion",
+    "rectangle_motion",
+    "sine_motion",
     "measure",
     "measures",
     "models",

@@ -95,6 +95,7 @@ def measure(
     from seisblock.cli.write_results import write_results
     from seisblock.measures import Conventions
     from seisblock.measures import measure as compute_measures
+    from seisblock.measures.summary import conventions_of
     from seisblock.report.json.measure import document
     from seisblock.report.units_display import acceleration_unit
 
@@ -106,6 +107,7 @@ def measure(
     answers = [
         compute_measures(r, selected_components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records
     ]
+    rules = conventions_of(records[0], rules)
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
     def make_tables() -> Any:

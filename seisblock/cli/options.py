@@ -75,19 +75,36 @@ def _record_argument(help_text: str) -> Callable[[Function], Function]:
     )
 
 
-_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
-_CURVE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: none, curve of the rate]"))
+_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: synthetic_jma.csv, bundled]")
+)
+_CURVE_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: none, curve of the rate]")
+)
 _DISPLACED_RECORD = _record_argument(
-    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]")
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled, with --slid or --jumped; else none]"
+    )
 )
 _HARMONIC_RECORD = _record_argument(
-    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled; none with --harmonic]")
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled; none with --harmonic]"
+    )
 )
 _CRITERION_RECORD = _record_argument(
-    N_("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled; none with --criterion]")
+    N_(
+        "Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. "
+        "[default: synthetic_jma.csv, bundled; none with --criterion]"
+    )
 )
-_REAL_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
-_SUITE_RECORD = _record_argument(N_("Files, or names of bundled samples; - is stdin. [default: records of --suite]"))
+_REAL_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: hanmer_springs_2016, bundled]")
+)
+_SUITE_RECORD = _record_argument(
+    N_("Files, names of bundled samples, or analytic motions (sine:300gal@1.5Hz,10s); - is stdin. [default: records of --suite]")
+)
 _RECORD_OPTIONS = (
     option(
         "--component",

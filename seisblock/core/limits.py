@@ -29,6 +29,9 @@ MAX_PILE_STONES, MAX_JOINT_POINTS = 200, 25
 MAX_TRIANGLES, MAX_BASE_CORNERS = 3_000_000, 10_000
 """Triangles of a scan (0.5 to 0.9 kB each); corners of the base polygon of a scanned body."""
 
+MAX_ANALYTIC_SAMPLES = 20_000_000
+"""Samples of an analytic motion."""
+
 MAX_MEMBERS, MAX_NESTING = 20_000, 5
 """Files in an archive; depth of archives inside archives."""
 

@@ -44,6 +44,28 @@ class GroundHistory:
         return integrate_twice(self.acceleration, self.dt, self.initial_velocity)
 
 
+def centred_history(acceleration: FloatArray, dt: float) -> GroundHistory:
+    """Return the history of an analytic motion: unfiltered, with the middle of the range of its velocity at zero.
+
+    The velocity of a sine that starts from rest is (A/w)(1 - cos wt) between 0 and 2 A/w: without its mean, PGV is A/w for any
+    duration from half a period on, whole cycles or not, and the displacement is (A/w^2) sin wt.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+    dt : float, s
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> history = centred_history(np.sin(np.linspace(0.0, 3.3 * np.pi, 6601)), np.pi / 2000)
+    >>> round(float(np.abs(history.velocity).max()), 6), round(float(np.abs(history.displacement).max()), 6)
+    (1.0, 1.0)
+    """
+    velocity = integrate(acceleration, dt)
+    return GroundHistory(acceleration, dt, -0.5 * float(velocity.max() + velocity.min()))
+
+
 def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | None = HIGHPASS_HZ) -> GroundHistory:
     """Integrate a ground acceleration to velocity and displacement on the baseline used by all measures.
 

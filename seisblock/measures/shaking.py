@@ -12,7 +12,7 @@ from seisblock.core.registry import get_solver
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
 from seisblock.measures.duration import Side, intervals_above
-from seisblock.measures.summary import Conventions, MotionPeaks, motion_peaks
+from seisblock.measures.summary import MotionPeaks, conventions_of, motion_peaks
 from seisblock.records.motion import Motion
 
 
@@ -73,7 +73,7 @@ def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: Motion
     (1.0, 0.15, 0.1)
     """
     if peaks is None:
-        peaks = motion_peaks(motion.horizontal, motion.dt, Conventions())
+        peaks = motion_peaks(motion.horizontal, motion.dt, conventions_of(motion.record))
     valid = [threshold for threshold in thresholds if 0.0 < threshold < math.inf]
     if not valid:
         return Shaking(*peaks, None, None, None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from seisblock.core import checks
@@ -11,7 +11,7 @@ from seisblock.core._display import HtmlReprMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
-from seisblock.measures.baseline import HIGHPASS_HZ, GroundHistory, ground_history
+from seisblock.measures.baseline import HIGHPASS_HZ, GroundHistory, centred_history, ground_history
 from seisblock.measures.duration import Duration, Side, duration_above
 from seisblock.measures.filter_sensitivity import FilterRange, filter_range
 from seisblock.measures.frequency import (
@@ -25,6 +25,7 @@ from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensi
 from seisblock.measures.long_period import LongPeriodMotion, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import SMOOTHING_HZ
+from seisblock.records.analytic import ANALYTIC
 from seisblock.records.process import select_component
 from seisblock.records.record import Component, Record
 from seisblock.references import papers
@@ -118,6 +119,24 @@ class Conventions:
     gravity_m_s2: float = STANDARD_GRAVITY
 
 
+CENTRED = "analytic motion: mean of the velocity of the full cycles removed"
+"""Baseline of analytic motions, which have no high-pass."""
+
+
+def conventions_of(record: Record | None, conventions: Conventions | None = None) -> Conventions:
+    """Return conventions as applied to a record: an analytic motion is not filtered, and its velocity has no mean."""
+    rules = conventions or Conventions()
+    is_analytic = record is not None and record.format == ANALYTIC
+    return replace(rules, velocity_highpass_hz=None, velocity_baseline=CENTRED) if is_analytic else rules
+
+
+def velocity_history(acceleration: FloatArray, dt: float, rules: Conventions) -> GroundHistory:
+    """Return velocity and displacement of the ground by conventions."""
+    if rules.velocity_baseline == CENTRED:
+        return centred_history(acceleration, dt)
+    return ground_history(acceleration, dt, highpass_hz=rules.velocity_highpass_hz)
+
+
 @dataclass(frozen=True)
 class RecordMeasures(HtmlReprMixin):
     """Measures of a record.
@@ -189,7 +208,7 @@ def measure(
     ('7', 'EW', 9.62)
     """
     checks.instance(record, Record)
-    rules = conventions or Conventions()
+    rules = conventions_of(record, conventions)
     selected = [select_component(record, name) for name in (record.codes if components is None else components)]
     intensity = jma_intensity(record)
     results = tuple(_measure_component(c, record, threshold, rules, intensity) for c in selected)
@@ -219,7 +238,7 @@ def _measure_component(
         arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
         significant_duration_s=significant_duration(a, dt),
         jma_intensity=intensity,
-        usual_highpass=filter_range(a, dt, peaks.pga_m_s2, peaks.pgv_m_s),
+        usual_highpass=None if rules.velocity_baseline == CENTRED else filter_range(a, dt, peaks.pga_m_s2, peaks.pgv_m_s),
     )
 
 
@@ -244,7 +263,7 @@ def component_peaks(component: Component, dt: float, rules: Conventions, start_s
     """
     a = component.acceleration
     pga, index = peak_acceleration(a)
-    history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
+    history = velocity_history(a, dt, rules)
     peaks = _peaks_of_history(pga, history)
     pgd = peak_displacement(history)
     # release the filtered copy before the Fourier transform of long records
@@ -291,7 +310,7 @@ def motion_peaks(acceleration: FloatArray, dt: float, rules: Conventions) -> Mot
     True
     """
     pga, _ = peak_acceleration(acceleration)
-    return _peaks_of_history(pga, ground_history(acceleration, dt, highpass_hz=rules.velocity_highpass_hz))
+    return _peaks_of_history(pga, velocity_history(acceleration, dt, rules))
 
 
 def _peaks_of_history(pga: float, history: GroundHistory) -> MotionPeaks:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import groupby
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +20,7 @@ from seisblock.readers.options import ReadOptions
 from seisblock.readers.parse import parse_file
 from seisblock.readers.source import STDIN, Location, RawFile, open_source, sha256_digest
 from seisblock.records import Record
+from seisblock.records.analytic import analytic_record, is_analytic
 from seisblock.records.qc import run_qc
 
 ALL_STATIONS = "all"
@@ -89,6 +91,8 @@ def read(
     sources = _as_list(source)
     if not sources:
         raise ParameterError("no record given: give at least one file")
+    if len(sources) == 1 and is_analytic(sources[0]):
+        return analytic_record(str(sources[0]))
     group = [_open_and_parse(s, options) for s in sources]
     stations = {part.station for opened_source in group for part in opened_source.parts}
     if station == ALL_STATIONS and len(stations) > 1:
@@ -131,6 +135,10 @@ def read_all(
     groups: list[list[OpenedSource]] = []
     names = [str(s) for s in _as_list(sources)]
     _check_duplicates(names)
+    if any(map(is_analytic, names)):
+        runs = [(analytic, list(run)) for analytic, run in groupby(names, is_analytic)]
+        keywords = {"format": format, "units": units, "dt": dt, "station": station, "level": level}
+        return [r for analytic, run in runs for r in (map(analytic_record, run) if analytic else read_all(run, **keywords))]  # type: ignore[arg-type]
     for name in names:
         source = _open_and_parse(name, options)
         matching_groups = (g for g in groups if belongs_to_recording(source.parts, [part for member in g for part in member.parts]))

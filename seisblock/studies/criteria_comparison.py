@@ -8,7 +8,7 @@ from seisblock.bodies.block import Block
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import Conventions
 from seisblock.measures.shaking import Shaking, response_shaking
-from seisblock.measures.summary import ComponentPeaks, component_peaks
+from seisblock.measures.summary import ComponentPeaks, component_peaks, conventions_of
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.models.rock.solve import solve_rock
@@ -77,7 +77,7 @@ def compare_criteria(
     options : RockOptions
     """
     gravity = options.gravity
-    conventions = Conventions(gravity_m_s2=gravity)
+    conventions = conventions_of(record, Conventions(gravity_m_s2=gravity))
     peaks = component_peaks(Component(motion.name, motion.horizontal), motion.dt, conventions, motion.start_s)
     response = flag_near_flip(solve_rock(block, motion, **options.keywords()))
     rows = overturning_card(block, peaks.pga_m_s2, peaks.pgv_m_s, asdict(peaks.equivalent_frequency_hz), gravity)

@@ -22,9 +22,9 @@ from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, Graves
 from seisblock.criteria.initiation import onset_factor
 from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
 from seisblock.criteria.pulses import half_sine_acceleration
-from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
-from seisblock.measures.peaks import peak_acceleration, peak_velocity
+from seisblock.measures.peaks import peak_acceleration
+from seisblock.measures.summary import conventions_of, motion_peaks
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.verdicts import rock_verdict
 from seisblock.models.stack.outcome import StackOutcome
@@ -174,7 +174,7 @@ def _simulate(model: str, block: Block, motion: Motion, pga: float, options: Roc
 
 def _closed_forms(block: Block, stone: Block, motion: Motion, pga: float, fit: GravestoneFit | None, gravity: float) -> list[ModelResult]:
     """Return the results of the closed forms: threshold over the motion's peak."""
-    pgv = peak_velocity(ground_history(motion.horizontal, motion.dt), motion.dt)
+    pgv = motion_peaks(motion.horizontal, motion.dt, conventions_of(motion.record)).pgv_m_s
     frequency = pga_pgv_frequency(pga, pgv)
     # equivalent rectangle on the weaker side
     width, height = 2 * min(block.arms), 2 * block.centre

@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 
 from seisblock.core.i18n import gettext
 from seisblock.core.typing import FloatArray
-from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
+from seisblock.measures import RecordMeasures, fourier_amplitude, response_spectrum
 from seisblock.measures.spectra import DAMPING
+from seisblock.measures.summary import velocity_history
 from seisblock.records import Component, Motion, Record
 from seisblock.records.process import select_component
 from seisblock.report.figures.curves import decimate, draw_curve, in_view, insert_crossings
@@ -101,7 +102,7 @@ def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], a
     unit, name = velocity_unit(gal=gal)
     limit = 1.15 * max(m.pgv_m_s for m in answer.components) / unit or 1.0
     for axis, part, m in zip(axes, parts, answer.components, strict=True):
-        history = ground_history(part.acceleration, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
+        history = velocity_history(part.acceleration, record.dt, answer.conventions)
         draw_curve(axis, record.time, history.velocity / unit, color="0.2", linewidth=0.7)
         axis.set_ylim(-limit, limit)
         _annotate_panel(axis, f"{part.code}   PGV {m.pgv_m_s / unit:.4g} {name}")

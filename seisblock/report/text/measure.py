@@ -11,7 +11,8 @@ from rich.text import Text
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.limits import check_memory
 from seisblock.core.typing import FloatArray
-from seisblock.measures import FilterRange, RecordMeasures, ground_history
+from seisblock.measures import FilterRange, RecordMeasures
+from seisblock.measures.summary import velocity_history
 from seisblock.records import Record
 from seisblock.records.process import select_component
 from seisblock.report.io.atomic import normalize_zeros
@@ -167,7 +168,7 @@ def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) 
             columns += [None] * 3
             continue
         a = select_component(record, code).acceleration
-        history = ground_history(a, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
+        history = velocity_history(a, record.dt, answer.conventions)
         columns += [a, history.velocity, history.displacement]
     for begin in range(0, record.samples, CHUNK_ROWS):
         part = slice(begin, min(begin + CHUNK_ROWS, record.samples))

@@ -16,6 +16,7 @@ from rich.text import Text
 
 from seisblock.core.i18n import escape_control, gettext, join_clauses, join_sentences
 from seisblock.records import Record
+from seisblock.records.analytic import ANALYTIC
 from seisblock.records.site import format_local_time, get_site
 from seisblock.report.text.record_info import record_info
 from seisblock.report.text.wrap import break_positions, fits, has_quantity, is_wide
@@ -275,7 +276,9 @@ def group_answers(
 
 def record_line(record: Record) -> Text:
     """Return a line that identifies a record, with station, earthquake, processing and warnings below."""
-    start = format_local_time(record, record.start) or gettext("start time unknown")
+    start = format_local_time(record, record.start) or (
+        gettext("analytic motion") if record.format == ANALYTIC else gettext("start time unknown")
+    )
     name = get_site(record).label or record.source or gettext("record")
     text = gettext(
         "{name}  {start}  {samples} samples, {rate:g} Hz, {format}",

@@ -9,7 +9,7 @@ from typing import Any
 
 from seisblock.core.registry import SolverBody
 from seisblock.measures.shaking import Shaking, body_thresholds, shaking_of
-from seisblock.measures.summary import Conventions, MotionPeaks, motion_peaks
+from seisblock.measures.summary import MotionPeaks, conventions_of, motion_peaks
 from seisblock.records import Motion
 from seisblock.studies.batch.scalar_fields import scalar_fields
 
@@ -31,7 +31,7 @@ class ShakingColumns:
 
     @cached_property
     def _peaks(self) -> MotionPeaks:
-        return motion_peaks(self.motion.horizontal, self.motion.dt, Conventions())
+        return motion_peaks(self.motion.horizontal, self.motion.dt, conventions_of(self.motion.record))
 
     def row(self, body: SolverBody) -> dict[str, Any]:
         """Return the columns of a body aligned with the motion."""
