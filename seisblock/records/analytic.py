@@ -50,6 +50,11 @@ def sine_motion(amplitude: float, frequency: float, duration: float, *, dt: floa
     name : str
         Source of the record.
 
+    Returns
+    -------
+    Record
+        With the component X.
+
     Raises
     ------
     ParameterError
@@ -66,7 +71,27 @@ def sine_motion(amplitude: float, frequency: float, duration: float, *, dt: floa
 
 
 def pulse_motion(amplitude: float, frequency: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of one full sine of acceleration; parameters as of :func:`sine_motion`.
+    """Return the record of one full sine of acceleration.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    frequency : float, Hz
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
@@ -77,7 +102,27 @@ def pulse_motion(amplitude: float, frequency: float, *, dt: float | None = None,
 
 
 def half_sine_motion(amplitude: float, frequency: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of half a sine of acceleration of the given frequency; parameters as of :func:`sine_motion`.
+    """Return the record of half a sine of acceleration of the given frequency.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    frequency : float, Hz
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
@@ -88,7 +133,27 @@ def half_sine_motion(amplitude: float, frequency: float, *, dt: float | None = N
 
 
 def rectangle_motion(amplitude: float, duration: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of a constant acceleration; parameters as of :func:`sine_motion`.
+    """Return the record of a constant acceleration.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    duration : float, s
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
