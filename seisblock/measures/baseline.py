@@ -45,7 +45,7 @@ class GroundHistory:
 
 
 def centred_history(acceleration: FloatArray, dt: float) -> GroundHistory:
-    """Return the history of an analytic motion: unfiltered, with the middle of the range of its velocity at zero.
+    """Return the history of an analytic motion: unfiltered, with the middle of the range of its velocity at zero (derived here).
 
     The velocity of a sine that starts from rest is (A/w)(1 - cos wt) between 0 and 2 A/w: without its mean, PGV is A/w for any
     duration from half a period on, whole cycles or not, and the displacement is (A/w^2) sin wt.

@@ -27,7 +27,7 @@ class Thresholds(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Shaking:
+class BodyShaking:
     """Shaking of one motion and the time above the threshold of one body ([Furukawa2009]_ section 3(5)e, [Sugimoto2017]_ section 4.2).
 
     Parameters
@@ -52,7 +52,7 @@ class Shaking:
     longest_above_threshold_s: float | None
 
 
-def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: MotionPeaks | None = None) -> Shaking:
+def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: MotionPeaks | None = None) -> BodyShaking:
     """Return the shaking of a motion for a body with given thresholds to +x and to -x.
 
     The vertical motion is not considered: the thresholds are those of the body under its static weight.
@@ -76,9 +76,9 @@ def shaking_of(motion: Motion, thresholds: tuple[float, float], *, peaks: Motion
         peaks = motion_peaks(motion.horizontal, motion.dt, conventions_of(motion.record))
     valid = [threshold for threshold in thresholds if 0.0 < threshold < math.inf]
     if not valid:
-        return Shaking(*peaks, None, None, None)
+        return BodyShaking(*peaks, None, None, None)
     lengths = _lengths_above(motion, thresholds) if peaks.pga_m_s2 >= min(valid) else np.zeros(0)
-    return Shaking(*peaks, float(min(valid)), float(lengths.sum()), float(lengths.max(initial=0.0)))
+    return BodyShaking(*peaks, float(min(valid)), float(lengths.sum()), float(lengths.max(initial=0.0)))
 
 
 def _lengths_above(motion: Motion, thresholds: tuple[float, float]) -> FloatArray:
@@ -94,7 +94,7 @@ def _lengths_above(motion: Motion, thresholds: tuple[float, float]) -> FloatArra
     return lengths
 
 
-def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = None) -> Shaking:
+def response_shaking(response: Response[Any], *, peaks: MotionPeaks | None = None) -> BodyShaking:
     """Return the shaking of the motion of a response for its body, whose thresholds are those of the registered solver.
 
     Examples
@@ -114,4 +114,4 @@ def body_thresholds(solver: str, body: Any, options: Any) -> tuple[float, float]
     return Thresholds(math.inf, math.inf) if threshold is None else threshold(body, options)
 
 
-__all__ = ["Shaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of"]
+__all__ = ["BodyShaking", "Thresholds", "body_thresholds", "response_shaking", "shaking_of"]

@@ -50,6 +50,11 @@ def sine_motion(amplitude: float, frequency: float, duration: float, *, dt: floa
     name : str
         Source of the record.
 
+    Returns
+    -------
+    Record
+        With the component X.
+
     Raises
     ------
     ParameterError
@@ -66,7 +71,27 @@ def sine_motion(amplitude: float, frequency: float, duration: float, *, dt: floa
 
 
 def pulse_motion(amplitude: float, frequency: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of one full sine of acceleration; parameters as of :func:`sine_motion`.
+    """Return the record of one full sine of acceleration.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    frequency : float, Hz
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
@@ -77,7 +102,27 @@ def pulse_motion(amplitude: float, frequency: float, *, dt: float | None = None,
 
 
 def half_sine_motion(amplitude: float, frequency: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of half a sine of acceleration of the given frequency; parameters as of :func:`sine_motion`.
+    """Return the record of half a sine of acceleration of the given frequency.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    frequency : float, Hz
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
@@ -88,13 +133,33 @@ def half_sine_motion(amplitude: float, frequency: float, *, dt: float | None = N
 
 
 def rectangle_motion(amplitude: float, duration: float, *, dt: float | None = None, name: str = "") -> Record:
-    """Return the record of a constant acceleration; parameters as of :func:`sine_motion`.
+    """Return the record of a constant acceleration.
+
+    Parameters
+    ----------
+    amplitude : float, m/s^2
+        Peak acceleration.
+    duration : float, s
+    dt : float, optional, s
+        Sampling interval; default: as in :func:`sine_motion`.
+    name : str
+        Source of the record.
+
+    Returns
+    -------
+    Record
+        With the component X.
+
+    Raises
+    ------
+    ParameterError
+        If a number is not positive, the interval is too long, or the record would have too many samples.
 
     Examples
     --------
     >>> record = rectangle_motion(3.0, 0.5)
-    >>> record.samples, record.components[0].acceleration[0], record.components[0].acceleration[-1]
-    (401, 3.0, 3.0)
+    >>> record.samples, record.components[0].acceleration[[0, -1]].tolist()
+    (401, [3.0, 3.0])
     """
     checks.positive("the amplitude of the motion", amplitude)
     checks.positive("the duration of the motion", duration, "s")
@@ -183,7 +248,7 @@ def analytic_record(name: str) -> Record:
     --------
     >>> record = analytic_record("sine:60cm@0.318Hz,20s")
     >>> round(float(record.components[0].acceleration.max()), 4), record.source
-    (2.3954, 'sine:60cm@0.318Hz,20s')
+    (2.3953, 'sine:60cm@0.318Hz,20s')
     """
     text = to_halfwidth(name)
     shape, _, rest = text.partition(":")

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from seisblock.bodies.block import Block
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import Conventions
-from seisblock.measures.shaking import Shaking, response_shaking
+from seisblock.measures.shaking import BodyShaking, response_shaking
 from seisblock.measures.summary import ComponentPeaks, component_peaks, conventions_of
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
@@ -31,7 +31,7 @@ class CriteriaComparison:
         Arguments of the criteria.
     rows : tuple of CriterionResult
     outcome : RockOutcome
-    shaking : Shaking
+    shaking : BodyShaking
         Of the component, for the rocking block.
     velocity_highpass_hz : float or None
         Filter of the PGV.
@@ -48,7 +48,7 @@ class CriteriaComparison:
     measures: ComponentPeaks
     rows: tuple[CriterionResult, ...]
     outcome: RockOutcome
-    shaking: Shaking
+    shaking: BodyShaking
     velocity_highpass_hz: float | None
     warnings: tuple[str, ...] = ()
     agreement: ModelComparison | None = None

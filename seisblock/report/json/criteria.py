@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 
 from seisblock.criteria.compare import CriterionResult, unique_criteria
 from seisblock.measures.frequency import EquivalentFrequency
-from seisblock.measures.shaking import Shaking
+from seisblock.measures.shaking import BodyShaking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.references import find_citations, papers
@@ -99,7 +99,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
         Result as in ``seisblock rock``.
     respond : RespondEntry or None
         Result as in ``seisblock respond``.
-    shaking : Shaking
+    shaking : BodyShaking
         Shaking of the motion, and the time above the rocking threshold of the block.
     """
 
@@ -110,7 +110,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     criteria: tuple[CriterionResult, ...]
     simulated: SIMULATED
     respond: RespondEntry | None
-    shaking: Shaking
+    shaking: BodyShaking
 
 
 CRITERIA = DocumentSchema("criteria", CRITERIA_PARAMETERS, CriteriaResult)

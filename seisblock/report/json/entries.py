@@ -11,13 +11,13 @@ from msgspec import Meta, Struct
 
 from seisblock.core.options import document_key, option_fields, plain_help
 from seisblock.core.results import Response
-from seisblock.measures.shaking import Shaking, response_shaking
+from seisblock.measures.shaking import BodyShaking, response_shaking
 from seisblock.report.json.schema import Result, is_optional
 
 COMPONENT_KEY = {"component": Annotated[str, Meta(description="Direction of the record that is +x: a code, or an azimuth in degrees.")]}
 """First key of results of one direction."""
 
-SHAKING_KEY = Annotated[Shaking, Meta(description="Shaking of the motion, and the time above the threshold of the body.")]
+SHAKING_KEY = Annotated[BodyShaking, Meta(description="Shaking of the motion, and the time above the threshold of the body.")]
 """Type of the key ``shaking`` of results of one direction."""
 
 

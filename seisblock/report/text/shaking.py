@@ -9,7 +9,7 @@ from rich.text import Text
 
 from seisblock.core.i18n import N_, gettext
 from seisblock.core.results import Response
-from seisblock.measures.shaking import Shaking, response_shaking
+from seisblock.measures.shaking import BodyShaking, response_shaking
 from seisblock.report.text.tables import DASH, format_acceleration, format_number, format_seconds, styled_line
 from seisblock.report.units_display import velocity_unit
 
@@ -20,23 +20,23 @@ def shaking_lines(responses: Sequence[Response[Any]], *, gal: bool) -> Iterator[
         yield styled_line(shaking_text(response.motion.name or "x", response_shaking(response), gal=gal), "dim")
 
 
-def shaking_text(name: str, shaking: Shaking, *, gal: bool = True) -> str:
+def shaking_text(name: str, shaking: BodyShaking, *, gal: bool = True) -> str:
     """Return the peaks of a motion and the time above the threshold in a sentence.
 
     Parameters
     ----------
     name : str
         Direction.
-    shaking : Shaking
+    shaking : BodyShaking
     gal : bool
 
     Examples
     --------
-    >>> shaking_text("EW", Shaking(1.0, 0.3, 1.59, 2.0, 0.0, 0.0))
+    >>> shaking_text("EW", BodyShaking(1.0, 0.3, 1.59, 2.0, 0.0, 0.0))
     'EW: PGA 100.0 gal, PGV 30.00 kine, equivalent frequency 1.590 Hz; below the threshold of 200.0 gal.'
-    >>> shaking_text("EW", Shaking(3.0, 0.3, 1.59, 2.0, 1.25, 0.25)).partition("; ")[2]
+    >>> shaking_text("EW", BodyShaking(3.0, 0.3, 1.59, 2.0, 1.25, 0.25)).partition("; ")[2]
     'above the threshold of 200.0 gal for 1.250 s (longest interval 0.250 s).'
-    >>> shaking_text("EW", Shaking(0.0, 0.0, None, None, None, None))
+    >>> shaking_text("EW", BodyShaking(0.0, 0.0, None, None, None, None))
     'EW: PGA 0.0 gal, PGV 0.0000 kine, equivalent frequency -.'
     """
     speed = velocity_unit(gal=gal)

@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import Any
 
 from seisblock.core.registry import SolverBody
-from seisblock.measures.shaking import Shaking, body_thresholds, shaking_of
+from seisblock.measures.shaking import BodyShaking, body_thresholds, shaking_of
 from seisblock.measures.summary import MotionPeaks, conventions_of, motion_peaks
 from seisblock.records import Motion
 from seisblock.studies.batch.scalar_fields import scalar_fields
 
-SHAKING_COLUMNS: Mapping[str, type] = scalar_fields(Shaking)
+SHAKING_COLUMNS: Mapping[str, type] = scalar_fields(BodyShaking)
 """Columns with their types."""
 
 
