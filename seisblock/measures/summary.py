@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from seisblock.core import checks
-from seisblock.core._display import HtmlReprMixin
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.measures.baseline import HIGHPASS_HZ, ground_history
@@ -62,8 +62,8 @@ class ComponentPeaks:
     pulse_width_ambiguous: bool
 
 
-@dataclass(frozen=True)
-class ComponentMeasures(ComponentPeaks):
+@dataclass(frozen=True, repr=False)
+class ComponentMeasures(DisplayMixin, ComponentPeaks):
     """Measures of one component; the fields are the keys of a result in the JSON document of ``measure``.
 
     Parameters
@@ -85,8 +85,8 @@ class ComponentMeasures(ComponentPeaks):
     usual_highpass: FilterRange | None = None
 
 
-@dataclass(frozen=True)
-class Conventions:
+@dataclass(frozen=True, repr=False)
+class Conventions(DisplayMixin):
     """Processing conventions of the measures.
 
     Parameters
@@ -116,8 +116,8 @@ class Conventions:
     gravity_m_s2: float = STANDARD_GRAVITY
 
 
-@dataclass(frozen=True)
-class RecordMeasures(HtmlReprMixin):
+@dataclass(frozen=True, repr=False)
+class RecordMeasures(DisplayMixin):
     """Measures of a record.
 
     Parameters
