@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import RecordNotFoundError
 
 DEFAULT_SAMPLE = "synthetic_jma.csv"
@@ -18,8 +19,8 @@ REAL_SAMPLE = "hanmer_springs_2016.V1A.gz"
 MANIFEST = "MANIFEST.toml"
 
 
-@dataclass(frozen=True)
-class Sample:
+@dataclass(frozen=True, repr=False)
+class Sample(DisplayMixin):
     """Bundled file with its entry in MANIFEST.toml.
 
     Parameters

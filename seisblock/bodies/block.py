@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.units import MAX_UNITLESS_LENGTH, STANDARD_GRAVITY, warn_large_lengths
@@ -36,8 +37,8 @@ _POSITIVE_FIELDS = {
 }
 
 
-@dataclass(frozen=True)
-class Block:
+@dataclass(frozen=True, repr=False)
+class Block(DisplayMixin):
     """Rigid block with a flat base; rectangular and homogeneous by default.
 
     Parameters

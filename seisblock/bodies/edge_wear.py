@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.units import parse_length, to_halfwidth
 
@@ -18,8 +19,8 @@ MIN_SHARE = 1e-9
 _SHARE_PATTERN = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(%?)\s*+\Z")
 
 
-@dataclass(frozen=True)
-class EdgeWear:
+@dataclass(frozen=True, repr=False)
+class EdgeWear(DisplayMixin):
     """Inset of the worn pivot edges from each side of a base.
 
     Parameters

@@ -6,13 +6,14 @@ import math
 from dataclasses import dataclass, field
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.options import option
 
 
-@dataclass(frozen=True)
-class SlidingBase:
+@dataclass(frozen=True, repr=False)
+class SlidingBase(DisplayMixin):
     """Rigid base with Coulomb friction, level or sloping.
 
     Parameters

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
@@ -23,8 +24,8 @@ COORDINATES = ("x", "y", "z", "theta_x", "theta_y", "theta_z")
 """Order of the generalised coordinates; rotations are right-handed and multiplied by the depth b ([Okumura1987]_ eq. (3))."""
 
 
-@dataclass(frozen=True)
-class SpringBlock:
+@dataclass(frozen=True, repr=False)
+class SpringBlock(DisplayMixin):
     """A rigid cuboid on four corner springs, three directions each ([Okumura1987]_ fig. 1).
 
     Parameters

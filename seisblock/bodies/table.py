@@ -10,6 +10,7 @@ from typing import Any
 from seisblock.bodies.edge_wear import EdgeWear, parse_edge_wear
 from seisblock.bodies.toml import read_body_toml
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, InputError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.io.csv_table import (
@@ -77,8 +78,8 @@ MAX_LENGTH = 100.0
 """Largest plausible size, m; larger numbers probably lack their unit."""
 
 
-@dataclass(frozen=True)
-class BodySpec:
+@dataclass(frozen=True, repr=False)
+class BodySpec(DisplayMixin):
     """Specification of one body: parameters from which each solver takes those it needs.
 
     Parameters

@@ -21,6 +21,7 @@ from seisblock.bodies.toml import (
     read_body_toml,
 )
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.options import option
@@ -37,8 +38,8 @@ _POSITIVE_FIELDS = {
 _CONTACT_KEYS = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 
-@dataclass(frozen=True)
-class TwoLayerBlock:
+@dataclass(frozen=True, repr=False)
+class TwoLayerBlock(DisplayMixin):
     """Two homogeneous layers of one width, rigidly joined ([Sugimoto2017]_ section 3.1, fig. 5).
 
     Parameters
@@ -144,8 +145,8 @@ class TwoLayerBlock:
         return gravity * (self.width / 2) / self.centroid_height
 
 
-@dataclass(frozen=True)
-class Contact:
+@dataclass(frozen=True, repr=False)
+class Contact(DisplayMixin):
     """Friction and restitution between a block and the ground.
 
     Parameters

@@ -9,6 +9,7 @@ from typing import Any
 from seisblock.bodies.edge_wear import parse_edge_wear
 from seisblock.bodies.toml import check_keys, entries, get_lengths, get_subtable, source_name
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.units import parse_length
@@ -17,8 +18,8 @@ Range = tuple[float, float]
 """Smallest and largest value."""
 
 
-@dataclass(frozen=True)
-class ParameterRanges:
+@dataclass(frozen=True, repr=False)
+class ParameterRanges(DisplayMixin):
     """Parameter ranges of a kind of body; None where unknown.
 
     Samples of a body are drawn from the ranges of edge wear and friction, which are unknown for the individual body. Its width and height

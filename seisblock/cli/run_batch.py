@@ -17,6 +17,7 @@ from seisblock.cli.console import info, print_result, print_tables, warning
 from seisblock.cli.load_records import check_single_window, make_preparation
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
+from seisblock.core._display import exact_repr
 from seisblock.core.errors import OutputError, ParameterError, RecordError, SeisblockError
 from seisblock.core.io.checkpoint import Checkpoint, Key, checkpoint_path, lock_checkpoint
 from seisblock.readers.discover import expand_names, group_files
@@ -211,7 +212,7 @@ def _check_files(out: Path) -> None:
 @contextmanager
 def _open_checkpoint(path: Path, plan: Plan, *, resume: bool) -> Iterator[Checkpoint]:
     """Open the journal of a batch under a file lock: a resumed or a new one."""
-    identity = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
+    identity = exact_repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
     read_identity = repr([getattr(plan.read_options, key) for key in ("format", "units", "dt", "station", "level")])
     purpose = {"seisblock": "batch", "of": hashlib.sha256((identity + read_identity).encode(errors="surrogatepass")).hexdigest()}
     is_resumed = resume and path.exists()

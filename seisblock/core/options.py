@@ -13,6 +13,7 @@ from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
 from seisblock.core.units import unit_suffix
 
@@ -89,8 +90,8 @@ GRAVITY = option(N_("Acceleration of gravity, m/s^2."), "--gravity", unit="m/s^2
 """Metadata of the acceleration of gravity."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class SolverOptions:
+@dataclass(frozen=True, kw_only=True, repr=False)
+class SolverOptions(DisplayMixin):
     """Base of the options of a solver: values are checked against their ranges."""
 
     def __post_init__(self) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
 
-from seisblock.core._display import PlotMixin, backend, summary_repr
+from seisblock.core._display import DisplayMixin, PlotMixin, backend, summary_repr
 from seisblock.core.status import Status
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import unit_suffix
@@ -74,8 +74,8 @@ class LazySequence(Sequence[Value]):
         return repr(tuple(self))
 
 
-@dataclass(frozen=True, slots=True)
-class Phase:
+@dataclass(frozen=True, slots=True, repr=False)
+class Phase(DisplayMixin):
     """Time interval spent in one mode; times in s after the record's first sample."""
 
     name: str
@@ -109,8 +109,8 @@ def _phases(edges: FloatArray, modes: IntArray, name: Callable[[int], str], part
     ]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Event:
+@dataclass(frozen=True, eq=False, slots=True, repr=False)
+class Event(DisplayMixin):
     """Event at which the mode changes, with the state before and after it.
 
     Parameters
@@ -147,8 +147,8 @@ def _events(event_log: EventLog, start_s: float, name: Callable[[GuardEvent], st
     return [Event(name(guard_event), start_s + guard_event.time, guard_event.before, guard_event.after) for guard_event in event_log[part]]
 
 
-@dataclass(frozen=True, eq=False)
-class Channel:
+@dataclass(frozen=True, eq=False, repr=False)
+class Channel(DisplayMixin):
     """Time history of one quantity.
 
     Parameters
@@ -284,7 +284,7 @@ class Response(PlotMixin, Generic[Outcome]):
         return {"component": self.motion.name, **asdict(self.outcome)}  # type: ignore[call-overload]
 
     def to_json(self) -> str:
-        """Return the JSON document of the response, the text of the command's ``--json`` for one direction without further studies."""
+        """Return the JSON document of the response, as the command prints it for one direction without further studies."""
         return backend().json_text(self)
 
     def to_dict(self) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
 from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_pga
@@ -28,8 +29,8 @@ PREFERRED_FREQUENCY = "pga_pgv"
 """Equivalent frequency for which the gravestone criterion was verified with records ([Furukawa2009]_ section 3(5)e)."""
 
 
-@dataclass(frozen=True)
-class CriterionResult:
+@dataclass(frozen=True, repr=False)
+class CriterionResult(DisplayMixin):
     """Threshold of one criterion and demand of the motion.
 
     Parameters

@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray
@@ -41,8 +42,8 @@ DOWELLED_NOTE = lazy_gettext(
 Prediction = Literal["stands", "on the line", "overturns"]
 
 
-@dataclass(frozen=True)
-class GravestoneFit:
+@dataclass(frozen=True, repr=False)
+class GravestoneFit(DisplayMixin):
     """Parameters p, q, r of a(f) = p sqrt(1 + (f/q)^r) ([Furukawa2009]_ eq. (8)).
 
     Parameters

@@ -13,6 +13,7 @@ import numpy as np
 
 from seisblock.bodies.spring_block import CORNER_SIGNS
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.typing import ArrayLike, FloatArray
 
@@ -20,8 +21,8 @@ UNDAMPED_RESONANCE = 1e-150
 """Replacement of zero in the denominator of an undamped resonance, so that a mode that is not excited contributes nothing."""
 
 
-@dataclass(frozen=True)
-class SquareBaseModes:
+@dataclass(frozen=True, repr=False)
+class SquareBaseModes(DisplayMixin):
     """Natural modes of a block on a square base, frequencies over omega_V ([Okumura1987]_ eqs. (7)-(9), (22)).
 
     Parameters

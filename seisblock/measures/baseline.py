@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import FloatArray
 from seisblock.records.filters import highpass_samples
 from seisblock.records.integrals import displacements, integrate, integrate_twice
@@ -13,8 +14,8 @@ HIGHPASS_HZ = 0.05
 """Default corner of the high-pass before integration, Hz: it passes near-fault pulses of up to 10 s and removes drift."""
 
 
-@dataclass(frozen=True, eq=False)
-class GroundHistory:
+@dataclass(frozen=True, eq=False, repr=False)
+class GroundHistory(DisplayMixin):
     """Velocity and displacement of the ground, and the acceleration from which they are integrated.
 
     Parameters

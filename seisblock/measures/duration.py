@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
@@ -15,8 +16,8 @@ from seisblock.core.units import STANDARD_GRAVITY
 Side = Literal["both", "positive", "negative"]
 
 
-@dataclass(frozen=True)
-class Duration:
+@dataclass(frozen=True, repr=False)
+class Duration(DisplayMixin):
     """Time spent above a threshold.
 
     Parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import FloatArray
 from seisblock.measures.baseline import ground_history_of
 from seisblock.measures.frequency import pga_pgv_frequency
@@ -17,8 +18,8 @@ REPORTING_THRESHOLD = 0.05
 """Relative change above which the range is reported."""
 
 
-@dataclass(frozen=True)
-class FilterRange:
+@dataclass(frozen=True, repr=False)
+class FilterRange(DisplayMixin):
     """Minimum and maximum of PGV and PGA/(2 pi PGV) of one component for common high-pass filters.
 
     Parameters

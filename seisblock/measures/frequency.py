@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.limits import CHUNK_SIZE
 from seisblock.core.typing import FloatArray
@@ -17,8 +18,8 @@ FOURIER_BAND_HZ = (0.1, 25.0)
 """Default band of the dominant Fourier frequency, Hz; cut at the Nyquist frequency."""
 
 
-@dataclass(frozen=True)
-class EquivalentFrequency:
+@dataclass(frozen=True, repr=False)
+class EquivalentFrequency(DisplayMixin):
     """Equivalent frequencies of one component ([Furukawa2009]_ section 3(5)e), Hz; None if undefined.
 
     Parameters
@@ -36,8 +37,8 @@ class EquivalentFrequency:
     pulse_width: float | None
 
 
-@dataclass(frozen=True)
-class Pulse:
+@dataclass(frozen=True, repr=False)
+class Pulse(DisplayMixin):
     """Pulse that contains the PGA, between the zero crossings before and after it.
 
     Parameters

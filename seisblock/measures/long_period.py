@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.limits import CHUNK_SIZE
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import KINE
@@ -32,8 +33,8 @@ MAX_SAMPLING_INTERVAL = 0.1
 """Maximum sampling interval, s; larger ones do not resolve the oscillator of 1.6 s."""
 
 
-@dataclass(frozen=True)
-class LongPeriodMotion:
+@dataclass(frozen=True, repr=False)
+class LongPeriodMotion(DisplayMixin):
     """Floor velocity in tall buildings and JMA's class of long-period ground motion.
 
     Parameters

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ComponentError
 from seisblock.core.typing import FloatArray
 from seisblock.measures.baseline import GroundHistory
@@ -15,8 +16,8 @@ from seisblock.records.process import component_at_azimuth
 from seisblock.records.record import Record
 
 
-@dataclass(frozen=True)
-class HorizontalPeak:
+@dataclass(frozen=True, repr=False)
+class HorizontalPeak(DisplayMixin):
     """Peak horizontal ground acceleration over all azimuths.
 
     Parameters

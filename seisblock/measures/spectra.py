@@ -30,7 +30,7 @@ _PARZEN_LAG = 280.0 / 151.0
 """Largest lag of a Parzen window times its bandwidth: 1 / bandwidth is the integral of the squared spectral window."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ResponseSpectrum(PlotMixin):
     """Response spectrum of one component.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from seisblock.core import checks
-from seisblock.core._display import HtmlReprMixin
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import STANDARD_GRAVITY
@@ -65,8 +65,8 @@ class ComponentPeaks:
     pulse_width_ambiguous: bool
 
 
-@dataclass(frozen=True)
-class ComponentMeasures(ComponentPeaks):
+@dataclass(frozen=True, repr=False)
+class ComponentMeasures(DisplayMixin, ComponentPeaks):
     """Measures of one component; the fields are the keys of a result in the JSON document of ``measure``.
 
     Parameters
@@ -88,8 +88,8 @@ class ComponentMeasures(ComponentPeaks):
     usual_highpass: FilterRange | None = None
 
 
-@dataclass(frozen=True)
-class Conventions:
+@dataclass(frozen=True, repr=False)
+class Conventions(DisplayMixin):
     """Processing conventions of the measures.
 
     Parameters
@@ -137,8 +137,8 @@ def velocity_history(acceleration: FloatArray, dt: float, rules: Conventions) ->
     return ground_history(acceleration, dt, highpass_hz=rules.velocity_highpass_hz)
 
 
-@dataclass(frozen=True)
-class RecordMeasures(HtmlReprMixin):
+@dataclass(frozen=True, repr=False)
+class RecordMeasures(DisplayMixin):
     """Measures of a record.
 
     Parameters

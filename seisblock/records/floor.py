@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.limits import check_memory
@@ -32,8 +33,8 @@ EXAMPLE = "T=0.6,zeta=0.05,height=0.8"
 _PARAMETERS = {"t": "period_s", "zeta": "damping", "height": "height"}
 
 
-@dataclass(frozen=True)
-class Storey:
+@dataclass(frozen=True, repr=False)
+class Storey(DisplayMixin):
     """Floor of a building modelled as one linear oscillator on the ground.
 
     Parameters

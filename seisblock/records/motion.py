@@ -47,7 +47,7 @@ class MotionSegment(NamedTuple):
     samples_after: int
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Motion(PlotMixin):
     """Ground acceleration acting on a body, piecewise linear between samples.
 

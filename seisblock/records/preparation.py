@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import TimeWindow
 from seisblock.records import process
 from seisblock.records.floor import Storey, floor_motion
 from seisblock.records.record import Record
 
 
-@dataclass(frozen=True)
-class Preparation:
+@dataclass(frozen=True, repr=False)
+class Preparation(DisplayMixin):
     """Processing steps applied to records: mean, high-pass, scale, floor motion and window, in this order.
 
     Parameters

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from seisblock.core._display import DisplayMixin
+
 FLAG_KINDS = {
     "header": "header contradicts the samples, or its check value is unreadable",
     "count": "number of samples differs from the one stated or implied by the file",
@@ -27,8 +29,8 @@ RESOLVED_BY_DEMEAN = {"offset"}
 """Kinds of flag resolved by removing the mean or by a high-pass."""
 
 
-@dataclass(frozen=True)
-class QCFlag:
+@dataclass(frozen=True, repr=False)
+class QCFlag(DisplayMixin):
     """Quality flag of a record.
 
     Parameters

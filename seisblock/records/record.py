@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 import numpy as np
 
 from seisblock.core import checks
-from seisblock.core._display import PlotMixin
+from seisblock.core._display import DisplayMixin, PlotMixin
 from seisblock.core.errors import ComponentError, RecordError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import ArrayLike, FloatArray
@@ -42,8 +42,8 @@ def readonly(array: FloatArray) -> FloatArray:
     return array
 
 
-@dataclass(frozen=True, eq=False)
-class Component:
+@dataclass(frozen=True, eq=False, repr=False)
+class Component(DisplayMixin):
     """One component of ground acceleration.
 
     Parameters
@@ -75,7 +75,7 @@ class Component:
         return self.code == VERTICAL
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Record(PlotMixin):
     """A strong-motion record of one station.
 
@@ -179,7 +179,7 @@ class Record(PlotMixin):
         """
         columns = []
         for code, values in components.items():
-            array = checks.float_vector(f"the acceleration {code}", values)
+            array = checks.float_vector("the accelerations", values)
             columns.append(Component(str(code), array.copy() if array is values else array, _azimuth_of_code(str(code))))
         if start is not None and start.tzinfo is None:
             start = start.replace(tzinfo=UTC)

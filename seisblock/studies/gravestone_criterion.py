@@ -19,6 +19,7 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top_block import rigid_top
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, RecordFormatError
 from seisblock.core.io.checkpoint_lines import append_line, read_complete_lines
 from seisblock.core.typing import FloatArray, Progress
@@ -61,8 +62,8 @@ class Threshold:
     fallen: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class CriterionStudy:
+@dataclass(frozen=True, repr=False)
+class CriterionStudy(DisplayMixin):
     """Thresholds, the level a(f) of eq. (7) at each frequency, and the fit (8) through them.
 
     Parameters

@@ -12,6 +12,7 @@ import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_CELLS, check_limit
@@ -31,8 +32,8 @@ CHUNK_SIZE = 4_000_000
 """Samples times runs per thread between two progress reports."""
 
 
-@dataclass(frozen=True)
-class SlidePoint:
+@dataclass(frozen=True, repr=False)
+class SlidePoint(DisplayMixin):
     """One run of a study: its parameters and its slip.
 
     Parameters

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import seisblock as sb
+from seisblock.core._display import exact_repr
 from seisblock.models.jump.options import JumpOptions
 from seisblock.models.respond.options import RespondOptions
 
@@ -198,7 +199,7 @@ def test_vertical_has_same_meaning_everywhere(name):
 
 def outcome_text(answer):
     """Return what an answer says, to the last digit."""
-    return repr(getattr(answer, "outcome", answer))
+    return exact_repr(getattr(answer, "outcome", answer))
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def test_record_from_arrays_holds_components_azimuths_and_start():
         ({}, "no components"),
         ({"NS": SINE, "EW": SINE[:-1]}, "differ in length"),
         ({"NS": [0.0, np.nan]}, "non-finite"),
-        ({"NS": np.zeros((2, 3))}, r"acceleration NS must have shape \(n,\)"),
+        ({"NS": np.zeros((2, 3))}, r"the accelerations must have shape \(n,\)"),
     ],
 )
 def test_record_from_arrays_rejects_unusable_arrays(components, message):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.core.units import SUN
@@ -16,8 +17,8 @@ PAPER_WIDTH = 8 * SUN
 """Default width of an upper stone (sao), m: that of the fitted criterion ([Furukawa2009]_ table 1)."""
 
 
-@dataclass(frozen=True)
-class Stone:
+@dataclass(frozen=True, repr=False)
+class Stone(DisplayMixin):
     """One gravestone, or several of equal proportions.
 
     Parameters
@@ -65,8 +66,8 @@ class Stone:
         return None if self.width is None else self.width * self.height_over_width
 
 
-@dataclass(frozen=True)
-class Cemetery:
+@dataclass(frozen=True, repr=False)
+class Cemetery(DisplayMixin):
     """Gravestones of one place.
 
     Parameters

@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 
 
-@dataclass(frozen=True)
-class PileContact:
+@dataclass(frozen=True, repr=False)
+class PileContact(DisplayMixin):
     """Spring, dashpot and slider at each contact point.
 
     Two descriptions: per unit mass of the upper stone and per point, as [Furukawa2009]_ table 2 must be read (3947.8 = (2 pi 10)^2

@@ -10,11 +10,12 @@ from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.bodies.pile.checks import check_pile
 from seisblock.bodies.pile.stone import CONTACT_TOLERANCE, GROUND, Joint, PileStone, interval_overlap, overlaps_in_plan, span
 from seisblock.bodies.uncertainty import ParameterRanges
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, ParameterError
 
 
-@dataclass(frozen=True)
-class Pile:
+@dataclass(frozen=True, repr=False)
+class Pile(DisplayMixin):
     """Ordered pile of stones ([Furukawa2009]_ section 3(2), fig. 3).
 
     Parameters

@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.typing import FloatArray
 from seisblock.core.units import warn_large_lengths
@@ -24,8 +25,8 @@ RECTANGULAR, ROUND = "rectangular", "round"
 """Shapes in plan."""
 
 
-@dataclass(frozen=True)
-class PileStone:
+@dataclass(frozen=True, repr=False)
+class PileStone(DisplayMixin):
     """One stone of a pile: a cuboid or an upright cylinder.
 
     Parameters

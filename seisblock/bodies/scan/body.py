@@ -12,6 +12,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.edge_wear import MIN_SHARE, SHARP_EDGES, EdgeWear
 from seisblock.bodies.scan.polygon import interior_distance, min_width, nearest_edge, offset_polygon, support_distance
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, ComponentError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
@@ -24,8 +25,8 @@ Triple = tuple[float, float, float]
 Pair = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class ScannedBody:
+@dataclass(frozen=True, repr=False)
+class ScannedBody(DisplayMixin):
     """Rigid body of any shape on level ground, with a convex support polygon.
 
     Parameters

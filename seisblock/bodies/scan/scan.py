@@ -16,6 +16,7 @@ from seisblock.bodies.scan.mesh import read_mesh
 from seisblock.bodies.scan.polygon import convex_hull
 from seisblock.bodies.scan.resting_pose import find_resting_pose
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError
 
 DEFAULT_TOLERANCE_SHARE = 0.002
@@ -26,8 +27,8 @@ ROUND_OFF_SHARE = 1e-12
 """Products of inertia below this share of the trace are round-off."""
 
 
-@dataclass(frozen=True)
-class Scan:
+@dataclass(frozen=True, repr=False)
+class Scan(DisplayMixin):
     """Scanned body with the properties of its scan.
 
     Parameters

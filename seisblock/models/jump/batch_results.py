@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.models.jump.chain import (
     ENDED_FLYING,
@@ -52,8 +53,8 @@ class ChainTable:
     energy_after_j: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class JumpBatchResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class JumpBatchResult(DisplayMixin):
     """Results of m runs; arrays of shape (m,).
 
     Parameters

@@ -17,7 +17,7 @@ LANDINGS = ("paper", "friction")
 
 
 @documented
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class JumpOptions(SolverOptions):
     """Options of :func:`~seisblock.models.jump.solve.solve_jump`."""
 

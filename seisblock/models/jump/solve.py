@@ -11,6 +11,7 @@ from functools import partial
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.options import keywords_of
@@ -32,8 +33,8 @@ from seisblock.references import papers
 DID_NOT_ROCK = N_("did not rock")
 
 
-@dataclass(frozen=True)
-class JumpOutcome:
+@dataclass(frozen=True, repr=False)
+class JumpOutcome(DisplayMixin):
     """Result of a jump run under one component.
 
     Parameters

@@ -11,6 +11,7 @@ from threading import Event
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError, SolverError
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.dynamics import Ensemble, integrate_many
@@ -33,8 +34,8 @@ MODE_COLUMNS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
 """Modes as columns of :attr:`RespondBatchResult.time_in_mode_s`."""
 
 
-@dataclass(frozen=True, eq=False)
-class RespondBatchResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class RespondBatchResult(DisplayMixin):
     """Results of m runs; arrays of shape (m,) unless noted.
 
     Parameters

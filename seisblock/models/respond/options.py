@@ -12,7 +12,7 @@ from seisblock.records._validation import Gain
 
 
 @documented
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RespondOptions(SolverOptions):
     """Options of :func:`~seisblock.models.respond.solve.solve_respond`."""
 

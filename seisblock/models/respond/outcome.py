@@ -8,6 +8,7 @@ from typing import TypedDict
 
 import numpy as np
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.results import Phase, Status
 from seisblock.dynamics import EventLog
 from seisblock.models.respond import constants
@@ -35,8 +36,8 @@ class TimeInMode(TypedDict):
     flight: float
 
 
-@dataclass(frozen=True)
-class RespondOutcome:
+@dataclass(frozen=True, repr=False)
+class RespondOutcome(DisplayMixin):
     """Result of a full-response run.
 
     Times are in s from the record's first sample; displacements are those of the centre of gravity relative to the ground.

@@ -11,6 +11,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import BlockArray
 from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.core._display import DisplayMixin
 from seisblock.core.checks import fraction, in_interval, non_negative
 from seisblock.core.checks import gravity as check_gravity
 from seisblock.core.errors import BodyError, ParameterError
@@ -115,8 +116,8 @@ def rigid_body(body: Body) -> RigidBody:
     return RigidBody(right, left, body.centre, body.gyration_squared, body.total_mass, body.name)
 
 
-@dataclass(frozen=True)
-class RespondParams:
+@dataclass(frozen=True, repr=False)
+class RespondParams(DisplayMixin):
     """Parameters of a run apart from the ground motion.
 
     Parameters

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.bodies.body_name import body_name
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.results import Phase, make_phases
 from seisblock.dynamics import GuardEvent, Trajectory
@@ -22,8 +23,8 @@ NO_OVERTURNING = FreeRockingOutcome(False, 0, (0.0, 0.0))
 """No motion after the record."""
 
 
-@dataclass(frozen=True)
-class RockOutcome:
+@dataclass(frozen=True, repr=False)
+class RockOutcome(DisplayMixin):
     """Result of a rocking run; times in s from the record's first sample, None without the event.
 
     Parameters

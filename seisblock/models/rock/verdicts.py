@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock.bodies.block import LEFT, RIGHT, Block
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model
@@ -19,8 +20,8 @@ from seisblock.models.rock.simd import ROCKING_SIMD_MODEL
 from seisblock.records import Motion
 
 
-@dataclass(frozen=True)
-class Verdict:
+@dataclass(frozen=True, repr=False)
+class Verdict(DisplayMixin):
     """Overturning and peak tilt over alpha of one run."""
 
     overturned: bool

@@ -10,7 +10,7 @@ from seisblock.records._validation import Gain
 
 
 @documented
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class SlideOptions(SolverOptions):
     """Options of :func:`~seisblock.models.slide.solve.solve_slide`."""
 

@@ -11,6 +11,7 @@ from typing import NoReturn
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, Message, lazy_gettext
 from seisblock.core.options import keywords_of
@@ -34,8 +35,8 @@ _FRICTION_SIGN[[FORWARD, BACKWARD]] = -1.0, 1.0
 """Sign of the kinetic friction force in each mode."""
 
 
-@dataclass(frozen=True)
-class SlideOutcome:
+@dataclass(frozen=True, repr=False)
+class SlideOutcome(DisplayMixin):
     """Result of a sliding run; displacements relative to the base, along it, positive in the component's positive direction.
 
     Parameters

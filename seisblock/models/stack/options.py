@@ -20,7 +20,7 @@ EDGES, GRID = 2, 5
 
 
 @documented
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class StackOptions(SolverOptions):
     """Options of :func:`~seisblock.models.stack.solve.solve_stack`."""
 

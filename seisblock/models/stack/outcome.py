@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.bodies.pile.stone import GROUND
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.results import Channel, Status
@@ -63,8 +64,8 @@ class StoneOutcome:
     fell_onto: str | None
 
 
-@dataclass(frozen=True)
-class StackOutcome:
+@dataclass(frozen=True, repr=False)
+class StackOutcome(DisplayMixin):
     """Response of a pile to a ground motion.
 
     Parameters

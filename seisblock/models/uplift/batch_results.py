@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
 from seisblock.dynamics import Ensemble, Trajectory
 from seisblock.dynamics.buffers import TOTAL
@@ -43,8 +44,8 @@ class UpliftEndStates:
     first: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class UpliftBatchResult:
+@dataclass(frozen=True, eq=False, repr=False)
+class UpliftBatchResult(DisplayMixin):
     """Results of m runs; arrays of shape (m,) unless noted.
 
     Quantities are defined in :class:`~seisblock.models.uplift.outcome.UpliftOutcome`.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.typing import FloatArray
 from seisblock.models.uplift.harmonic import lifting_amplitude, participation, shaking_direction, transfer
@@ -23,8 +24,8 @@ RELATIVE_TOLERANCE = 1e-9
 """Relative difference below which frequencies or thresholds are equal."""
 
 
-@dataclass(frozen=True)
-class UpliftMinimum:
+@dataclass(frozen=True, repr=False)
+class UpliftMinimum(DisplayMixin):
     """Local minimum of the uplift threshold over frequency.
 
     Parameters

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.results import Event, LazySequence, Phase, make_phases
 from seisblock.core.typing import BoolArray, FloatArray, IntArray
@@ -51,8 +52,8 @@ class CornerOutcome:
     max_contact_force_time_s: float
 
 
-@dataclass(frozen=True)
-class UpliftOutcome:
+@dataclass(frozen=True, repr=False)
+class UpliftOutcome(DisplayMixin):
     """Result of an uplift run ([Okumura1987]_ section 2, extended to records).
 
     Parameters

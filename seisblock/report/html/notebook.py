@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seisblock.core._display import PlotMixin, item_repr
 from seisblock.core.i18n import gettext, join_list
 from seisblock.core.results import Response
 from seisblock.core.typing import FloatArray
@@ -22,6 +24,7 @@ from seisblock.report.templating import render_page
 from seisblock.report.text.tables import format_number
 from seisblock.report.units_display import acceleration_unit, length_unit, velocity_unit
 from seisblock.studies.fragility.results import FragilityStudy
+from seisblock.studies.rocking.spectrum import RockingSpectrum
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,7 +72,7 @@ def html(value: Any) -> str:
         verdict=verdict_text(value) if isinstance(value, Response) else "",
         tables=list(_tables(numbers)),
         warnings=[gettext(text) for text in warnings],
-        picture=None if isinstance(value, RecordMeasures) else embed_figure(build_localized(lambda: _figure(value)), title),
+        picture=embed_figure(build_localized(lambda: _figure(value)), title) if isinstance(value, PlotMixin) else None,
     )
 
 
@@ -116,7 +119,14 @@ def _summary(item: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
         keys = ("body", "limit", "median", "unit", "beta", "records")
         curves = [{key: value for key, value in to_builtins(curve).items() if key in keys} for curve in item.curves]
         return item.measure.label, {"solver": item.solver, "method": item.method, "curves": curves}, item.notes
-    return "2R, α", {"overturned": int(item.overturned.sum()), "blocks": item.overturned.size}, ()
+    if isinstance(item, RockingSpectrum):
+        return "2R, α", {"overturned": int(item.overturned.sum()), "blocks": item.overturned.size}, ()
+    return type(item).__name__, {part.name: _plain(getattr(item, part.name)) for part in fields(item) if part.repr}, ()
+
+
+def _plain(value: Any) -> Any:
+    """Return a field of any value for a table: numbers and texts as they are, everything else in short."""
+    return value if value is None or isinstance(value, (bool, int, float, str)) else item_repr(value)
 
 
 def _peak(row: FloatArray) -> float:

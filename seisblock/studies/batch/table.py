@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.registry import Solver
 from seisblock.studies.batch.directions import DIRECTIONS, FALLEN_DIRECTIONS
@@ -35,8 +36,8 @@ def batch_columns(solver: Solver, *, runs: int = 0, all_azimuths: bool = False) 
     return {**KEY_COLUMNS, **directions, **results, WARNINGS: str, REASON: str}
 
 
-@dataclass(frozen=True, eq=False)
-class BatchTable:
+@dataclass(frozen=True, eq=False, repr=False)
+class BatchTable(DisplayMixin):
     """Rows and columns; an empty cell is None.
 
     Parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from seisblock.core._display import exact_repr
 from seisblock.core.errors import SeisblockError
 from seisblock.core.registry import RowResult, Solver, SolverBody
 from seisblock.records import Motion
@@ -16,7 +17,7 @@ def solve_vectorized(solver: Solver, bodies: Sequence[SolverBody], motion: Motio
     groups: dict[str, list[SolverBody]] = {}
     for body in bodies:
         shared = {key: value for key, value in body.options.keywords().items() if key not in solver.row_options}
-        groups.setdefault(repr(shared), []).append(body)
+        groups.setdefault(exact_repr(shared), []).append(body)
     results: dict[str, RowResult] = {}
     for group in groups.values():
         try:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.typing import FloatArray, IntArray
@@ -19,8 +20,8 @@ from seisblock.records._validation import validate_motion
 FELL, MOVED = N_("fell"), N_("moved")
 
 
-@dataclass(frozen=True, eq=False)
-class Observation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Observation(DisplayMixin):
     """One outcome: the motion, and whether the block fell or moved.
 
     Parameters

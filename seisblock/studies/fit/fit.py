@@ -10,6 +10,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
@@ -40,8 +41,8 @@ POSTERIOR_DRAWS = 2000
 """Equally weighted posterior draws for figures and further use."""
 
 
-@dataclass(frozen=True, eq=False)
-class BlockFit:
+@dataclass(frozen=True, eq=False, repr=False)
+class BlockFit(DisplayMixin):
     """Posterior of a block fitted to outcomes.
 
     Parameters

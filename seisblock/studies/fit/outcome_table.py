@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, InputError, ParameterError, SeisblockError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.io.csv_table import (
@@ -50,8 +51,8 @@ NO_PROCESSING = Preparation()
 """Default processing: none beyond that required by the format."""
 
 
-@dataclass(frozen=True, eq=False)
-class OutcomeTable:
+@dataclass(frozen=True, eq=False, repr=False)
+class OutcomeTable(DisplayMixin):
     """Rows of a table of outcomes with a readable record.
 
     Parameters

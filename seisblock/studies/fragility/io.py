@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import InputError, ParameterError, UnitError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.io.files import read_bytes
@@ -21,8 +22,8 @@ from seisblock.studies.hazard.table import UNITS_OF
 SCHEMA_PREFIX = "seisblock/fragility/"
 
 
-@dataclass(frozen=True)
-class FragilityCurve:
+@dataclass(frozen=True, repr=False)
+class FragilityCurve(DisplayMixin):
     """Lognormal fragility curve with its body, limit state and intensity measure.
 
     Parameters

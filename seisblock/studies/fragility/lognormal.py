@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import Message, lazy_gettext
 from seisblock.core.typing import ArrayLike, FloatArray
@@ -22,8 +23,8 @@ MAX_LOG_MEDIAN = 100.0
 """Logarithm of a median above which there is no curve."""
 
 
-@dataclass(frozen=True)
-class Lognormal:
+@dataclass(frozen=True, repr=False)
+class Lognormal(DisplayMixin):
     """Probability that rises with the intensity x as Phi(ln(x/median)/beta) ([Baker2015]_ eq. (1)).
 
     Parameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from seisblock.core._display import PlotMixin
+from seisblock.core._display import DisplayMixin, PlotMixin
 from seisblock.records import Record, Storey
 from seisblock.studies.fragility.intensity import IntensityMeasure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -117,8 +117,8 @@ class Efficiency:
 Interval = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Fragility:
+@dataclass(frozen=True, repr=False)
+class Fragility(DisplayMixin):
     """Fragility curve of one body and one limit state.
 
     Parameters
@@ -188,7 +188,7 @@ class Fragility:
         return None if self.median is None or self.beta is None else Lognormal(self.median, self.beta)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FragilityStudy(PlotMixin):
     """Fragility curves of some bodies and limit states over one suite of records.
 

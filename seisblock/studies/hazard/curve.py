@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import HazardError
 from seisblock.core.typing import ArrayLike, FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class HazardCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class HazardCurve(DisplayMixin):
     """Annual exceedance frequency of an intensity.
 
     Between two levels the frequency is a power of the intensity, a straight line on two logarithmic axes; beyond the first and the last
@@ -97,8 +98,8 @@ class HazardCurve:
         return HazardCurve(union, np.minimum.accumulate(rates), self.name, self.weight)
 
 
-@dataclass(frozen=True, eq=False)
-class Hazard:
+@dataclass(frozen=True, eq=False, repr=False)
+class Hazard(DisplayMixin):
     """Site hazard in one intensity measure: one curve, or the branches of a logic tree.
 
     Parameters

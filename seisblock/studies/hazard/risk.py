@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -93,8 +94,8 @@ class BranchRisk:
     weight_after: float | None
 
 
-@dataclass(frozen=True)
-class Risk:
+@dataclass(frozen=True, repr=False)
+class Risk(DisplayMixin):
     """Annual frequency of a limit state at a site.
 
     Parameters

@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.factory import block_for_motion
 from seisblock.bodies.pile.pile import Pile
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.registry import Solver, SolverBody, get_solver, solver_names
@@ -96,8 +97,8 @@ class StationModel(Protocol):
         """Return the response to a record."""
 
 
-@dataclass(frozen=True)
-class StationBody:
+@dataclass(frozen=True, repr=False)
+class StationBody(DisplayMixin):
     """A body, evaluated in all azimuths if its solver supports them, else along the horizontal components; the worst counts.
 
     Parameters
@@ -243,8 +244,8 @@ def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
     )
 
 
-@dataclass(frozen=True)
-class StationCemetery:
+@dataclass(frozen=True, repr=False)
+class StationCemetery(DisplayMixin):
     """A cemetery, assessed by PGA and equivalent frequency in every direction.
 
     Parameters

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ComponentError, KindError, ParameterError, SeisblockError
 from seisblock.core.typing import FloatArray, Progress
 from seisblock.measures.baseline import ground_history
@@ -44,8 +45,8 @@ OUTLINE_POINTS = 160
 """Points of an outline."""
 
 
-@dataclass(frozen=True)
-class StationReport:
+@dataclass(frozen=True, repr=False)
+class StationReport(DisplayMixin):
     """Report of one station.
 
     Parameters
@@ -112,8 +113,8 @@ class StationReport:
         return " ".join(part for part in (self.station, self.name) if part) or self.record
 
 
-@dataclass(frozen=True)
-class Stations:
+@dataclass(frozen=True, repr=False)
+class Stations(DisplayMixin):
     """Stations of one earthquake, largest response first, those without a result last.
 
     Parameters

@@ -11,6 +11,7 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.scan.body import ScannedBody
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.models.respond.batch import RespondBatchResult, respond_many
 from seisblock.models.respond.options import RespondOptions
@@ -19,8 +20,8 @@ from seisblock.records import Record
 from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 
 
-@dataclass(frozen=True)
-class RespondAzimuth:
+@dataclass(frozen=True, repr=False)
+class RespondAzimuth(DisplayMixin):
     """Response of the body with its +x axis at one azimuth.
 
     Parameters

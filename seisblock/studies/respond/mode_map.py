@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_CELLS, check_limit
@@ -36,8 +37,8 @@ CHUNK_SIZE = 200
 """Cells between two progress reports."""
 
 
-@dataclass(frozen=True, eq=False)
-class ModeMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class ModeMap(DisplayMixin):
     """Governing mode over a grid of bodies (rows) and friction coefficients (columns).
 
     Parameters

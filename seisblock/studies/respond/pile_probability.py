@@ -15,6 +15,7 @@ from seisblock.bodies.pile.edge_wear import widest_wear, worn_to
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import SolverError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
@@ -32,8 +33,8 @@ SIZE, AMPLITUDE, AZIMUTH, INSET, FRICTION = range(5)
 """Columns of the draws; from ``FRICTION`` on, one column per stone."""
 
 
-@dataclass(frozen=True)
-class PileVariation:
+@dataclass(frozen=True, repr=False)
+class PileVariation(DisplayMixin):
     """Half widths of the samples of a pile; each parameter varies uniformly and independently.
 
     Parameters
@@ -67,8 +68,8 @@ class PileVariation:
         checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
 
 
-@dataclass(frozen=True)
-class StoneProbability:
+@dataclass(frozen=True, repr=False)
+class StoneProbability(DisplayMixin):
     """Overturning probability of one stone of a pile, and the direction of its falls.
 
     Parameters
@@ -95,8 +96,8 @@ class StoneProbability:
     fell_alike_ratio: float | None
 
 
-@dataclass(frozen=True)
-class PileProbability:
+@dataclass(frozen=True, repr=False)
+class PileProbability(DisplayMixin):
     """Overturning probability of a pile and of each of its stones.
 
     Parameters

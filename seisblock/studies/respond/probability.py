@@ -17,6 +17,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import samples, within
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
@@ -42,8 +43,8 @@ CHUNK_SIZE = 100
 """Samples between two progress reports."""
 
 
-@dataclass(frozen=True)
-class ParameterVariation:
+@dataclass(frozen=True, repr=False)
+class ParameterVariation(DisplayMixin):
     """Half widths of the samples around the nominal values; each parameter varies uniformly and independently.
 
     Parameters
@@ -82,8 +83,8 @@ class ParameterVariation:
         checks.in_interval("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
 
 
-@dataclass(frozen=True)
-class Probability:
+@dataclass(frozen=True, repr=False)
+class Probability(DisplayMixin):
     """Overturning probability, and probability of a residual displacement.
 
     Parameters

@@ -12,6 +12,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import to_block_array
 from seisblock.bodies.scan.body import ScannedBody
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import Progress
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_batch_params
@@ -21,8 +22,8 @@ from seisblock.studies.azimuths import STEP_DEG, make_azimuth_sweep
 from seisblock.studies.rocking.verdicts import parallel_verdicts
 
 
-@dataclass(frozen=True)
-class RockAzimuth:
+@dataclass(frozen=True, repr=False)
+class RockAzimuth(DisplayMixin):
     """Rocking of a block with its +x axis at one azimuth.
 
     Parameters

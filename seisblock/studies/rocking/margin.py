@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import MAX_RUNS, check_limit
@@ -40,8 +41,8 @@ NEARBY_SHARE = 0.02
 NEARBY_STEPS = 41
 
 
-@dataclass(frozen=True)
-class FactorRange:
+@dataclass(frozen=True, repr=False)
+class FactorRange(DisplayMixin):
     """Range of factors with one verdict."""
 
     first: float
@@ -49,8 +50,8 @@ class FactorRange:
     overturned: bool
 
 
-@dataclass(frozen=True)
-class Margin:
+@dataclass(frozen=True, repr=False)
+class Margin(DisplayMixin):
     """Verdict as a function of the factor on the record.
 
     Parameters

@@ -10,6 +10,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.block_array import samples
 from seisblock.bodies.uncertainty import ParameterRanges
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
@@ -27,8 +28,8 @@ AMPLITUDE, AZIMUTH = 3, 4
 """Columns of the draws that change the shaking."""
 
 
-@dataclass(frozen=True)
-class Spread:
+@dataclass(frozen=True, repr=False)
+class Spread(DisplayMixin):
     """Half widths of the uniform changes: relative, and in degrees for the azimuth.
 
     Parameters
@@ -58,8 +59,8 @@ class Spread:
         checks.in_interval("the relative spread of the edge wear", self.inset, "[0, 1)")
 
 
-@dataclass(frozen=True)
-class Perturbation:
+@dataclass(frozen=True, repr=False)
+class Perturbation(DisplayMixin):
     """Overturning probability of a rocking block: parameter variation only, model error not included.
 
     On fitted shaking-table runs of real rocks the share is well calibrated between its ends, but 3 % overturned in runs without an

@@ -30,7 +30,7 @@ AFTER_RECORD_S = 1e9
 """Time assigned to an overturning after the record, s."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RockingSpectrum(PlotMixin):
     """Peak tilt over a grid of rectangular blocks.
 

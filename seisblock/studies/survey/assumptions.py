@@ -11,6 +11,7 @@ import numpy as np
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
 from seisblock.bodies.edge_wear import EdgeWear
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.typing import FloatArray
 from seisblock.studies.survey.likelihood import (
     BIAS,
@@ -41,8 +42,8 @@ FREQUENCY_SIGMAS, FREQUENCY_STEPS = 2.5, 11
 """Standard deviations to each side, and steps, of the average over a given frequency."""
 
 
-@dataclass(frozen=True)
-class Assumptions:
+@dataclass(frozen=True, repr=False)
+class Assumptions(DisplayMixin):
     """Assumptions of a shaking estimate.
 
     Parameters

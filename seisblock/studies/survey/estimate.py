@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.typing import FloatArray
 from seisblock.criteria.gravestones import DOWELLED_NOTE, fit_range_warnings
@@ -26,8 +27,8 @@ PLAIN_STONES, DOWELLED_STONES, ALL_STONES = N_("not reinforced"), N_("reinforced
 Interval = tuple[float | None, float | None]
 
 
-@dataclass(frozen=True)
-class ShakingEstimate:
+@dataclass(frozen=True, repr=False)
+class ShakingEstimate(DisplayMixin):
     """Estimate from a group of stones at one frequency; the fields are the keys of one result in the document of ``infer``.
 
     Parameters

@@ -25,6 +25,7 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import BodyError, ParameterError
 from seisblock.core.typing import FloatArray, IntArray
 from seisblock.studies.survey.limits import Limits, fitted_limits
@@ -51,8 +52,8 @@ POINTS_PER_ERROR = 16
 """Grid points per standard deviation; integrals of smooth functions are then accurate to 1e-10."""
 
 
-@dataclass(frozen=True, eq=False)
-class Survey:
+@dataclass(frozen=True, eq=False, repr=False)
+class Survey(DisplayMixin):
     """Counts of fallen and standing stones.
 
     Parameters

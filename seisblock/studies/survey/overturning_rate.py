@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import lazy_gettext
 from seisblock.core.typing import ArrayLike, BoolArray
 from seisblock.core.units import GAL
@@ -29,8 +30,8 @@ MIN_PLAUSIBLE_PGA = 20.0 * GAL
 """A lower PGA, m/s^2, was probably given in another unit than gal: not even H/B = 40 overturns."""
 
 
-@dataclass(frozen=True)
-class OverturningRate:
+@dataclass(frozen=True, repr=False)
+class OverturningRate(DisplayMixin):
     """Overturning rate of a cemetery.
 
     Parameters

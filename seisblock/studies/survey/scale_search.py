@@ -16,6 +16,7 @@ import numpy as np
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.core import checks
+from seisblock.core._display import DisplayMixin
 from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS, check_limit
 from seisblock.core.typing import FloatArray, Progress
@@ -65,8 +66,8 @@ class ScaleFactor:
     leaps: bool
 
 
-@dataclass(frozen=True)
-class ScaleFactors:
+@dataclass(frozen=True, repr=False)
+class ScaleFactors(DisplayMixin):
     """All factors up to a limit; the fields are the keys of one result in the document of ``infer``.
 
     Parameters
