@@ -10,7 +10,7 @@ import numpy as np
 from seisblock.core import checks
 from seisblock.core._display import DisplayMixin
 from seisblock.core.errors import ParameterError
-from seisblock.core.typing import FloatArray
+from seisblock.core.typing import FloatArray, IntArray
 from seisblock.core.units import STANDARD_GRAVITY
 
 Side = Literal["both", "positive", "negative"]
@@ -104,7 +104,7 @@ def intervals_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     if signs is None:
         raise ParameterError("`side` must be both, positive or negative, found {side!r}", side=side)
     # intervals of opposite sign cannot overlap, because the threshold is positive
-    intervals = np.concatenate([_intervals_one_sided(sign * acceleration, dt, threshold) for sign in signs])
+    intervals = np.concatenate([_intervals_one_sided(acceleration, dt, threshold, sign) for sign in signs])
     result: FloatArray = intervals[intervals[:, 0].argsort()]
     return result
 
@@ -139,15 +139,19 @@ def duration_above(acceleration: FloatArray, dt: float, threshold: float, *, sid
     return Duration(float(threshold), float(lengths.sum()), float(lengths.max(initial=0.0)), int(lengths.size))
 
 
-def _intervals_one_sided(values: FloatArray, dt: float, threshold: float) -> FloatArray:
-    """Return the intervals, (k, 2), s, in which piecewise linear values reach the threshold; intervals of length zero are dropped."""
-    excess = values - threshold
-    is_above = excess >= 0
+def _intervals_one_sided(values: FloatArray, dt: float, threshold: float, sign: float) -> FloatArray:
+    """Return the intervals, (k, 2), s, in which piecewise linear values times a sign reach the threshold, without those of length zero."""
+    # comparisons only: day-long records need no temporary row of their own size
+    is_above = values >= threshold if sign > 0.0 else values <= -threshold
     rises = np.flatnonzero(~is_above[:-1] & is_above[1:])
     falls = np.flatnonzero(is_above[:-1] & ~is_above[1:])
+
+    def excess(samples: IntArray) -> FloatArray:
+        return sign * values[samples] - threshold
+
     # zeros of the linear interpolant
-    starts = dt * (rises + excess[rises] / (excess[rises] - excess[rises + 1]))
-    ends = dt * (falls + excess[falls] / (excess[falls] - excess[falls + 1]))
+    starts = dt * (rises + excess(rises) / (excess(rises) - excess(rises + 1)))
+    ends = dt * (falls + excess(falls) / (excess(falls) - excess(falls + 1)))
     # intervals cut by the ends of the record
     if is_above[0]:
         starts = np.concatenate(([0.0], starts))

@@ -8,7 +8,7 @@ from seisblock.bodies.block import Block
 from seisblock.criteria.compare import CriterionResult, overturning_card
 from seisblock.measures import Conventions
 from seisblock.measures.shaking import BodyShaking, response_shaking
-from seisblock.measures.summary import ComponentPeaks, component_peaks, conventions_of
+from seisblock.measures.summary import ComponentPeaks, MotionPeaks, component_peaks, conventions_of
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.outcome import RockOutcome
 from seisblock.models.rock.solve import solve_rock
@@ -90,7 +90,7 @@ def compare_criteria(
         peaks,
         rows,
         response.outcome,
-        response_shaking(response),
+        response_shaking(response, peaks=MotionPeaks(peaks.pga_m_s2, peaks.pgv_m_s, peaks.equivalent_frequency_hz.pga_pgv)),
         conventions.velocity_highpass_hz,
         response.warnings,
         comparison,

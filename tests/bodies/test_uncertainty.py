@@ -105,7 +105,7 @@ def test_output_states_origin_of_samples():
     record = ("synthetic_jma.csv", "--window", "25:28", "--component", "NS", "--block")
     for words, expected in (
         (
-            ("rock", *record, "refrigerator", "--perturb", "3"),
+            ("rock", *record, "refrigerator", "--perturb", "3", "--details"),
             "samples with size ±5 %, slenderness ±5 %, edge wear 3 % to 9 % of the width,",
         ),
         (
@@ -113,7 +113,7 @@ def test_output_states_origin_of_samples():
             "Parameter variation only (model error not included): width and height ±5 %, "
             "edge wear 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
         ),
-        (("rock", *record, "bookcase", "--perturb", "3"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
+        (("rock", *record, "bookcase", "--perturb", "3", "--details"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
         (
             ("respond", *record, "bookcase", "--runs", "3"),
             "Parameter variation only (model error not included): width and height ±5 %, sharp edges, mu 0.2 to 0.7,",

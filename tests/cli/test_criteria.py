@@ -24,6 +24,7 @@ def test_criteria_document_has_rows_and_simulated_outcome(run):
     assert found["schema"] == "seisblock/criteria/1"
     for result, simulated in zip(found["results"], rocked["results"], strict=True):
         assert result["component"] == simulated.pop("component")
+        assert result["shaking"] == simulated.pop("shaking")
         assert result["simulated"] == simulated
         for row in result["criteria"]:
             assert row["overturns"] == (row["demand"] > row["threshold"])

@@ -22,8 +22,8 @@ def test_no_motion_headline_states_factor_to_move():
     still = motion("NS", 0.1)
     peak = np.abs(still.horizontal).max()
     found = {
-        describe(solve_rock(Block(0.3, 0.9), still)): 9.80665 / 3.0,
-        slide_sentence(solve_slide(SlidingBase(0.3), still)): 0.3 * 9.80665,
+        describe(solve_rock(Block(0.3, 0.9), still, vertical=False)): 9.80665 / 3.0,
+        slide_sentence(solve_slide(SlidingBase(0.3), still, vertical=False)): 0.3 * 9.80665,
         respond_verdict(solve_respond(Block(0.45, 1.8), still, mu=0.2, vertical=False)): 0.2 * 9.80665,
         jump_verdict(solve_jump(PAVILION, still, contact=Contact(mu=0.18))): 4.6124,
     }

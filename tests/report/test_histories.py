@@ -216,7 +216,7 @@ def test_visible_phases_are_shaded():
 
 def test_block_at_rest_has_ground_motion_panel_only():
     """F3: a block at rest has its ground motion and nothing empty beside it."""
-    at_rest = solve_rock(Block(0.8, 1.0), motion())
+    at_rest = solve_rock(Block(0.8, 1.0), motion(), vertical=False)
     axes = response_figure([at_rest]).axes
     assert [axis.get_ylabel() for axis in axes] == ["", "a (gal)"]
     with_names = [text.get_text() for axis in axes if axis.get_legend() for text in axis.get_legend().get_texts()]

@@ -20,6 +20,7 @@ from seisblock.dynamics import integrate_many
 from seisblock.models.rock import model as rocking
 from seisblock.models.rock.options import RockOptions
 from seisblock.models.rock.params import rock_params
+from seisblock.models.stack.options import StackOptions
 from seisblock.records import Component, scale_to_pga
 from seisblock.studies.criteria_comparison import compare_criteria
 from seisblock.studies.model_comparison import compare_pile_models
@@ -212,12 +213,12 @@ def test_memory_per_sample_of_outcome(named, monkeypatch):
 def check_models_with_pile(record, motion):
     """Look at each sample of the three rows, as a pile does, and ask the other models."""
     assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.segments((True, True, True)))
-    answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options={"gravity_m_s2": 9.81})
+    answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options=StackOptions(gravity=9.81, vertical=False))
     return compare_pile_models(answer)
 
 
 STUDIES = {
-    "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, options=RockOptions(gravity=9.81)).agreement,
+    "criteria": lambda record, motion: compare_criteria(record, motion, BLOCK, options=RockOptions(gravity=9.81, vertical=False)).agreement,
     "stack": check_models_with_pile,
 }
 

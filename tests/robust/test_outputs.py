@@ -386,14 +386,14 @@ def test_process_substitution_is_written_through(folder):
 
 
 REFUSED = {
-    "an unknown figure": (["--plot", "out.xyz"], "must end in .png, .svg, .pdf"),
-    "an unknown film": (["--animate", "out.avi"], "must end in .gif, .mp4, .html"),
+    "an unknown figure": (["--plot", "out.xyz"], "must end in .png, .svg or .pdf"),
+    "an unknown film": (["--animate", "out.avi"], "must end in .gif, .mp4 or .html"),
     "a film without ffmpeg": (["--animate", "out.mp4"], "ffmpeg not found"),
     "a folder that is not there": (["--csv", "nowhere/out.csv"], "the folder nowhere does not exist"),
     "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "the same file"),
-    "a table that says it is a workbook": (["--csv", "out.xlsx"], "cannot write CSV to out.xlsx: the name must end in .csv, .txt"),
-    "a table that says it is a picture": (["--csv", "out.PNG"], "the name must end in .csv, .txt"),
-    "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv, .txt"),
+    "a table that says it is a workbook": (["--csv", "out.xlsx"], "cannot write CSV to out.xlsx: the name must end in .csv or .txt"),
+    "a table that says it is a picture": (["--csv", "out.PNG"], "the name must end in .csv or .txt"),
+    "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv or .txt"),
     "a size of no figure": (["--size", "18x12"], "require --plot"),
     "dots of no figure": (["--dpi", "100"], "require --plot"),
     "a slow motion of no film": (["--slow", "4"], "--slow requires --animate"),
@@ -412,12 +412,12 @@ def test_output_path_is_checked_before_solving(what, folder, monkeypatch):
 
 
 OTHER_NAMES = (
-    ("report not_there.csv -o page.pdf", "cannot write HTML to page.pdf: the name must end in .html, .htm"),
-    ("validate --quick --html page.xlsx", "the name must end in .html, .htm"),
-    ("map not_there.csv --html page.png", "the name must end in .html, .htm"),
-    ("map not_there.csv --geojson points.shp", "cannot write GeoJSON to points.shp: the name must end in .geojson, .json"),
-    ("measure not_there.csv --csv rows.json", "the name must end in .csv, .txt"),
-    ("overturn-rate --cemetery aoyama.csv --csv rows.tsv", "the name must end in .csv, .txt"),
+    ("report not_there.csv -o page.pdf", "cannot write HTML to page.pdf: the name must end in .html or .htm"),
+    ("validate --quick --html page.xlsx", "the name must end in .html or .htm"),
+    ("map not_there.csv --html page.png", "the name must end in .html or .htm"),
+    ("map not_there.csv --geojson points.shp", "cannot write GeoJSON to points.shp: the name must end in .geojson or .json"),
+    ("measure not_there.csv --csv rows.json", "the name must end in .csv or .txt"),
+    ("overturn-rate --cemetery aoyama.csv --csv rows.tsv", "the name must end in .csv or .txt"),
 )
 
 

@@ -17,6 +17,8 @@ from seisblock.report.text.model_comparison import agreement_part, perturbation_
 from seisblock.report.text.respond import direction_sentence, fall_azimuth, rocking_text
 from seisblock.report.text.shaking import shaking_lines
 from seisblock.report.text.tables import (
+    DASH,
+    Part,
     acceleration_cell,
     details,
     format_acceleration,
@@ -57,7 +59,10 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
         pairs, lambda pair: pair[0].motion.record, lambda pair: [styled_line(describe(pair[0], mu, gal=gal))]
     ):
         yield from heading
-        yield _outcome_table([r for r, _ in part], gal=gal)
+        selected = [response for response, _ in part]
+        outcome_table = _outcome_table(selected, gal=gal)
+        has_margin = any("margin" in extra for _, extra in part)
+        yield Part((outcome_table,), (_outcome_table(selected, gal=gal, empty_rows=False),)) if has_margin else outcome_table
         yield from shaking_lines([r for r, _ in part], gal=gal)
         for response, extra in part:
             yield from sentences(response, extra)
@@ -67,7 +72,7 @@ def tables(responses: RockResponses, extras: Sequence[Mapping[str, Any]], *, gal
                 yield details(_direction_table(extra["directions"]))
 
 
-def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
+def _outcome_table(responses: RockResponses, *, gal: bool, empty_rows: bool = True) -> Any:
     outcomes = [response.outcome for response in responses]
     first, body = outcomes[0], responses[0].body
     varies = any(response.body != body for response in responses)
@@ -99,7 +104,8 @@ def _outcome_table(responses: RockResponses, *, gal: bool) -> Any:
         (gettext("  at (s)"), [format_seconds(o.max_friction_demand_s) for o in outcomes]),
         (gettext("contact lost (s)"), [format_seconds(o.contact_lost_s) for o in outcomes]),
     ]
-    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+    filled = [[heading, *cells] for heading, cells in rows if empty_rows or any(cell != DASH for cell in cells)]
+    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], filled)
 
 
 def _block_rows(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:
