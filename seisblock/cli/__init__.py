@@ -61,8 +61,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "spectrum": N_("Rocking and overturning spectra over size and slenderness."),
     },
     N_("Evidence"): {
-        "criteria": N_("Closed-form overturning criteria beside the simulated outcome."),
-        "validate": N_("Numbers printed in the papers beside the computed ones."),
+        "criteria": N_("Closed-form overturning criteria compared with the simulated outcome."),
+        "validate": N_("Numbers printed in the papers compared with the computed ones."),
         "cite": N_("References of a command, as text or BibTeX."),
     },
     N_("Tools"): {
