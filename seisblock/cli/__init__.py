@@ -238,8 +238,8 @@ class SeisblockGroup(click.Group):
 def main() -> None:
     """Seismic response of unanchored objects: sliding, rocking, overturning.
 
-    RECORD is any strong-motion file: of a format that --format lists (of K-NET or KiK-net: one file of the set, or the downloaded
-    archive), a table, or of any format that ObsPy reads. Default: a bundled sample record.
+    RECORD is a strong-motion file in a format that --format lists (K-NET and KiK-net: one file of the set, or the downloaded
+    archive), a table, or a file in any format that ObsPy reads. Default: a bundled sample record.
     """
 
 
