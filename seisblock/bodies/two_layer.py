@@ -172,7 +172,7 @@ class Contact(DisplayMixin):
 
     mu: float = field(
         metadata=option(
-            N_("Static friction coefficient of the foot that landed. [default: the body's own, else required]"),
+            N_("Static friction coefficient of the foot that landed. [default: value of the body, else required]"),
             "--mu",
             unit="1",
             kind="friction",
@@ -182,7 +182,7 @@ class Contact(DisplayMixin):
     mu_kinetic: float | None = field(
         default=None,
         metadata=option(
-            N_("Kinetic friction coefficient. [default: the body's own, else as --mu]"),
+            N_("Kinetic friction coefficient. [default: value of the body, else as --mu]"),
             "--mu-kinetic",
             unit="1",
             kind="friction",
@@ -193,7 +193,7 @@ class Contact(DisplayMixin):
     restitution_x: float = field(
         default=0.95,
         metadata=option(
-            N_("Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]"),
+            N_("Ratio of horizontal velocities at the impact, 0 to 1. [default: value of the body, else 0.95]"),
             "--restitution-x",
             unit="1",
             section="Body",
@@ -202,7 +202,7 @@ class Contact(DisplayMixin):
     restitution_y: float = field(
         default=0.85,
         metadata=option(
-            N_("Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]"),
+            N_("Ratio of vertical velocities at the impact, 0 to 1. [default: value of the body, else 0.85]"),
             "--restitution-y",
             unit="1",
             section="Body",

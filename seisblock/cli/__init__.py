@@ -61,8 +61,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "spectrum": N_("Rocking and overturning spectra over size and slenderness."),
     },
     N_("Evidence"): {
-        "criteria": N_("Closed-form overturning criteria beside the simulated outcome."),
-        "validate": N_("Numbers printed in the papers beside the computed ones."),
+        "criteria": N_("Closed-form overturning criteria compared with the simulated outcome."),
+        "validate": N_("Numbers printed in the papers compared with the computed ones."),
         "cite": N_("References of a command, as text or BibTeX."),
     },
     N_("Tools"): {
@@ -238,8 +238,8 @@ class SeisblockGroup(click.Group):
 def main() -> None:
     """Seismic response of unanchored objects: sliding, rocking, overturning.
 
-    RECORD is any strong-motion file: of a format that --format lists (of K-NET or KiK-net: one file of the set, or the downloaded
-    archive), a table, or of any format that ObsPy reads. Default: a bundled sample record.
+    RECORD is a strong-motion file in a format that --format lists (K-NET and KiK-net: one file of the set, or the downloaded
+    archive), a table, or a file in any format that ObsPy reads. Default: a bundled sample record.
     """
 
 

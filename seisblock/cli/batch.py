@@ -37,7 +37,7 @@ from seisblock.core.registry import solver_names
     help="Table of bodies (.csv: name, width, height in m, mu, ...), file that describes one body, or bundled body; may be repeated.",
 )
 @option("--solver", type=SuggestingChoice(solver_names()), default="respond", show_default=True, help="Model that computes the response.")
-@option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies without a friction of their own.")
+@option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies for which none is given.")
 @option("--vertical/--no-vertical", default=None, help="Apply or omit the vertical component. [default: applied where the record has one]")
 @option(
     "--runs",

@@ -31,7 +31,7 @@ def solver_options(kind: type, *names: str, exclude: Iterable[str] = ()) -> Deco
     exclude : iterable of str
         Fields without an option.
     """
-    table = {name: (described, field) for name, described, field in option_fields(kind) if described.flag and name not in exclude}
+    table = {name: (spec, field) for name, spec, field in option_fields(kind) if spec.flag and name not in exclude}
     hints = get_type_hints(kind)
     declared = [_declare(name, hints[name], *table[name]) for name in names or table]
 
@@ -43,30 +43,28 @@ def solver_options(kind: type, *names: str, exclude: Iterable[str] = ()) -> Deco
     return decorate
 
 
-def _declare(name: str, hint: Any, described: OptionField, field: Field[Any]) -> Decorator:
+def _declare(name: str, hint: Any, spec: OptionField, field: Field[Any]) -> Decorator:
     """Return the click option of one field."""
-    attributes: dict[str, Any] = {"help": described.help, "section": described.section}
-    if "/" in described.flag:
-        return option(described.flag, name, default=_default(field), **attributes)
+    attributes: dict[str, Any] = {"help": spec.help, "section": spec.section}
+    if "/" in spec.flag:
+        return option(spec.flag, name, default=_default(field), **attributes)
     if hint is bool:
-        return option(described.flag, name, is_flag=True, **attributes)
-    if described.interval in CHECKS:
-        attributes["callback"] = check_callback(CHECKS[described.interval])
-    if described.choices:
-        attributes["type"] = SuggestingChoice(list(described.choices))
+        return option(spec.flag, name, is_flag=True, **attributes)
+    if spec.interval in CHECKS:
+        attributes["callback"] = check_callback(CHECKS[spec.interval])
+    if spec.choices:
+        attributes["type"] = SuggestingChoice(list(spec.choices))
     else:
-        attributes |= {"type": _parameter_type(described, hint), "metavar": described.metavar}
+        attributes |= {"type": _parameter_type(spec, hint), "metavar": spec.metavar}
     default = _default(field)
-    return option(
-        described.flag, name, default=default, show_default=default is not None and "[default" not in described.help, **attributes
-    )
+    return option(spec.flag, name, default=default, show_default=default is not None and "[default" not in spec.help, **attributes)
 
 
-def _parameter_type(described: OptionField, hint: Any) -> Any:
+def _parameter_type(spec: OptionField, hint: Any) -> Any:
     """Return the click type of the values of an option."""
-    if described.kind == "friction":
+    if spec.kind == "friction":
         return MU
-    quantity = {"m": LENGTH, "kg": MASS}.get(described.unit)
+    quantity = {"m": LENGTH, "kg": MASS}.get(spec.unit)
     return quantity or (hint if hint in (int, str) else float)
 
 

@@ -168,7 +168,7 @@ def _option_file_option() -> click.Option:
         if value is not None and not ctx.resilient_parsing:
             ctx.default_map = {**read_option_file(value, ctx.command), **(ctx.default_map or {})}
 
-    text = N_("TOML file of options, such as mu = 0.3; options of the line take precedence.")
+    text = N_("TOML file of options, such as mu = 0.3; options on the command line take precedence.")
     path = click.Path(path_type=Path, dir_okay=False)
     return Option(["--options"], type=path, is_eager=True, expose_value=False, callback=load, section="Output", metavar="FILE", help=text)
 

@@ -1,4 +1,4 @@
-"""``seisblock criteria``: closed-form overturning criteria beside the simulated outcome."""
+"""``seisblock criteria``: closed-form overturning criteria compared with the simulated outcome."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from seisblock.models.rock.options import RockOptions
     "--mu",
     type=MU,
     section="Body",
-    help="Static friction coefficient under the block for the simulated outcome. [default: the body's own, else no sliding]",
+    help="Static friction coefficient under the block for the simulated outcome. [default: value of the body, else no sliding]",
 )
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: the body's own, else as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: value of the body, else as --mu]")
 @solver_options(RockOptions, "gravity")
 @output_options(histories=False, film=False)
 def criteria(
@@ -49,7 +49,7 @@ def criteria(
     mu_kinetic: float | None,
     **body: Any,
 ) -> None:
-    """All closed-form overturning criteria beside the simulated outcome, for each component.
+    """All closed-form overturning criteria compared with the simulated outcome, for each component.
 
     A criterion predicts overturning when the demand (PGA or PGV of the record) exceeds its threshold. Criteria that need a frequency
     take the equivalent frequency of the record in each of its three definitions. The simulated outcome is that of respond: sliding,

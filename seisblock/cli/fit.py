@@ -66,7 +66,7 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 @option(
     "--outcome",
     type=click.Choice(["fell", "moved"]),
-    help="Column of outcomes, where the table has both. [default: fell]",
+    help="Column of outcomes, where the table has fell and moved. [default: fell]",
 )
 @option(
     "--free",

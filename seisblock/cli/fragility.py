@@ -67,7 +67,7 @@ METHODS = ("stripes", "ida", "cloud")
     type=MU,
     section="Body",
     metavar="MU",
-    help="Static friction coefficient of the body, or of those of --bodies without a friction of their own.",
+    help="Static friction coefficient of the body, or of those of --bodies for which none is given.",
 )
 @option(
     "--restitution",
@@ -81,8 +81,8 @@ METHODS = ("stripes", "ida", "cloud")
     "--limit",
     multiple=True,
     metavar="overturn|rock|slip=5cm|lean=0.5",
-    help="Limit state: overturn; rock, leaves rest; slip=D, displacement of D (m or with a unit) or overturning; lean=R, tilt of R "
-    "times the slenderness, a ratio. Repeated limits share one beta. [default: overturn; slide: slip=1cm]",
+    help="Limit state: overturn, rock (leaves rest), slip=D (displacement of D, m or with a unit, or overturning) or lean=R (tilt of R "
+    "times the slenderness). Repeated limits share one beta. [default: overturn; slide: slip=1cm]",
 )
 @option(
     "--im",

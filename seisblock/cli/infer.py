@@ -62,14 +62,19 @@ JUMPED_OPTIONS = (
     "--mu",
     type=MU,
     section="Body",
-    help="Static friction coefficient (--jumped: of the foot that landed). [default: --jumped: the body's own]",
-)
-@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: --slid: as --mu; --jumped: the body's own]")
-@option(
-    "--restitution-x", type=float, section="Body", help="--jumped: ratio of horizontal velocities at the impact. [default: the body's own]"
+    help="Static friction coefficient (--jumped: of the foot that landed). [default: --jumped: value of the body]",
 )
 @option(
-    "--restitution-y", type=float, section="Body", help="--jumped: ratio of vertical velocities at the impact. [default: the body's own]"
+    "--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: --slid: as --mu; --jumped: value of the body]"
+)
+@option(
+    "--restitution-x",
+    type=float,
+    section="Body",
+    help="--jumped: ratio of horizontal velocities at the impact. [default: value of the body]",
+)
+@option(
+    "--restitution-y", type=float, section="Body", help="--jumped: ratio of vertical velocities at the impact. [default: value of the body]"
 )
 @option(
     "--drop",
@@ -119,7 +124,7 @@ JUMPED_OPTIONS = (
 @option("--flight-only", is_flag=True, help="--jumped: the jump alone was observed, without the slide-rocking after it.")
 @option("--first", is_flag=True, help="--jumped: use only the first chain of motion in the record. [default: sum of all]")
 @option("--repeat", is_flag=True, hidden=True, help="--jumped: sum of all chains of motion; the default since 0.2.0.")
-@landing_option("--jumped: landing impulse of the foot: unlimited friction (paper), or limited by friction (friction).")
+@landing_option("--jumped: friction at the landing of the foot, unlimited (paper) or Coulomb friction (friction).")
 @option(
     "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="--jumped: angular velocity after the impact."
 )

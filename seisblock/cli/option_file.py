@@ -31,7 +31,7 @@ def read_option_file(path: Path, command: click.Command) -> dict[str, Any]:
         table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         reason = os_error_text(error) if isinstance(error, OSError) else str(error)
-        raise click.UsageError(gettext("--options {file}: {error}", file=str(path), error=reason)) from None
+        raise click.UsageError(gettext("cannot read --options {file}: {error}", file=str(path), error=reason)) from None
     own = table.get(command.name or "")
     values = own if isinstance(own, dict) else table
     known = {

@@ -48,7 +48,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     "--mu",
     type=MU,
     section="Body",
-    help="Static friction coefficient under the bodies, for sliding. [default: the body's own, else no sliding]",
+    help="Static friction coefficient under the bodies, for sliding. [default: value of the body, else no sliding]",
 )
 @option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction coefficient. [default: as --mu]")
 @option(

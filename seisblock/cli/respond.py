@@ -55,8 +55,8 @@ def respond(
     Plane motion of one rigid body with Coulomb friction; each horizontal component is solved separately, with the vertical component
     where the record has one, until the object is at rest. The overturning probability is the share of samples of body and motion that
     overturn. Samples vary around the given values; edge wear and friction that are not given are drawn from the ranges of the
-    object's kind (see --vary-inset, --vary-mu). --component all-azimuths sweeps all azimuths and reports the worst. A scanned --block
-    has other dimensions in each azimuth.
+    object's kind (see --vary-inset, --vary-mu). --component all-azimuths sweeps all azimuths and reports the worst. The
+    dimensions of a scanned --block depend on the azimuth.
     """
     from seisblock.cli.progress import progress
     from seisblock.models.respond.solve import solve_respond

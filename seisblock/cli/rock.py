@@ -90,7 +90,7 @@ def rock(
 
     Each horizontal component is solved separately. Rotation is positive towards the component's positive direction. After the end of
     the record, the energy decides whether the block overturns. --component all-azimuths sweeps all azimuths in steps of 5 degrees and
-    reports the worst. A scanned --block has other dimensions in each azimuth.
+    reports the worst. The dimensions of a scanned --block depend on the azimuth.
     """
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.hints import rock_hint

@@ -14,11 +14,11 @@ from seisblock.core.i18n import N_
 from seisblock.core.limits import MAX_RUNS
 
 _SPREAD_OPTIONS = {
-    "size": (0.05, "Samples: half width of width and height, a share of each."),
-    "inset": (0.1, "Samples: half width of a known inset, a share of the inset."),
-    "mu": (0.2, "Samples: half width of the friction coefficient, a share."),
+    "size": (0.05, "Samples: half width of the variation of width and height, a ratio."),
+    "inset": (0.1, "Samples: half width of the variation of a known inset, a ratio."),
+    "mu": (0.2, "Samples: half width of the variation of the friction coefficient, a ratio."),
     "restitution": (0.1, "Samples: half width of the coefficient of restitution; values below 0 are extra losses of rocking impacts."),
-    "amplitude": (0.1, "Samples: half width of the amplitude of the motion, a share."),
+    "amplitude": (0.1, "Samples: half width of the variation of the amplitude of the motion, a ratio."),
     "azimuth": (10.0, "Samples: half width of the azimuth of the motion, degrees."),
 }
 """Default half width of each parameter's variation, and its help text."""

@@ -85,8 +85,8 @@ def _require_mu(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     "--vertical-scale",
     type=FLOATS,
     metavar="GAMMA",
-    help="Scale factor on the vertical component; implies --vertical. A parameter study with either option adds beta, the maximum "
-    "displacement with over without vertical motion. [default: 1]",
+    help="Scale factor on the vertical component; implies --vertical. A parameter study with either option adds beta, the ratio of "
+    "the maximum displacements with and without vertical motion. [default: 1]",
 )
 @solver_options(SlideOptions, "gravity")
 @output_options()

@@ -30,7 +30,7 @@ def solver_command(name: str) -> click.Command:
     """
     solver = get_solver(name)
     if Block not in solver.bodies:
-        raise BodyError("{solver} takes no block: it needs a command of its own", solver=name)
+        raise BodyError("{solver} does not accept a rigid block: write a separate command for it", solver=name)
     help_text = import_module(f"seisblock.models.{name}").__doc__
     function: Callable[..., Any] = output_options()(_run(solver))
     for decorate in (solver_options(solver.options), block_options, record_options):

@@ -53,14 +53,14 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     type=SuggestingChoice(KINDS),
     default="rocking",
     show_default=True,
-    help="Peak tilt over alpha; overturning only; maximum slip against friction; or governing mode over friction and shape or size.",
+    help="rocking: peak tilt over alpha; overturning: yes or no; sliding: maximum slip; modes: governing mode of motion.",
 )
 @option(
     "--mu",
     type=MUS,
     section="Body",
     metavar="LIST|RANGE",
-    help="Friction coefficients, for --kind sliding and modes. [default: 0.02 to 0.8; modes: range that the record can mobilise]",
+    help="Friction coefficients, for --kind sliding and modes. [default: 0.02 to 0.8; modes: range in which the record moves the block]",
 )
 @option(
     "--sizes",
@@ -81,7 +81,7 @@ MIN_SPAN, MAX_SPAN = 0.2, 1.5
     type=FLOATS,
     section="Body",
     metavar="LIST|RANGE",
-    help="Ratios H/B of the blocks. [default: 1.5 to 10; modes: range that the record can mobilise]",
+    help="Ratios H/B of the blocks. [default: 1.5 to 10; modes: range in which the record moves the block]",
 )
 @option(
     "--slenderness-rad",

@@ -77,9 +77,9 @@ MAX_GRID = 29
     metavar="SHARE|M",
     section="Body",
     help="Inset of worn edges from each side of the base of every stone: share of the width (0.1, 10%), or m with a unit (1cm); "
-    "--contact edges. [default: the file's own, or 0]",
+    "--contact edges. [default: value of the file, or 0]",
 )
-@option("--mu", type=MU, help="Static friction coefficient of every joint. [default: the file's own; wagata 0.438]")
+@option("--mu", type=MU, help="Static friction coefficient of every joint. [default: value of the file; wagata 0.438]")
 @solver_options(StackOptions, "mu_kinetic", "restitution")
 @option(
     "--contact",

@@ -1,4 +1,4 @@
-"""``seisblock validate``: numbers printed in the papers beside the computed ones."""
+"""``seisblock validate``: numbers printed in the papers compared with the computed ones."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FAILED = 1
 def validate(
     ctx: click.Context, paper: tuple[str, ...], quick: bool, all_cases: bool, as_json: bool, html: Path | None, details: bool, quiet: bool
 ) -> None:
-    """Numbers printed in the papers beside the computed ones: counts by paper and by kind of evidence; differences with --details.
+    """Numbers printed in the papers compared with the computed ones: counts by paper and by kind of evidence; differences with --details.
 
     Exit code 1 when a case that should agree does not. A case documented as different also fails when it agrees or differs by another
     amount than documented.

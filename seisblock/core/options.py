@@ -73,7 +73,7 @@ def option(help: str, flag: str = "", **attributes: Any) -> dict[str, OptionFiel
     >>> @dataclass(frozen=True)
     ... class Sizes:
     ...     width: float = field(metadata=option("Width.", "--width", unit="m", interval="(0, inf)"))
-    >>> [(described.flag, document_key(name, described)) for name, described, _ in option_fields(Sizes)]
+    >>> [(spec.flag, document_key(name, spec)) for name, spec, _ in option_fields(Sizes)]
     [('--width', 'width_m')]
     """
     return {KEY: OptionField(help, flag, **attributes)}
@@ -95,26 +95,26 @@ class SolverOptions(DisplayMixin):
     """Base of the options of a solver: values are checked against their ranges."""
 
     def __post_init__(self) -> None:
-        for name, described, _ in option_fields(type(self)):
-            check_option(name, described, getattr(self, name))
+        for name, spec, _ in option_fields(type(self)):
+            check_option(name, spec, getattr(self, name))
 
     def keywords(self) -> dict[str, Any]:
         """Return the options as keyword arguments of the solver."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-def check_option(name: str, described: OptionField, value: Any) -> None:
+def check_option(name: str, spec: OptionField, value: Any) -> None:
     """Raise ParameterError for a value outside the range of its option; None is not checked."""
-    if value is None or not described.interval:
+    if value is None or not spec.interval:
         return
-    label = described.label or f"`{name}`"
-    unit = "" if described.unit == "1" else described.unit
-    if described.interval == "(0, inf)":
+    label = spec.label or f"`{name}`"
+    unit = "" if spec.unit == "1" else spec.unit
+    if spec.interval == "(0, inf)":
         checks.positive(label, value, unit)
-    elif described.interval == "[0, inf)":
+    elif spec.interval == "[0, inf)":
         checks.non_negative(label, value, unit)
     else:
-        checks.in_interval(label, value, described.interval, unit)
+        checks.in_interval(label, value, spec.interval, unit)
 
 
 def option_fields(kind: type) -> list[tuple[str, OptionField, Field[Any]]]:
@@ -122,17 +122,17 @@ def option_fields(kind: type) -> list[tuple[str, OptionField, Field[Any]]]:
     return [(field.name, field.metadata[KEY], field) for field in fields(kind) if KEY in field.metadata]
 
 
-def document_key(name: str, described: OptionField) -> str:
+def document_key(name: str, spec: OptionField) -> str:
     """Return the key of an option in documents: its name with its unit."""
-    if described.key:
-        return described.key
-    suffix = unit_suffix(described.unit).lower()
+    if spec.key:
+        return spec.key
+    suffix = unit_suffix(spec.unit).lower()
     return name if name.endswith(suffix) else name + suffix
 
 
-def plain_help(described: OptionField) -> str:
+def plain_help(spec: OptionField) -> str:
     """Return the help text without its default."""
-    return re.sub(r"\s*\[(default|required)[^\]]*\]$", "", described.help)
+    return re.sub(r"\s*\[(default|required)[^\]]*\]$", "", spec.help)
 
 
 Kind = TypeVar("Kind")
@@ -141,10 +141,10 @@ Kind = TypeVar("Kind")
 def documented(kind: type[Kind]) -> type[Kind]:
     """Add the Parameters section of a dataclass of options to its docstring."""
     lines = ["", "", "Parameters", "----------"]
-    for name, described, field in option_fields(kind):
-        unit = f", {described.unit}" if described.unit else ""
+    for name, spec, field in option_fields(kind):
+        unit = f", {spec.unit}" if spec.unit else ""
         default = "" if field.default is MISSING or field.default is None else f" Default: {field.default!r}."
-        lines += [f"{name} : {field.type}{unit}", f"    {plain_help(described)}{default}"]
+        lines += [f"{name} : {field.type}{unit}", f"    {plain_help(spec)}{default}"]
     kind.__doc__ = inspect.cleandoc(kind.__doc__ or "") + "\n".join(lines) + "\n"
     return kind
 

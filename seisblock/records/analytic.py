@@ -258,7 +258,7 @@ def analytic_record(name: str) -> Record:
     options = [term for term in terms if "=" in term]
     values = [term for term in terms if "=" not in term]
     if not at or len(values) != (2 if shape == "sine" else 1) or len(options) > 1:
-        raise ParameterError("{name}: incomplete analytic motion: write, for example, {example}", name=name, example=FORMS[shape])
+        raise ParameterError("incomplete analytic motion {name!r}: write, for example, {example}", name=name, example=FORMS[shape])
     dt = _interval(name, options[0]) if options else None
     if shape == "rectangle":
         return rectangle_motion(
@@ -282,7 +282,7 @@ def _interval(name: str, text: str) -> float:
     """Return the value of ``dt=``."""
     key, _, value = text.partition("=")
     if key.strip().lower() != "dt":
-        raise ParameterError("{name}: unknown {key!r} of an analytic motion: only dt= may follow", name=name, key=key.strip())
+        raise ParameterError("{name}: unknown key {key!r} of an analytic motion; the only key is dt=", name=name, key=key.strip())
     return _quantity(name, value, {"s": 1.0, "ms": 1e-3}, "s", required=False)
 
 

@@ -26,19 +26,17 @@ def describe_edges(body: Block | ScannedBody, *, gal: bool = True) -> str:
     >>> from seisblock.bodies.edge_wear import EdgeWear
     >>> stone = Block(0.24, 0.72).with_wear(EdgeWear(share=0.1))
     >>> print(describe_edges(stone)), print(describe_edges(stone, gal=False))
-    edge wear: inset 2.4 cm (0.1 of the width)
-    edge wear: inset 0.024 m (0.1 of the width)
+    edge wear 2.4 cm (0.1 of the width)
+    edge wear 0.024 m (0.1 of the width)
     (None, None)
     """
     if isinstance(body, ScannedBody):
         return (
-            lazy_gettext("edge wear: inset {inset} from the sides of the base", inset=format_length(body.inset_m, gal=gal))
-            if body.inset_m
-            else ""
+            lazy_gettext("edge wear {inset} from the sides of the base", inset=format_length(body.inset_m, gal=gal)) if body.inset_m else ""
         )
     if not body.inset:
         return ""
-    text = "edge wear: inset {inset} ({share:.3g} of the width)"
+    text = "edge wear {inset} ({share:.3g} of the width)"
     return lazy_gettext(text, inset=format_length(body.inset, gal=gal), share=body.inset / body.width)
 
 

@@ -119,7 +119,7 @@ def test_inset_option_is_equal_in_every_command(run, command):
     assert found[0][0]["results"] == found[1][0]["results"] == found[2][0]["results"]
     assert found[0][0]["parameters"]["block"]["inset_m"] == pytest.approx(0.024)
     assert found[0][0]["parameters"]["block"]["slenderness_right_rad"] == pytest.approx(math.atan(0.8 / 3))
-    assert "edge wear: inset 2.4 cm (0.1 of the width)" in found[0][1]
+    assert "edge wear 2.4 cm (0.1 of the width)" in found[0][1]
 
 
 def test_overturn_rate_converts_old_inset_and_warns(run):

@@ -94,7 +94,7 @@ WHOLE = {
     ("uplift", "--harmonic"): (
         " second rocking in y-z    1.563    1.563   2.821 ",
         " 0.75    0.4126 ",
-        "every 25th of 600 rows; all with --csv or --json",
+        "one row in 25 of 600; all with --csv or --json",
     ),
     ("body", "boulder.ply"): (" 350           11.03       14.56   0.4385        76.65       4.171        254.8 ",),
     ("spectrum", "synthetic_jma.csv"): ("shown: 12 of 40 2R, 9 of 40 H/B; all in --csv and --json",),

@@ -112,7 +112,7 @@ def test_batch_of_scan_without_azimuth_fails_its_row_only(stone, tmp_path):
     record = tmp_path / "record.csv"
     record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
     done = run("rock", record, "--block", stone)
-    assert done.exit_code == 3 and "has other dimensions in each azimuth" in done.stderr.replace("\n", " ")
+    assert done.exit_code == 3 and "depend on the azimuth" in done.stderr.replace("\n", " ")
 
 
 def test_all_azimuths_of_scan_lists_worst_first(stone, tmp_path):

@@ -204,7 +204,7 @@ def test_japanese_spacing_beside_latin_letters(direction, sentence):
 @pytest.mark.parametrize(
     ("text", "values", "sentence"),
     [
-        ("  both, flight (s)", {}, "  滑動ロッキング、空中 (s)"),
+        ("  slide-rock, flight (s)", {}, "  滑動ロッキング、空中 (s)"),
         ("uplift {time:.2f} s", {"time": 35.46}, "浮き上がり 35.46 秒間"),
         ("uplift {time:.2f} s (first)", {"time": 35.46}, "浮き上がり 35.46 秒間（最初）"),
     ],

@@ -88,14 +88,14 @@ def test_names_stand_among_files_in_their_order():
     (
         ("sine:300@1.5Hz,10s", "'300' has no unit"),
         ("sine:300gal@1.5,10s", "'1.5' has no unit"),
-        ("sine:300gal@1.5Hz", "incomplete analytic motion: write, for example, sine:300gal@1.5Hz,10s"),
+        ("sine:300gal@1.5Hz", "incomplete analytic motion 'sine:300gal@1.5Hz': write, for example, sine:300gal@1.5Hz,10s"),
         ("pulse:300gal", "incomplete analytic motion"),
         ("sine:-3gal@1Hz,3s", "must be positive"),
         ("sine:3gal@-1Hz,3s", "must be positive"),
         ("sine:3gal@1Hz,0s", "must be positive"),
         ("sine:3gal@1000000Hz,1000000s", "exceed the limit"),
         ("sine:3gal@1Hz,3s,dt=0.2", "too long for an analytic motion"),
-        ("sine:3gal@1Hz,3s,step=0.2", "only dt= may follow"),
+        ("sine:3gal@1Hz,3s,step=0.2", "the only key is dt="),
         ("rectangle:3cm@1s", "unknown unit"),
     ),
 )

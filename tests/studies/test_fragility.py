@@ -137,8 +137,8 @@ class TestFits:
         [
             ([0, 0, 0, 0], "not exceeded at any level up to 8; use higher"),
             ([10, 10, 10, 10], "at all levels from 1; use lower"),
-            ([0, 0, 10, 10], "never exceeded up to 2, always from 4; use levels between"),
-            ([0, 4, 10, 10], "never exceeded below 2, always above"),
+            ([0, 0, 10, 10], "never exceeded up to 2, always exceeded from 4; add levels between"),
+            ([0, 4, 10, 10], "never exceeded below 2, always exceeded above"),
             ([6, 5, 4, 3], "do not increase with the level"),
         ],
     )
@@ -291,7 +291,7 @@ class TestRuns:
         assert curve.beta == pytest.approx(exact.std(ddof=1), abs=half_a_step)
         assert curve.non_monotone_records == 0
         # over PGA there is nothing but a step, and no curve
-        with pytest.raises(ParameterError, match=r"never exceeded up to 2[34].* gal, always from 2[45]"):
+        with pytest.raises(ParameterError, match=r"never exceeded up to 2[34].* gal, always exceeded from 2[45]"):
             run_fragility(records, SHELF, "rock", limits="rock", im="pga", levels=[2.3, 2.4, 2.5, 2.6], bootstrap=2)
 
     def test_stripes_and_ida_agree_for_sliding(self, records):

@@ -175,7 +175,7 @@ class ScannedBody(DisplayMixin):
         azimuth = motion.azimuth_deg
         if azimuth is None:
             raise ComponentError(
-                "{name} has other dimensions in each azimuth, and the azimuth of {component} is unknown: give a record with azimuths",
+                "the dimensions of {name} depend on the azimuth, and the azimuth of {component} is unknown: give a record with azimuths",
                 name=self.name,
                 component=motion.name or "+x",
             )

@@ -39,7 +39,7 @@ _OPTIONAL_SIZES = (
         type=INSET,
         metavar="SHARE|M",
         section="Body",
-        help="Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: the body's own, "
+        help="Inset of worn edges from each side: share of the width (0.1, 10%), or m with a unit (1cm). [default: value of the body, "
         "0.05 for gravestones, else 0]",
     ),
     option(

@@ -1,1 +1,1 @@
-"""Safe file input and output: atomic writes, locks, checkpoints, CSV tables and protection of input files."""
+"""Safe file input and output: locks, checkpoints, CSV tables and protection of input files."""

@@ -47,7 +47,10 @@ class JumpOptions(SolverOptions):
     landing: str = field(
         default="paper",
         metadata=option(
-            N_("Landing impulse of the foot: unlimited friction (paper), or limited by friction with further sliding (friction)."),
+            N_(
+                "Friction at the landing of the foot: unlimited, as in the paper (paper), or Coulomb friction, so that the foot may "
+                "slip (friction)."
+            ),
             "--landing",
             choices=LANDINGS,
         ),

@@ -18,7 +18,7 @@ class RespondOptions(SolverOptions):
 
     mu: float = field(
         metadata=option(
-            N_("Static friction coefficient. [default: the body's own; else required]"),
+            N_("Static friction coefficient. [default: value of the body; else required]"),
             "--mu",
             unit="1",
             interval="[0, inf)",

@@ -21,7 +21,7 @@ class RockOptions(SolverOptions):
         metadata=option(
             N_(
                 "Coefficient of restitution, ratio of angular velocities after and before an impact, 0 to 1. [default: 1 - 1.5 "
-                "sin^2(alpha), or the body's own]"
+                "sin^2(alpha), or value of the body]"
             ),
             "--restitution",
             unit="1",

@@ -44,8 +44,8 @@ class StackOptions(SolverOptions):
         default=None,
         metadata=option(
             N_(
-                "Kinetic friction coefficient of every joint, at most the smallest static coefficient; --law rigid. [default: the file's "
-                "own, or as --mu]"
+                "Kinetic friction coefficient of every joint, at most the smallest static coefficient; --law rigid. [default: value of "
+                "the file, or as --mu]"
             ),
             "--mu-kinetic",
             unit="1",

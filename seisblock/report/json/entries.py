@@ -85,10 +85,10 @@ def parameters_type(name: str, *kinds: type, extra: Mapping[str, Any] | None = N
     keys: dict[str, Any] = {}
     for kind in kinds:
         hints = get_type_hints(kind)
-        for field, described, _ in option_fields(kind):
+        for field, spec, _ in option_fields(kind):
             if field not in exclude:
-                shape = described.document or hints[field]
-                keys[document_key(field, described)] = Annotated[shape, Meta(description=plain_help(described))]
+                shape = spec.document or hints[field]
+                keys[document_key(field, spec)] = Annotated[shape, Meta(description=plain_help(spec))]
     result_type: Any = msgspec.defstruct(
         name, list((keys | dict(extra or {})).items()), frozen=True, kw_only=True, namespace={"__doc__": "Parameters of the command."}
     )
@@ -99,9 +99,9 @@ def to_parameters(kind: type[Struct], /, *sources: Any, **extra: Any) -> Struct:
     """Return the parameters of a command from objects with options and extra keys, which take precedence."""
     values: dict[str, Any] = {}
     for source in sources:
-        for field, described, _ in option_fields(type(source)):
+        for field, spec, _ in option_fields(type(source)):
             value = getattr(source, field)
-            values[document_key(field, described)] = described.document(value) if described.document and value is not None else value
+            values[document_key(field, spec)] = spec.document(value) if spec.document and value is not None else value
     return kind(**{key: value for key, value in (values | extra).items() if key in kind.__struct_fields__})
 
 

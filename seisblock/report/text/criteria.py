@@ -21,12 +21,12 @@ from seisblock.report.units_display import acceleration_unit, velocity_unit
 from seisblock.studies.criteria_comparison import CriteriaComparison
 from seisblock.studies.respond.best_estimate import BestEstimate
 
-HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": N_("pulse")}
+HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": N_("Fourier"), "pulse_width": N_("pulse")}
 """Short column headings of the equivalent frequencies."""
 MAX_DECIMALS = 6
 """Most decimals of a ratio close to 1 or 0."""
 
-DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": N_("pulse width")}
+DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": N_("Fourier"), "pulse_width": N_("pulse width")}
 
 
 def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:

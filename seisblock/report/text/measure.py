@@ -78,7 +78,7 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
     level = format_acceleration(answer.components[0].duration.threshold_m_s2 if answer.components else None, gal=gal)
     return table(
         gettext("Equivalent frequency (Hz); duration of {side} above {level}", side=side, level=level),
-        ("", "PGA/2πPGV", "Fourier", gettext("pulse"), gettext("total (s)"), gettext("longest (s)"), gettext("count")),
+        ("", "PGA/2πPGV", gettext("Fourier"), gettext("pulse"), gettext("total (s)"), gettext("longest (s)"), gettext("count")),
         [
             (
                 m.component,

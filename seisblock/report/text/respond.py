@@ -275,7 +275,7 @@ def _outcome_table(responses: Responses, *, gal: bool) -> Any:
         (gettext("slip path ({unit})", unit=unit.name), [length_cell(o.slip_path_m, unit) for o in outcomes]),
         (gettext("flights, impacts"), [f"{o.flights}, {o.impacts}" for o in outcomes]),
         (gettext("  slide, rock (s)"), [f"{format_seconds(s['slide'])}, {format_seconds(s['rock'])}" for s in mode_times]),
-        (gettext("  both, flight (s)"), [f"{format_seconds(s['slide_rock'])}, {format_seconds(s['flight'])}" for s in mode_times]),
+        (gettext("  slide-rock, flight (s)"), [f"{format_seconds(s['slide_rock'])}, {format_seconds(s['flight'])}" for s in mode_times]),
         (
             gettext("friction, impact losses (J)"),
             [f"{format_number(o.energy_friction_j)}, {format_number(o.energy_impacts_j)}" for o in outcomes],

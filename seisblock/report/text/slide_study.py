@@ -79,7 +79,7 @@ def _pivots(title: str, points: Points, arrangement: Arrangement, *, gal: bool) 
     unit = length_unit((point.max_slip_m for point in points), gal=gal)
     yield gettext("{name}: maximum displacement ({unit})", name=title, unit=unit.name), points, partial(_format_slip, unit=unit)
     if any(point.beta is not None for point in points):
-        yield gettext("{name}: beta, maximum displacement with over without vertical motion", name=title), points, _format_beta
+        yield gettext("{name}: beta, ratio of the maximum displacements with and without vertical motion", name=title), points, _format_beta
 
 
 def _format_slip(point: SlidePoint, unit: Unit) -> str:

@@ -43,14 +43,14 @@ def threshold_text(
     "rocking threshold 200.0 gal (1.25 times this record's PGA)"
     >>> sinking = Motion.from_arrays([0.0, 1.0, -1.6], 0.01, vertical=[0.0, 0.0, -1.0])
     >>> threshold_text(ROCKS, (0.2, 0.2), sinking, gravity=10.0, vertical=1.0)
-    'rocking threshold 200.0 gal without vertical motion (1.11 times this record with it)'
+    'rocking threshold 200.0 gal without vertical motion (1.11 times this record with vertical motion)'
     """
     threshold, peak = min(towards) * gravity, float(np.abs(motion.horizontal).max())
     factor = onset_factor(towards, motion, gravity=gravity, vertical=vertical)
     factor_text = ""
     if 1.0 < factor < np.inf:
         if vertical and motion.vertical.any():
-            factor_text = gettext(" without vertical motion ({times} times this record with it)", times=format_factor(factor))
+            factor_text = gettext(" without vertical motion ({times} times this record with vertical motion)", times=format_factor(factor))
         elif np.isclose(factor * peak, threshold):
             factor_text = gettext(" ({times} times this record's PGA)", times=format_factor(factor))
         else:

@@ -72,7 +72,7 @@ def _curve_table(region: UpliftRegion, max_rows: int) -> Any:
         gettext("uplift curve"),
         ["θ/ω_1", "A/g"],
         [[f"{region.frequency_ratio[i]:.4g}", _finite_or_none(float(region.acceleration_ratio[i]))] for i in range(step - 1, n, step)],
-        caption="" if step == 1 else gettext("every {step}th of {all} rows; all with --csv or --json", step=step, all=n),
+        caption="" if step == 1 else gettext("one row in {step} of {all}; all with --csv or --json", step=step, all=n),
     )
 
 

@@ -165,9 +165,9 @@ def no_curve_reason(
         )
     if level_texts["held"] == level_texts["passed"]:
         return lazy_gettext(
-            "limit never exceeded below {held}, always above; use levels closer to this value, on both sides", **level_texts
+            "limit never exceeded below {held}, always exceeded above; add levels just below and just above this value", **level_texts
         )
-    return lazy_gettext("limit never exceeded up to {held}, always from {passed}; use levels between them", **level_texts)
+    return lazy_gettext("limit never exceeded up to {held}, always exceeded from {passed}; add levels between them", **level_texts)
 
 
 def fit_lognormals(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple[FloatArray, FloatArray]:
