@@ -82,7 +82,7 @@ WHOLE = {
     ("criteria", "synthetic_jma.csv", "--block", "gravestone"): (
         " Ishiyama, velocity                  Ishiyama1982   27.48 kine    4.22 yes ",
         " half sine, linear              Housner1963    2.33 yes    2.51 yes    1.46 yes ",
-        "simulation. Thresholds of the lower table: --csv, --json",
+        "simulation. The thresholds of the lower table are in --csv and --json",
         "EW: overturns in all 5 models; scale factor to overturning 0.33-0.58 (largest ",
     ),
     ("rock", HANMER, "--block", "gravestone", "--margin"): (

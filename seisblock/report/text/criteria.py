@@ -132,8 +132,8 @@ def _tables(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:
         body.append(row_cells)
     if body:
         caption = gettext(
-            "ratio: demand over threshold; yes: overturning predicted; !: differs from the simulation. Thresholds of the lower table: "
-            "--csv, --json"
+            "ratio: demand over threshold; yes: overturning predicted; !: differs from the simulation. The thresholds of the lower table "
+            "are in --csv and --json"
         )
         yield table("", [gettext("ratio at f ="), gettext("formula"), *columns], body, caption=caption)
 

@@ -82,7 +82,7 @@ def rock_directions(
     >>> from seisblock.readers import read
     >>> worst = rock_directions(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0)[0]
     >>> worst.azimuth_deg, worst.overturned
-    (90.0, True)
+    (135.0, True)
     """
     azimuth_sweep = make_azimuth_sweep(body, record, step_deg=step_deg, vertical=options.vertical)
     params = rock_batch_params(to_block_array(azimuth_sweep.blocks), azimuth_sweep.motion, options)
