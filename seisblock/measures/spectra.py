@@ -127,7 +127,7 @@ def response_spectrum(
 def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: float = SMOOTHING_HZ) -> tuple[FloatArray, FloatArray]:
     """Return the Fourier amplitude spectrum of the record minus its mean, smoothed by a Parzen window ([Parzen1961]_).
 
-    The energy |X(f)|^2 is smoothed by multiplying the autocorrelation by the lag window, which is equivalent and exact;
+    The energy ``|X(f)|^2`` is smoothed by multiplying the autocorrelation by the lag window, which is equivalent and exact;
     its square root is returned.
 
     Parameters
