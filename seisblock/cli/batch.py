@@ -8,8 +8,9 @@ from typing import Any
 import click
 
 from seisblock.cli import shell_completion
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Source, gravity_option, record_options
+from seisblock.cli.options import Source, record_options
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import MU, Count
 from seisblock.cli.verbosity import quiet_output

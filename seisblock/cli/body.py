@@ -9,9 +9,10 @@ import click
 
 from seisblock.bodies.edge_wear import SHARP_EDGES, EdgeWear
 from seisblock.cli import shell_completion
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, argument, option
 from seisblock.cli.console import info
-from seisblock.cli.options import check_callback, gravity_option, output_options
+from seisblock.cli.options import check_callback, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.types import INSET, LENGTH

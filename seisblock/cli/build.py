@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import MISSING, Field
+from collections.abc import Iterable
+from dataclasses import MISSING
 from typing import Any, get_type_hints
 
-from seisblock.cli.command import option
+from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.options import check_callback
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, MASS, MU
 from seisblock.core import checks
-from seisblock.core.options import OptionField, option_fields
-
-Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+from seisblock.core.options import GRAVITY, KEY, OptionField, option_fields
+from seisblock.core.units import STANDARD_GRAVITY
 
 CHECKS = {"(0, inf)": checks.positive}
 """Checks of a range before the command runs."""
@@ -31,23 +30,17 @@ def solver_options(kind: type, *names: str, exclude: Iterable[str] = ()) -> Deco
     exclude : iterable of str
         Fields without an option.
     """
-    table = {name: (spec, field) for name, spec, field in option_fields(kind) if spec.flag and name not in exclude}
+    table = {name: (spec, field.default) for name, spec, field in option_fields(kind) if spec.flag and name not in exclude}
     hints = get_type_hints(kind)
-    declared = [_declare(name, hints[name], *table[name]) for name in names or table]
-
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for declare in reversed(declared):
-            function = declare(function)
-        return function
-
-    return decorate
+    return add_options(*(_declare(name, hints[name], *table[name]) for name in names or table))
 
 
-def _declare(name: str, hint: Any, spec: OptionField, field: Field[Any]) -> Decorator:
-    """Return the click option of one field."""
+def _declare(name: str, hint: Any, spec: OptionField, default: Any) -> Decorator:
+    """Return the click option of one field; `default` is ``MISSING`` for a required one."""
+    default = None if default is MISSING else default
     attributes: dict[str, Any] = {"help": spec.help, "section": spec.section}
     if "/" in spec.flag:
-        return option(spec.flag, name, default=_default(field), **attributes)
+        return option(spec.flag, name, default=default, **attributes)
     if hint is bool:
         return option(spec.flag, name, is_flag=True, **attributes)
     if spec.interval in CHECKS:
@@ -56,7 +49,6 @@ def _declare(name: str, hint: Any, spec: OptionField, field: Field[Any]) -> Deco
         attributes["type"] = SuggestingChoice(list(spec.choices))
     else:
         attributes |= {"type": _parameter_type(spec, hint), "metavar": spec.metavar}
-    default = _default(field)
     return option(spec.flag, name, default=default, show_default=default is not None and "[default" not in spec.help, **attributes)
 
 
@@ -68,5 +60,5 @@ def _parameter_type(spec: OptionField, hint: Any) -> Any:
     return quantity or (hint if hint in (int, str) else float)
 
 
-def _default(field: Field[Any]) -> Any:
-    return None if field.default is MISSING else field.default
+gravity_option = _declare("gravity", float, GRAVITY[KEY], STANDARD_GRAVITY)
+"""Option ``--gravity`` of commands without a solver."""

@@ -35,6 +35,10 @@ HELP_ALL = "seisblock.help_all"
 """Key in the context's meta for ``--help-all``."""
 
 
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+"""Decorator of the function of a command."""
+
+
 class Finite(click.types.FloatParamType):
     """Float parameter that accepts only finite numbers."""
 
@@ -124,10 +128,10 @@ class Command(click.Command):
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
         groups: dict[str, list[tuple[str, str]]] = {name: [] for name in SECTIONS}
-        shown = self.get_params(ctx)
+        parameters = self.get_params(ctx)
         if self.essential and HELP_ALL not in ctx.meta:
-            shown = [parameter for parameter in shown if self._is_essential(parameter)]
-        for parameter, row in help_rows(shown, ctx):
+            parameters = [parameter for parameter in parameters if self._is_essential(parameter)]
+        for parameter, row in help_rows(parameters, ctx):
             groups[f"{getattr(parameter, 'section', 'Other')} options"].append(row)
         for name, rows in groups.items():
             if rows:
@@ -189,6 +193,17 @@ def english_help_option(option: click.Option | None) -> click.Option | None:
 def option(*declarations: str, section: str = "Solver", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Declare an option in a section of the help, see :func:`click.option`."""
     return click.option(*declarations, cls=Option, section=section, **attributes)
+
+
+def add_options(*declarations: Decorator) -> Decorator:
+    """Return a decorator that adds options and arguments to a command in their order."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for declare in reversed(declarations):
+            function = declare(function)
+        return function
+
+    return decorate
 
 
 def argument(*declarations: str, section: str = "Other", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

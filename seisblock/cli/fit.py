@@ -10,8 +10,9 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.options import Source, gravity_option, output_options, preparation_options
+from seisblock.cli.options import Source, output_options, preparation_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.types import Count
 from seisblock.cli.write_results import write_results

@@ -9,8 +9,9 @@ import click
 
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import block_options
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
+from seisblock.cli.options import Source, output_options, suite_record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, MU, Count

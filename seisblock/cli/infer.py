@@ -11,17 +11,19 @@ import click
 
 from seisblock.bodies.edge_wear import DEFAULT_WEAR
 from seisblock.cli import shell_completion
-from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
+from seisblock.cli.bodies.options import side_option, two_layer_option
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with
-from seisblock.cli.options import Source, displaced_record_options, gravity_option, output_options
+from seisblock.cli.options import Source, displaced_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
 from seisblock.cli.write_results import write_results
 from seisblock.core.i18n import N_, gettext, lazy_gettext
 from seisblock.core.limits import MAX_RUNS
+from seisblock.models.jump.options import LANDINGS
 
 DEFAULT_BLOCK = "chozusha"
 FORM_NAMES = N_("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
@@ -124,7 +126,13 @@ JUMPED_OPTIONS = (
 @option("--flight-only", is_flag=True, help="--jumped: the jump alone was observed, without the slide-rocking after it.")
 @option("--first", is_flag=True, help="--jumped: use only the first chain of motion in the record. [default: sum of all]")
 @option("--repeat", is_flag=True, hidden=True, help="--jumped: sum of all chains of motion; the default since 0.2.0.")
-@landing_option("--jumped: friction at the landing of the foot, unlimited (paper) or Coulomb friction (friction).")
+@option(
+    "--landing",
+    type=SuggestingChoice(LANDINGS),
+    default="paper",
+    show_default=True,
+    help="--jumped: friction at the landing of the foot, unlimited (paper) or Coulomb friction (friction).",
+)
 @option(
     "--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="--jumped: angular velocity after the impact."
 )

@@ -11,10 +11,11 @@ from click.core import ParameterSource
 
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.free_standing import choose_free_standing, free_standing_options
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info, warning
 from seisblock.cli.option_checks import reject_with, reject_without
-from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
+from seisblock.cli.options import Source, output_options, real_record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import Count

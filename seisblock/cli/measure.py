@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.cli.bodies.options import side_option, two_layer_option
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import reject_without
-from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
+from seisblock.cli.options import Source, output_options, real_record_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH

@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 from seisblock.cli import shell_completion
-from seisblock.cli.command import argument, option
+from seisblock.cli.command import add_options, argument, option
 from seisblock.cli.output import DPI, SLOW, OutputOptions, check_output
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import SIZE, STOREY, WINDOW, FormatType
@@ -19,7 +19,6 @@ from seisblock.cli.verbosity import quiet_output
 from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, gettext
-from seisblock.core.units import STANDARD_GRAVITY
 from seisblock.records.floor import Storey
 
 Function = Callable[..., Any]
@@ -294,19 +293,6 @@ def _with_output_check(function: Function) -> Function:
     return looking
 
 
-def gravity_option(function: Function) -> Function:
-    """Add ``--gravity`` to a command."""
-    return option(
-        "--gravity",
-        type=float,
-        default=STANDARD_GRAVITY,
-        show_default=True,
-        callback=_positive,
-        metavar="M/S2",
-        help="Acceleration of gravity, m/s^2.",
-    )(function)
-
-
 def _collect_options(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **constants: Any) -> Function:
     """Collect a family of options and fixed values into one argument."""
     names = [field.name for field in fields(kind)]
@@ -317,6 +303,4 @@ def _collect_options(function: Function, declarations: tuple[Any, ...], kind: An
         with quiet_output(getattr(collected, "quiet", None)):
             return function(*args, **{name: collected}, **kwargs)
 
-    for declare in reversed(declarations):
-        wrapper = declare(wrapper)
-    return wrapper
+    return add_options(*declarations)(wrapper)

@@ -10,11 +10,11 @@ import click
 
 from seisblock.bodies.edge_wear import DEFAULT_WEAR, MAX_SHARE, EdgeWear
 from seisblock.cli import shell_completion
-from seisblock.cli.build import solver_options
+from seisblock.cli.build import gravity_option, solver_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info
 from seisblock.cli.option_checks import RECORD_OPTIONS, reject_with, reject_without
-from seisblock.cli.options import Source, check_callback, curve_record_options, gravity_option, output_options
+from seisblock.cli.options import Source, check_callback, curve_record_options, output_options
 from seisblock.cli.output import OutputOptions
 from seisblock.cli.progress import progress
 from seisblock.cli.suggest import SuggestingChoice

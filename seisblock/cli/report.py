@@ -10,10 +10,11 @@ import click
 from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
 from seisblock.cli.bodies.options import side_option
+from seisblock.cli.build import gravity_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.console import info, warning
 from seisblock.cli.option_checks import reject_without
-from seisblock.cli.options import Source, gravity_option, record_options
+from seisblock.cli.options import Source, record_options
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import LENGTH, MU
 from seisblock.cli.verbosity import quiet_output

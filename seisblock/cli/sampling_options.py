@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import click
 
-from seisblock.cli.command import option
+from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.option_checks import given_flags
 from seisblock.cli.types import LENGTH, Count
 from seisblock.core.i18n import N_
@@ -24,7 +23,7 @@ _SPREAD_OPTIONS = {
 """Default half width of each parameter's variation, and its help text."""
 
 
-def version_options(*names: str, runs: int) -> Callable[..., Any]:
+def version_options(*names: str, runs: int) -> Decorator:
     """Return a decorator that adds ``--runs``, ``--moved``, a ``--vary-...`` option per name, and ``--seed``.
 
     Examples
@@ -33,7 +32,7 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
     >>> [row.name for row in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
     ['runs', 'moved', 'vary_size', 'vary_azimuth', 'seed']
     """
-    options = [
+    return add_options(
         option(
             "--runs",
             type=Count(N_("samples"), MAX_RUNS, minimum=0),
@@ -47,15 +46,7 @@ def version_options(*names: str, runs: int) -> Callable[..., Any]:
             for name in names
         ),
         option("--seed", type=int, default=0, show_default=True, help="Seed of the samples."),
-    ]  # fmt: skip
-
-    def decorate(function: Any) -> Any:
-        """Return the command with the options."""
-        for add in reversed(options):
-            function = add(function)
-        return function
-
-    return decorate
+    )  # fmt: skip
 
 
 def pop_spreads(params: dict[str, Any], *names: str) -> dict[str, float]:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from seisblock.bodies.kinds import KINDS
 from seisblock.cli import shell_completion
-from seisblock.cli.command import option
+from seisblock.cli.command import Decorator, add_options, option
 from seisblock.cli.suggest import SuggestingChoice
 from seisblock.cli.types import INSET, LENGTH, MASS
 
@@ -67,7 +64,7 @@ _OPTIONAL_SIZES = (
 )
 
 
-def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def two_layer_option(text: str) -> Decorator:
     """Return ``--block`` for a two-layer block, with the given help text."""
     return option(
         "--block",
@@ -80,21 +77,13 @@ def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., 
     )
 
 
-def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def side_option(text: str) -> Decorator:
     """Return ``--side`` for a two-layer block, default short."""
     return option("--side", type=SuggestingChoice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
 
 
-def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return ``--landing`` for a two-layer block, default paper."""
-    return option("--landing", type=SuggestingChoice(["paper", "friction"]), default="paper", show_default=True, help=text)
-
-
-def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options of one rigid block to a command, for ``choose_block``."""
-    for declare in reversed((*_SIZES, *_OPTIONAL_SIZES)):
-        function = declare(function)
-    return function
+block_options = add_options(*_SIZES, *_OPTIONAL_SIZES)
+"""Options of one rigid block, for ``choose_block``."""
 
 
 azimuth_option = option(

@@ -59,8 +59,8 @@ def tables(scan: Scan, directions: Sequence[ScanAzimuth], *, gal: bool) -> Itera
     ]
     title, caption = gettext("By azimuth"), gettext(PLANE)
     step = math.ceil(len(rows) / SHORT_ROWS)
-    whole = table(title, headings, rows, caption=caption)
-    yield whole if step == 1 else Part((whole,), (table(title, headings, rows[::step], caption=caption),))
+    full = table(title, headings, rows, caption=caption)
+    yield full if step == 1 else Part((full,), (table(title, headings, rows[::step], caption=caption),))
 
 
 def _scan_rows(scan: Scan, *, gal: bool) -> Iterator[tuple[str, list[str]]]:

@@ -33,8 +33,8 @@ def tables(cards: Sequence[CriteriaComparison], *, gal: bool) -> Iterator[Any]:
     """Yield the record, then per component the simulated outcome, the tables of criteria and the model comparison; in short one table."""
     for heading, part in group_answers(cards, lambda card: card.record, lambda card: _summary(card, gal=gal)):
         yield from heading
-        whole = tuple(block for card in part for block in _details(card, gal=gal))
-        yield Part(whole, tuple(_ratios(part)))
+        full = tuple(block for card in part for block in _details(card, gal=gal))
+        yield Part(full, tuple(_ratios(part)))
 
 
 def _details(card: CriteriaComparison, *, gal: bool) -> Iterator[Any]:

@@ -57,9 +57,9 @@ def tables(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Itera
     """Yield, per component, the verdict and a table with a column per chain as in [Sugimoto2017]_ table 1; in short the largest chains."""
     for heading, part in group_answers(responses, lambda item: item.motion.record, lambda item: [styled_line(describe(item, gal=gal))]):
         yield from heading
-        whole = [block for response in part for block in _details(response, gal=gal, tenon=tenon)]
+        full = [block for response in part for block in _details(response, gal=gal, tenon=tenon)]
         moving = [response for response in part if response.outcome.chains]
-        yield from [Part(tuple(whole), tuple(_largest_chains(moving, gal=gal, tenon=tenon)))] if moving else whole
+        yield from [Part(tuple(full), tuple(_largest_chains(moving, gal=gal, tenon=tenon)))] if moving else full
 
 
 def _largest_chains(responses: JumpResponses, *, gal: bool, tenon: float | None) -> Iterator[Any]:

@@ -45,8 +45,8 @@ def tables(maps: Maps, wear_text: str = "") -> Iterator[Any]:
 def _summary(motion: Motion, mode_map: ModeMap, *, is_thinned: bool) -> Iterator[Any]:
     yield styled_line(verdict(motion, mode_map), "bold")
     loading, *rules = _limits(mode_map)
-    whole = styled_line("  " + limits_text(mode_map))
-    yield Part((whole,), (styled_line("  " + loading),)) if rules and is_thinned else whole
+    full = styled_line("  " + limits_text(mode_map))
+    yield Part((full,), (styled_line("  " + loading),)) if rules and is_thinned else full
 
 
 def _map_table(motion: Motion, mode_map: ModeMap, wear_text: str, max_rows: int) -> Iterator[Any]:

@@ -66,12 +66,12 @@ def agreement_part(name: str, agreement: ModelComparison, *, is_short: bool) -> 
     is_short : bool
         Whether models that agree take one line, too.
     """
-    whole = styled_line(agreement_line(name, agreement))
+    full = styled_line(agreement_line(name, agreement))
     if not agreement.opinions or agreement.spread is None or (agreement.unanimous and not is_short):
-        return whole
+        return full
     text = spread_line(name, agreement)
     purpose_built = None if agreement.unanimous else next((opinion for opinion in agreement.opinions if opinion.made_for_it), None)
-    return Part((whole,), (styled_line(text if purpose_built is None else with_notes(text, [_purpose_built_text(purpose_built)])),))
+    return Part((full,), (styled_line(text if purpose_built is None else with_notes(text, [_purpose_built_text(purpose_built)])),))
 
 
 def spread_line(name: str, agreement: ModelComparison) -> str:

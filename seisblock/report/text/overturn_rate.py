@@ -94,12 +94,12 @@ def tables(
 
 def _rates(title: str, results: Sequence[CemeteryRate], sentences: Sequence[Any], *, gal: bool, confidence: float) -> Iterator[Any]:
     """Yield the rates and their sentences; in short evenly spaced rows of many shakings."""
-    whole = _rate_table(title, results, gal=gal, confidence=confidence)
+    full = _rate_table(title, results, gal=gal, confidence=confidence)
     if len(results) <= SHORT_ROWS:
-        yield from (whole, *sentences)
+        yield from (full, *sentences)
     else:
-        shown = [results[i] for i in thin_indices(len(results), SHORT_ROWS)]
-        yield Part((whole, *sentences), (_rate_table(title, shown, gal=gal, confidence=confidence),))
+        short_rows = [results[i] for i in thin_indices(len(results), SHORT_ROWS)]
+        yield Part((full, *sentences), (_rate_table(title, short_rows, gal=gal, confidence=confidence),))
 
 
 def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:

@@ -146,25 +146,25 @@ class Part:
 
     Parameters
     ----------
-    whole : tuple
+    full : tuple
         Rich renderables printed with ``--details``.
     short : tuple
         Rich renderables printed otherwise.
     """
 
-    whole: tuple[Any, ...]
+    full: tuple[Any, ...]
     short: tuple[Any, ...] = ()
 
 
-def details(*whole: Any) -> Part:
+def details(*full: Any) -> Part:
     """Return a part of an answer that is printed with ``--details`` only."""
-    return Part(whole)
+    return Part(full)
 
 
 def whole_answer(parts: Iterable[Any]) -> Iterator[Any]:
     """Yield an answer in full."""
     for part in parts:
-        yield from part.whole if isinstance(part, Part) else [part]
+        yield from part.full if isinstance(part, Part) else [part]
 
 
 def shortened_answer(parts: Iterable[Any]) -> Iterator[Any]:

@@ -60,8 +60,8 @@ def tables(regions: Sequence[UpliftRegion], *, all_rows: bool) -> Iterator[Any]:
                 ]
             ],
         )
-        whole = _curve_table(region, region.frequency_ratio.size if all_rows else MAX_ROWS)
-        yield whole if all_rows else Part((whole,), (_curve_table(region, SHORT_ROWS),) if len(regions) == 1 else ())
+        full = _curve_table(region, region.frequency_ratio.size if all_rows else MAX_ROWS)
+        yield full if all_rows else Part((full,), (_curve_table(region, SHORT_ROWS),) if len(regions) == 1 else ())
 
 
 def _curve_table(region: UpliftRegion, max_rows: int) -> Any:

@@ -15,7 +15,7 @@ from seisblock.core import checks
 from seisblock.core.errors import ParameterError
 from seisblock.core.i18n import N_, lazy_gettext
 from seisblock.core.limits import MAX_CELLS, MAX_RUNS, check_limit
-from seisblock.core.registry import SolverBody, get_solver
+from seisblock.core.registry import SolverBody, get_solver, solver_names
 from seisblock.core.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
@@ -167,7 +167,7 @@ def run_fragility(
     >>> [(curve.body, curve.limit, curve.motions) for curve in study.curves]
     [('shelf', 'overturn', 3)]
     """
-    if solver not in fragility_solvers():
+    if solver not in solver_names() or not capabilities(solver).limits:
         raise ParameterError(
             "unknown solver {name!r} for a fragility; available: {known}", name=str(solver)[:100], known=fragility_solvers()
         )

@@ -139,7 +139,7 @@ class StationBody(DisplayMixin):
     label: str = ""
 
     def __post_init__(self) -> None:
-        if self.solver not in station_solvers():
+        if self.solver not in solver_names() or not _takes_station(self.solver):
             raise ParameterError(
                 "{solver!r} is not available for stations; use {known}", solver=str(self.solver)[:100], known=station_solvers()
             )
@@ -227,7 +227,12 @@ class StationBody(DisplayMixin):
 
 def station_solvers() -> list[str]:
     """Return the names of the solvers available for stations: all but those of a pile."""
-    return [name for name in solver_names() if Pile not in get_solver(name).bodies]
+    return [name for name in solver_names() if _takes_station(name)]
+
+
+def _takes_station(solver: str) -> bool:
+    """Return whether a solver is available for stations."""
+    return Pile not in get_solver(solver).bodies
 
 
 def _result_from_row(row: Row, model: Solver, record: Record) -> StationResult:
